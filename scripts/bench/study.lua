@@ -2,6 +2,7 @@
 --- What a study's workers bring and cost: a laying over three walls by one worker and by two, evaluations
 -- that compute nothing, a journal of a million lines.
 -- @module bench.study
+local sealed = require "softworld.sealed"
 local sw = require "softworld"
 
 local study = {}
@@ -101,15 +102,15 @@ function study.opening(count)
   local file, lines = assert(io.open(path, "a+")), {}
   for line in file:lines() do lines[#lines + 1] = line end
   for k = 1001, count do
-    local body = lines[3 + k % 1000]:sub(1, -18):gsub("^e 1 %d+", "e 1 " .. k)
+    local body = lines[4 + k % 1000]:sub(1, -18):gsub("^e 1 %d+", "e 1 " .. k)
     file:write(("%s %016x\n"):format(body, sw.core.checksum(body)))
   end
   file:close()
   local clock = sw.core.clock()
   local s = sw.study(args)
   clock = sw.core.clock() - clock
-  assert(s.computed == 0)
   os.remove(path)
+  assert(sealed.fields(s).journal:find(1, count), "the journal was not read")
   return clock
 end
 

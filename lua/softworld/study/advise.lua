@@ -31,7 +31,7 @@ local function is_noisy(own, result, list)
   local seen = {}
   for _, record in ipairs(list) do
     if record.results then
-      local word, value = parameters.word(record.values), minimum.value(own, result, record)
+      local word, value = parameters.word(record.values), judge.value(own, result, record)
       if seen[word] and seen[word] ~= value then return true end
       seen[word] = value
     end
@@ -57,7 +57,7 @@ local function left_over(own, result, good)
   if #good < 2 * n or n > MOST_TERMS then return nil end
   local places, all, sum = {}, {}, 0
   for r, record in ipairs(good) do
-    places[r], all[r] = {}, minimum.value(own, result, record)
+    places[r], all[r] = {}, judge.value(own, result, record)
     for i, p in ipairs(own.parameters) do
       places[r][i] = p.kind == "choice" and record.values[i] or 2 * parameters.place(p, record.values[i]) - 1
     end

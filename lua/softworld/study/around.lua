@@ -96,8 +96,8 @@ function around:done(record)
   self.told = self.told + 1
   self.got[item.key] = record
   if item.key ~= "again 1" or self.center then return end
-  local same = record.results and minimum.value(self.own, self.result, record)
-    == minimum.value(self.own, self.result, self.best)
+  local same = record.results and judge.value(self.own, self.result, record)
+    == judge.value(self.own, self.result, self.best)
   if same then return end
   repeat_it(self)
 end
@@ -119,7 +119,7 @@ end
 
 local function value_at(self, key)
   local record = self.got[key]
-  return record and record.results and minimum.value(self.own, self.result, record)
+  return record and record.results and judge.value(self.own, self.result, record)
 end
 
 --- The noise at the best place: { mean =, error = standard error, deviation =, repeats =, failed =,
@@ -132,7 +132,7 @@ function around:noise()
     local record = self.got["again " .. n]
     if not record.results then noise.failed = noise.failed + 1
     else
-      values[#values + 1] = minimum.value(self.own, self.result, record)
+      values[#values + 1] = judge.value(self.own, self.result, record)
       if not judge.pass(self.own, record) then noise.broken = noise.broken + 1 end
     end
   end
@@ -198,7 +198,7 @@ end
 function around:flat()
   local flat, rest = {}, {}
   if not self.best or self.told == 0 or not self:record() then return nil end
-  local center, noise = minimum.value(self.own, self.result, self:record()), self:noise()
+  local center, noise = judge.value(self.own, self.result, self:record()), self:noise()
   local borne = noise and noise.deviation and 2 * noise.deviation or SAME * math.abs(center)
   if noise and noise.mean then center = noise.mean end
   for i, a in ipairs(self.axes) do

@@ -32,20 +32,12 @@ function chart.log(own, o, x, y)
   return axes ~= "" and axes or nil
 end
 
---- The value of a parameter or a result of a record.
-function chart.value(own, name, record)
-  for i, p in ipairs(own.parameters) do
-    if p.name == name then return record.values[i] end
-  end
-  return record.results[name]
-end
-
 --- Points of x over y, those that meet the constraints apart from the others: a list of curves of sw.plot.
 function chart.points(own, x, y, list)
   local met, broken = { x = {}, y = {}, style = "points" }, { x = {}, y = {}, style = "points" }
   for _, record in ipairs(list) do
     local curve = judge.pass(own, record) and met or broken
-    curve.x[#curve.x + 1], curve.y[#curve.y + 1] = chart.value(own, x, record), chart.value(own, y, record)
+    curve.x[#curve.x + 1], curve.y[#curve.y + 1] = judge.value(own, x, record), judge.value(own, y, record)
   end
   met.name = #own.constraints > 0 and "meets the constraints" or y
   broken.name = "breaks constraints"

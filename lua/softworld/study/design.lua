@@ -84,6 +84,21 @@ local function generator(...)
 end
 design.generator = generator
 
+--- A normal number of mean 0 and deviation 1 by a function that gives even ones (Box and Muller 1958).
+function design.normal(random)
+  return math.sqrt(-2 * math.log(1 - random())) * math.cos(2 * math.pi * random())
+end
+
+--- Where so many searches begin: at the parameters' start or in the middle, then at points of Halton's
+-- sequence; a list of lists of places.
+function design.starts(list, count)
+  local n, all = #list, { {} }
+  for i, p in ipairs(list) do all[1][i] = parameters.start(p) or 0.5 end
+  local flat = count > 1 and core.quasi("halton", n, count)
+  for k = 2, count do all[k] = table.move(flat, (k - 1) * n + 1, k * n, 1, {}) end
+  return all
+end
+
 --- Latin hypercube (McKay, Beckman, Conover 1979): of count equal stretches of each range each is met once.
 local function latin(n, count, seed)
   local random, columns = generator(seed), {}

@@ -6,7 +6,7 @@
 --     print(fit)
 -- @module softworld.study.fit
 local campaign = require "softworld.study.campaign"
-local core = require "softworld.core"
+local design = require "softworld.study.design"
 local fitdata = require "softworld.study.fitdata"
 local fitsearch = require "softworld.study.fitsearch"
 local fitted = require "softworld.study.fitted"
@@ -75,14 +75,8 @@ local function steps_of(own, o)
 end
 
 local function searches_of(own, o)
-  local list, n = {}, #own.parameters
-  local flat = o.starts > 1 and core.quasi("halton", n, o.starts)
-  for k = 1, o.starts do
-    local places = {}
-    for i, p in ipairs(own.parameters) do
-      local first = p.start and math.max(0, math.min(1, parameters.place(p, p.start))) or 0.5
-      places[i] = k == 1 and first or flat[(k - 1) * n + i]
-    end
+  local list = {}
+  for k, places in ipairs(design.starts(own.parameters, o.starts)) do
     list[k] = fitsearch.new(places, { steps = steps_of(own, o), tolerance = o.tolerance, most = o.each,
       known = o.known, loss = o.loss == "soft" and SOFT or nil, number = k,
       residuals = function(record) return record.r and table.move(record.r, 1, #record.r, 1, {}) end })

@@ -131,7 +131,14 @@ local function check_kind(self)
   return kind
 end
 
---- Read what the file has, unless this process has written all of it.
+local function size_of(path)
+  local file = io.open(path)
+  local size = file and file:seek "end"
+  if file then file:close() end
+  return size
+end
+
+--- Read what the file has, unless this process has read or written all of it.
 function journal:read()
   if not self.path or not check_kind(self) then
     if self.size > 0 then forget(self) end
@@ -139,8 +146,8 @@ function journal:read()
     if not self.bad then forget(self) end
     return
   end
+  if self.bad and size_of(self.path) == self.size then return end
   local text = sink.read_file(self.path)
-  if #text == self.size and self.bad then return end
   forget(self)
   self.size = #text
   if text == "" then return end

@@ -91,6 +91,14 @@ function judge.broken(own, results)
   end
 end
 
+--- The value of a result, or of a parameter: the least force at which nothing slips; of choices the number.
+function judge.value(own, name, record)
+  for i, p in ipairs(own.parameters) do
+    if p.name == name then return record.values[i] end
+  end
+  return record.results[name]
+end
+
 --- nil for an evaluation that failed, else whether it meets all constraints.
 function judge.pass(own, record)
   if not record.results then return nil end

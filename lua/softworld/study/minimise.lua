@@ -7,27 +7,15 @@
 local around = require "softworld.study.around"
 local campaign = require "softworld.study.campaign"
 local core = require "softworld.core"
+local design = require "softworld.study.design"
 local judge = require "softworld.study.judge"
 local minimum = require "softworld.study.minimum"
-local parameters = require "softworld.study.parameters"
 local search = require "softworld.study.search"
 local turns = require "softworld.study.turns"
 
 local minimise = {}
 
 local function fail(text, ...) error("study:minimise: " .. text:format(...), 0) end
-
--- Where each start begins: at the parameters' start or in the middle, then at points of Halton's sequence.
-local function first_places(own, starts)
-  local list, n, all = own.parameters, #own.parameters, { {} }
-  for i, p in ipairs(list) do
-    all[1][i] = p.start and math.max(0, math.min(1, parameters.place(p, p.start))) or 0.5
-  end
-  if starts == 1 then return all end
-  local flat = core.quasi("halton", n, starts)
-  for k = 2, starts do all[k] = table.move(flat, (k - 1) * n + 1, k * n, 1, {}) end
-  return all
-end
 
 -- Steps of integers and choices, by parameter.
 local function levels_of(own)
@@ -40,7 +28,7 @@ end
 
 local function begin(own, o, method)
   local runs, side = {}, method.starts and o.starts or 1
-  for k, places in ipairs(first_places(own, side)) do
+  for k, places in ipairs(design.starts(own.parameters, side)) do
     local problem = { n = #own.parameters, start = places, number = k, starts = o.starts, noise = o.noise,
       seed = core.checksum(("%d %d"):format(own.seed, k)), step = o.step, tolerance = o.tolerance,
       sides = judge.count_sides(own), levels = levels_of(own) }
@@ -52,7 +40,7 @@ end
 
 local function outcome_of(own, result, record)
   if not record.results then return { failed = true } end
-  return { value = minimum.value(own, result, record), broken = judge.violation(own, record),
+  return { value = judge.value(own, result, record), broken = judge.violation(own, record),
     sides = judge.sides(own, record) }
 end
 

@@ -12,14 +12,6 @@ local NEAR = 1e-3    -- so near to a bound or a limit it is told, as a share of 
 local REASONS = 3    -- of failures that are told
 local SMALL = 0.1    -- of a direction: what is less is not told
 
---- The value of a result, or of a parameter: the least force at which nothing slips.
-function minimum.value(own, result, record)
-  for i, p in ipairs(own.parameters) do
-    if p.name == result then return record.values[i] end
-  end
-  return record.results[result]
-end
-
 --- The best of the records, and the one that breaks constraints the least. Of the same value the first by
 -- number, in whatever order they came.
 function minimum.best(own, result, list)
@@ -27,7 +19,7 @@ function minimum.best(own, result, list)
   for _, record in ipairs(list) do
     if record.results then
       local broken, number = judge.violation(own, record), record.number
-      local value = broken <= 0 and minimum.value(own, result, record)
+      local value = broken <= 0 and judge.value(own, result, record)
       if value then
         if not best or value < least_value or value == least_value and number < best.number then
           best, least_value = record, value
@@ -213,7 +205,7 @@ function minimum.of(own, result, list, runs, o)
   for _, record in ipairs(list) do failed = failed + (record.results and 0 or 1) end
   for i, p in ipairs(own.parameters) do order[i] = p.name end
   local at_bound, room = bounds_of(own, best.values)
-  local value = repeated and noise.mean or minimum.value(own, result, best)
+  local value = repeated and noise.mean or judge.value(own, result, best)
   local f = { name = result, best = output.row(own, best), value = value,
     error = repeated and noise.error or best.results[result .. "_error"],
     ok = won.ok, reason = won.ended, method = o.method, why = o.why, evaluations = #list, failed = failed,

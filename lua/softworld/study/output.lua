@@ -98,9 +98,10 @@ end
 
 -- The record with the smallest value that meets the constraints, or nil.
 local function best_of(own, name, list)
-  local best, least
+  local p, best, least = own.by_name[name], nil, nil
   for _, record in ipairs(list) do
-    local value = judge.pass(own, record) and output.row(own, record)[name]
+    local value = judge.pass(own, record) and judge.value(own, name, record)
+    if p and value then value = parameters.shown(p, value) end
     if type(value) == "number" and (not least or value < least) then best, least = record, value end
   end
   return best

@@ -181,6 +181,11 @@ function parameters.place(p, value)
   return (value - p.low) / (p.high - p.low)
 end
 
+--- The place of a parameter's start; nil where it has none.
+function parameters.start(p)
+  return p.start and math.max(0, math.min(1, parameters.place(p, p.start)))
+end
+
 --- A list of values at a list of places.
 function parameters.all_at(list, places, from)
   local values = {}

@@ -44,7 +44,7 @@ end
 local function outcome_of(own, names, record)
   if not record.results then return { failed = true } end
   local values = {}
-  for k, name in ipairs(names) do values[k] = minimum.value(own, name, record) end
+  for k, name in ipairs(names) do values[k] = judge.value(own, name, record) end
   return { values = values, broken = judge.violation(own, record) }
 end
 
@@ -159,7 +159,7 @@ local function first_of(own, o)
   return function(k)
     local place = places(k)
     for i, p in ipairs(own.parameters) do
-      if k == 1 and p.start then place[i] = math.max(0, math.min(1, parameters.place(p, p.start))) end
+      if k == 1 then place[i] = parameters.start(p) or place[i] end
     end
     return place
   end

@@ -28,10 +28,7 @@ end
 
 local function note_best(self, record)
   if not self.result or not judge.pass(self.own, record) then return end
-  local value = record.results[self.result]
-  for i, p in ipairs(self.own.parameters) do
-    if p.name == self.result then value = record.values[i] end
-  end
+  local value = judge.value(self.own, self.result, record)
   if not value or self.best and value >= self.best then return end
   self.best, self.best_number = value, record.number
 end

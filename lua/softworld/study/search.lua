@@ -2,7 +2,9 @@
 --- Methods that look for the smallest value: one file each in study/search, and its name here.
 --
 -- A method: { doc =, starts = (places from which it begins side by side, if it does), each = (evaluations
--- of a start for each parameter), step =, most = (parameters), kinds = (besides "number"), begin = }.
+-- of a start for each parameter), step =, most = (parameters), kinds = (besides "number"), noise = (it bears
+-- noise), restarts = (its starts come one after the other), fewest = (evaluations, a function of the
+-- parameters), begin = }.
 -- begin(problem) -> run; problem: { n =, start = places, number =, starts =, seed =, step =, tolerance =,
 -- sides = (limits of constraints), levels = (of integers, by parameter), noise = }.
 -- run:ask() -> a list of places, lists of numbers from 0 to 1, all of which may be evaluated at once; or nil,
@@ -34,8 +36,7 @@ function search.rank(outcome)
   return math.max(-BROKEN, math.min(BROKEN, outcome.value))
 end
 
---- What "auto" is, and why: of the parameters, the constraints, whether a parameter is to be smallest, and
--- whether values are noisy.
+--- What "auto" is, and why: of the parameters, how many constraints there are, and whether values are noisy.
 function search.auto(parameters, constraints, noise)
   local n = #parameters
   for _, p in ipairs(parameters) do

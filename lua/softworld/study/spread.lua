@@ -18,16 +18,11 @@ local STUDENT = 2.3646242515927844 -- of the t distribution of SETS - 1, 97.5 % 
 local WORST = 5             -- rows that are told
 local TRIES = 1000          -- for a normal number within the range
 
--- Box and Muller 1958.
-local function normal(random)
-  return math.sqrt(-2 * math.log(1 - random())) * math.cos(2 * math.pi * random())
-end
-
 local function draw(p, random)
   if not p.sigma then return parameters.at(p, random()) end
   local mean = p.start or 0.5 * (p.low + p.high)
   for _ = 1, TRIES do
-    local value = mean + p.sigma * normal(random)
+    local value = mean + p.sigma * design.normal(random)
     if value >= p.low and value <= p.high then return value end
   end
   return mean

@@ -10,7 +10,7 @@ local function curves_of(own, y, list)
   local best = { x = {}, y = {}, name = "best so far", style = "line" }
   for k, record in ipairs(list) do
     if judge.pass(own, record) then
-      local value, least = chart.value(own, y, record), best.y[#best.y]
+      local value, least = judge.value(own, y, record), best.y[#best.y]
       each.x[#each.x + 1], each.y[#each.y + 1] = k, value
       if not least or value < least then
         if least then best.x[#best.x + 1], best.y[#best.y + 1] = k, least end

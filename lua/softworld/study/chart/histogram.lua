@@ -3,6 +3,7 @@
 -- @module softworld.study.chart.histogram
 local chart = require "softworld.study.chart"
 local gnuplot = require "softworld.output.gnuplot"
+local judge = require "softworld.study.judge"
 
 local MOST, FEWEST = 60, 5 -- bins
 
@@ -54,7 +55,7 @@ return { doc = "how often which values of x are, with the limits of its constrai
   bins = bins_of, counts = counts_of,
   draw = function(own, o, list)
     local values, script = {}, gnuplot.script()
-    for i, record in ipairs(list) do values[i] = chart.value(own, o.x, record) end
+    for i, record in ipairs(list) do values[i] = judge.value(own, o.x, record) end
     local bins = bins_of(values)
     local block = script.data(rows_of(values, bins))
     script.add("set title %s noenhanced", gnuplot.quote(own.name))

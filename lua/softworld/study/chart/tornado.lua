@@ -3,6 +3,7 @@
 -- @module softworld.study.chart.tornado
 local chart = require "softworld.study.chart"
 local gnuplot = require "softworld.output.gnuplot"
+local judge = require "softworld.study.judge"
 local output = require "softworld.study.output"
 local matters = require "softworld.study.matters"
 
@@ -29,11 +30,11 @@ end
 
 local function draw(own, o, records)
   local sum = 0
-  local list = matters.of(own, records, function(r) return chart.value(own, o.y, r) end)
+  local list = matters.of(own, records, function(r) return judge.value(own, o.y, r) end)
   if not list then
     error(("study:chart: '%s' does not vary, or there are fewer than 20 evaluations"):format(o.y), 0)
   end
-  for _, r in ipairs(records) do sum = sum + chart.value(own, o.y, r) end
+  for _, r in ipairs(records) do sum = sum + judge.value(own, o.y, r) end
   local middle, script = sum / #records, gnuplot.script()
   table.sort(list, function(a, b)
     local wide_a, wide_b = math.abs(a.high - a.low), math.abs(b.high - b.low)

@@ -22,11 +22,10 @@ local REACH = 0.25      -- least spread of an integer, in steps of it
 local WIDEST = 1e14     -- of the covariance: longest axis over shortest, squared
 local exp, log, max, min, sqrt = math.exp, math.log, math.max, math.min, math.sqrt
 
+local normal = design.normal
+
 local Run = {}
 Run.__index = Run
-
--- Box and Muller 1958.
-local function normal(random) return sqrt(-2 * log(1 - random())) * math.cos(2 * math.pi * random()) end
 
 local function filled(n, value)
   local list = {}
@@ -77,11 +76,11 @@ end
 local function begin_at(self, mean, size)
   local n = self.problem.n
   self.c, self.mean, self.sigma, self.generation = constants(n, size), mean, self.problem.step, 0
-  self.seen = { places = {}, values = {}, counts = {} }
+  self.seen = { places = {}, values = {}, counts = {}, level = math.huge }
   self.path_s, self.path_c, self.history = filled(n, 0), filled(n, 0), {}
   self.matrix = filled(n * n, 0)
   for i = 1, n do self.matrix[(i - 1) * n + i] = 1 end
-  self.repeats = 1
+  self.repeats, self.count = 1, 1 -- evaluations of a place: wanted, and of a generation
 end
 
 local function axes(self)
@@ -173,6 +172,12 @@ local function random_place(self)
   return x
 end
 
+-- What the best start so far has seen: the one whose last generation was the best in the middle.
+local function best_seen(self)
+  local before = self.before
+  return before and before.level < self.seen.level and before or self.seen
+end
+
 -- --- asking ---------------------------------------------------------------------------------------
 
 -- How many of a generation are evaluated again to see the noise.
@@ -184,6 +189,7 @@ function Run:ask()
   if why then
     if self.restarts <= 0 then return nil, why, ok end
     self.restarts = self.restarts - 1
+    self.before = best_seen(self)
     begin_at(self, random_place(self), 2 * self.c.size)
     axes(self)
   end
@@ -326,12 +332,13 @@ function Run:tell(outcomes)
   learn(self, ranks)
   if self.problem.noise then hear_noise(self, ranks, outcomes) end
   self.count = math.floor(self.repeats + 0.5)
-  self.history[#self.history + 1] = { math.min(table.unpack(ranks)), math.max(table.unpack(ranks)) }
+  table.sort(ranks)
+  self.history[#self.history + 1] = { ranks[1], ranks[size] }
+  self.seen.level = ranks[self.c.parents]
 end
 
--- Places that this start has seen, in units of their spread about their mean.
-local function scaled(self)
-  local seen, n = self.seen, self.problem.n
+-- Places that a start has seen, in units of their spread about their mean.
+local function scaled(seen, n)
   local middle, spread, places = filled(n, 0), filled(n, 0), {}
   for _, place in ipairs(seen.places) do
     for i, u in ipairs(place) do middle[i] = middle[i] + u / #seen.places end
@@ -348,13 +355,13 @@ local function scaled(self)
 end
 
 --- Where values are noisy the place of the smallest one is there by luck: the lowest place of a polynomial of
--- degree 2 through all of them, each with the weight of its evaluations, lies nearer. nil where they do not
--- tell.
+-- degree 2 through all that the best start has seen, each with the weight of its evaluations, lies nearer.
+-- nil where they do not tell.
 function Run:center()
-  local n = self.problem.n
-  if n > FITTED or #self.seen.places < 6 * quadratic.count(n) then return nil end
-  local places, middle, spread = scaled(self)
-  local lowest = quadratic.lowest(quadratic.fit(places, self.seen.values, self.seen.counts), n)
+  local n, seen = self.problem.n, best_seen(self)
+  if n > FITTED or #seen.places < 6 * quadratic.count(n) then return nil end
+  local places, middle, spread = scaled(seen, n)
+  local lowest = quadratic.lowest(quadratic.fit(places, seen.values, seen.counts), n)
   for i, u in ipairs(lowest or {}) do
     if math.abs(u) > 2 then return nil end
     lowest[i] = max(0, min(1, middle[i] + spread[i] * u))
@@ -365,7 +372,7 @@ end
 local function size_of(n) return 4 + math.floor(3 * log(n)) end
 
 local function begin(problem)
-  local self = setmetatable({ problem = problem, restarts = problem.starts - 1, count = 1,
+  local self = setmetatable({ problem = problem, restarts = problem.starts - 1,
     random = design.generator(problem.seed, 20161) }, Run)
   local mean = {}
   for i, u in ipairs(problem.start) do mean[i] = unbounded(u) end
