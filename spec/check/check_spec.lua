@@ -113,6 +113,21 @@ describe("run:check", function()
     assert.equal("FAIL", run:check{ limits = { fatigue = 1 } }:row "fatigue".verdict, "without a curve")
   end)
 
+  -- The frame at the begin is of no step: two frames of two steps miss one.
+  it("does not count the frame of the run's begin as one of a step", function()
+    local straight
+    for _, case in ipairs{ { 0.02, "OPEN", true }, { 0.01, "PASS", true }, { 0.02, "OPEN" } } do
+      if case[3] then
+        straight = sw.scene{}
+        straight:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+      end
+      local r = straight:run{ duration = 0.02, dt = 0.01, frame = case[1] }
+      assert.equal(2, r.steps)
+      local row = r:check{ limits = { max_torsion = { max = 1, sure = true } } }:row "max_torsion"
+      assert.equal(case[2], row.verdict, row.note)
+    end
+  end)
+
   it("is open where a limit is of nothing in the run", function()
     for name, limit in pairs{ peak_margin = 0.5, max_ovalisation = 0.1 } do -- no pads squeeze, no mesh
       local row = run:check{ limits = { [name] = limit } }:row(name)
@@ -130,6 +145,19 @@ describe("run:check", function()
       local row = run:check{ limits = limits }:row "max_tension"
       assert.same({ "PASS", 0 }, { row.verdict, row.margin })
     end
+  end)
+
+  it("judges by the catalogue where the script limits the other side alone", function()
+    local verdicts = {}
+    local limits = { min_bend_radius = { max = 1e3, sure = true }, peak_force = { min = 0, sure = true } }
+    for _, row in ipairs(run:check{ use = "movement", limits = limits }.rows) do
+      local name = row.name:match "[^.]+$"
+      if limits[name] then
+        verdicts[#verdicts + 1] = ("%s %s %s %s"):format(name, row.side, row.from, row.verdict)
+      end
+    end
+    assert.same({ "min_bend_radius max user PASS", "min_bend_radius min standard PASS",
+      "peak_force min user PASS", "peak_force nil nil OPEN" }, verdicts)
   end)
 
   it("does not pass a limit that is 1000 times off, and tells it", function()

@@ -173,8 +173,9 @@ local function judge_one(self, member, entry, context, list)
   local known, why = known_limit(member, entry, context)
   if given then
     local reference = member.reference and member.reference(entry, context)
-    return judge_given(given, known, reference, fresh, value, member.unit, member.side)
-  end
+    judge_given(given, known, reference, fresh, value, member.unit, member.side)
+    if given[member.side] or member.asked and not known then return end
+  end -- a limit on the other side alone does not take the place of that on its own
   if not known then
     local row = fresh()
     missing_row(row, member, entry)
