@@ -302,6 +302,44 @@ describe("run:check", function()
   end)
 end)
 
+describe("run:check of what broke or slides", function()
+  it("fails where a tie breaks", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    scene:clamp(wire, { s = 0 })
+    scene:tie(wire, { name = "t", s = 0.2, strength = 3, stiffness = 1e4 })
+    local hand = scene:gripper{ name = "hand" }
+    scene:process(function()
+      hand:grasp(wire, { s = 0.19 })
+      hand:move{ by = { 0, 0, 1e-3 }, duration = 0.1 }
+    end)
+    local row = scene:run{ dt = 0.001 }:check{}:row "events"
+    assert.equal("FAIL", row.verdict)
+    assert.truthy(row.note:find("a tie of wire 'w' breaks at", 1, true), row.note)
+  end)
+
+  -- A slide that is below what the gripper was told to call one has no event.
+  it("fails where the friction is used up, though that is 1 and the slide is small", function()
+    for _, force in ipairs{ 0.3, 0.5, 1.1 } do
+      local scene = sw.scene{}
+      scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.0015 }, to = { 0.3, 0, 0.0015 },
+        segments = 30 }
+      scene:clamp(wire, { s = 0 })
+      local hand = scene:gripper{ name = "hand", at = { 0.28, 0, 0.0015 }, slip_tolerance = 0.01,
+        pads = { width = 0.02, friction = 0.3, opening = 0.006 } }
+      scene:process(function()
+        hand:grasp(wire, { s = 0.28, approach = "plates", force = force })
+        hand:move{ by = { 0.0009, 0, 0 }, duration = 0.2 }
+      end)
+      local check = scene:run{ dt = 0.005 }:check{}
+      assert.equal("PASS", check:row "events".verdict)
+      assert.is_true(check:row "peak_margin".value >= 1)
+      assert.equal("FAIL", check:row "peak_margin".verdict)
+    end
+  end)
+end)
+
 describe("run:check of a wire without an entry of the catalogue", function()
   it("is open, and names what is missing", function()
     local run = laying{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 0.0015 }
