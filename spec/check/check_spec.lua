@@ -323,8 +323,8 @@ describe("run:check of what broke or slides", function()
     for _, force in ipairs{ 0.3, 0.5, 1.1 } do
       local scene = sw.scene{}
       scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
-      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.0015 }, to = { 0.3, 0, 0.0015 },
-        segments = 30 }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.0015 },
+        to = { 0.3, 0, 0.0015 }, segments = 30 }
       scene:clamp(wire, { s = 0 })
       local hand = scene:gripper{ name = "hand", at = { 0.28, 0, 0.0015 }, slip_tolerance = 0.01,
         pads = { width = 0.02, friction = 0.3, opening = 0.006 } }
