@@ -413,6 +413,21 @@ describe("run:check of a run that is not whole", function()
     fails(function() run:check{} end, "when a snapshot was restored")
   end)
 
+  it("is refused once the scene has settled, by which peaks are gone", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 20 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { -0.05, 0, 0 } }, relative = true,
+      duration = 0.2 }
+    assert(scene:settle().ok)
+    local run = scene:run{ duration = 0.2, dt = 0.005 }
+    local most = wire:max_tension()
+    assert.equal(most, run:check{}:row "max_tension".value)
+    assert(scene:settle().ok)
+    assert.is_true(wire:max_tension() < most)
+    fails(function() run:check{} end, "has gone on since this run", "before it settles")
+  end)
+
   it("is open where a wire was taken away", function()
     local scene = sw.scene{}
     local wires = {}

@@ -259,7 +259,7 @@ local function check_there(run)
   end
   if fields.number ~= data.runs or run.scene.time ~= run.time then
     error(("run:check: scene '%s' has gone on since this run, and its peaks are of that; check a run before "
-      .. "the next"):format(run.name), 0)
+      .. "the next, and before it settles"):format(run.name), 0)
   end
 end
 
