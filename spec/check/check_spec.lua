@@ -113,6 +113,21 @@ describe("run:check", function()
     assert.equal("FAIL", run:check{ limits = { fatigue = 1 } }:row "fatigue".verdict, "without a curve")
   end)
 
+  -- The frame at the begin is of no step: two frames of two steps miss one.
+  it("does not count the frame of the run's begin as one of a step", function()
+    local straight
+    for _, case in ipairs{ { 0.02, "OPEN", true }, { 0.01, "PASS", true }, { 0.02, "OPEN" } } do
+      if case[3] then
+        straight = sw.scene{}
+        straight:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+      end
+      local r = straight:run{ duration = 0.02, dt = 0.01, frame = case[1] }
+      assert.equal(2, r.steps)
+      local row = r:check{ limits = { max_torsion = { max = 1, sure = true } } }:row "max_torsion"
+      assert.equal(case[2], row.verdict, row.note)
+    end
+  end)
+
   it("is open where a limit is of nothing in the run", function()
     for name, limit in pairs{ peak_margin = 0.5, max_ovalisation = 0.1 } do -- no pads squeeze, no mesh
       local row = run:check{ limits = { [name] = limit } }:row(name)
@@ -130,6 +145,19 @@ describe("run:check", function()
       local row = run:check{ limits = limits }:row "max_tension"
       assert.same({ "PASS", 0 }, { row.verdict, row.margin })
     end
+  end)
+
+  it("judges by the catalogue where the script limits the other side alone", function()
+    local verdicts = {}
+    local limits = { min_bend_radius = { max = 1e3, sure = true }, peak_force = { min = 0, sure = true } }
+    for _, row in ipairs(run:check{ use = "movement", limits = limits }.rows) do
+      local name = row.name:match "[^.]+$"
+      if limits[name] then
+        verdicts[#verdicts + 1] = ("%s %s %s %s"):format(name, row.side, row.from, row.verdict)
+      end
+    end
+    assert.same({ "min_bend_radius max user PASS", "min_bend_radius min standard PASS",
+      "peak_force min user PASS", "peak_force nil nil OPEN" }, verdicts)
   end)
 
   it("does not pass a limit that is 1000 times off, and tells it", function()
@@ -274,6 +302,44 @@ describe("run:check", function()
   end)
 end)
 
+describe("run:check of what broke or slides", function()
+  it("fails where a tie breaks", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    scene:clamp(wire, { s = 0 })
+    scene:tie(wire, { name = "t", s = 0.2, strength = 3, stiffness = 1e4 })
+    local hand = scene:gripper{ name = "hand" }
+    scene:process(function()
+      hand:grasp(wire, { s = 0.19 })
+      hand:move{ by = { 0, 0, 1e-3 }, duration = 0.1 }
+    end)
+    local row = scene:run{ dt = 0.001 }:check{}:row "events"
+    assert.equal("FAIL", row.verdict)
+    assert.truthy(row.note:find("a tie of wire 'w' breaks at", 1, true), row.note)
+  end)
+
+  -- A slide that is below what the gripper was told to call one has no event.
+  it("fails where the friction is used up, though that is 1 and the slide is small", function()
+    for _, force in ipairs{ 0.3, 0.5, 1.1 } do
+      local scene = sw.scene{}
+      scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+      local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.0015 },
+        to = { 0.3, 0, 0.0015 }, segments = 30 }
+      scene:clamp(wire, { s = 0 })
+      local hand = scene:gripper{ name = "hand", at = { 0.28, 0, 0.0015 }, slip_tolerance = 0.01,
+        pads = { width = 0.02, friction = 0.3, opening = 0.006 } }
+      scene:process(function()
+        hand:grasp(wire, { s = 0.28, approach = "plates", force = force })
+        hand:move{ by = { 0.0009, 0, 0 }, duration = 0.2 }
+      end)
+      local check = scene:run{ dt = 0.005 }:check{}
+      assert.equal("PASS", check:row "events".verdict)
+      assert.is_true(check:row "peak_margin".value >= 1)
+      assert.equal("FAIL", check:row "peak_margin".verdict)
+    end
+  end)
+end)
+
 describe("run:check of a wire without an entry of the catalogue", function()
   it("is open, and names what is missing", function()
     local run = laying{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 0.0015 }
@@ -345,6 +411,21 @@ describe("run:check of a run that is not whole", function()
     fails(function() run:check{} end, "has gone on since this run")
     scene:restore(snapshot)
     fails(function() run:check{} end, "when a snapshot was restored")
+  end)
+
+  it("is refused once the scene has settled, by which peaks are gone", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 20 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { -0.05, 0, 0 } }, relative = true,
+      duration = 0.2 }
+    assert(scene:settle().ok)
+    local run = scene:run{ duration = 0.2, dt = 0.005 }
+    local most = wire:max_tension()
+    assert.equal(most, run:check{}:row "max_tension".value)
+    assert(scene:settle().ok)
+    assert.is_true(wire:max_tension() < most)
+    fails(function() run:check{} end, "has gone on since this run", "before it settles")
   end)
 
   it("is open where a wire was taken away", function()

@@ -173,8 +173,9 @@ local function judge_one(self, member, entry, context, list)
   local known, why = known_limit(member, entry, context)
   if given then
     local reference = member.reference and member.reference(entry, context)
-    return judge_given(given, known, reference, fresh, value, member.unit, member.side)
-  end
+    judge_given(given, known, reference, fresh, value, member.unit, member.side)
+    if given[member.side] or member.asked and not known then return end
+  end -- a limit on the other side alone does not take the place of that on its own
   if not known then
     local row = fresh()
     missing_row(row, member, entry)
@@ -258,7 +259,7 @@ local function check_there(run)
   end
   if fields.number ~= data.runs or run.scene.time ~= run.time then
     error(("run:check: scene '%s' has gone on since this run, and its peaks are of that; check a run before "
-      .. "the next"):format(run.name), 0)
+      .. "the next, and before it settles"):format(run.name), 0)
   end
 end
 

@@ -1,10 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Events after which the forces of a run are wrong, or a wire is lost: crashes, holds driven against
--- everything, sections folded through themselves, wires pulled beyond their load or out of their pads.
+-- everything, sections folded through themselves, tubes pressed flat, wires pulled beyond their load or out
+-- of their pads, or crushed there, ties and clips that broke or are beyond what they describe.
 -- @module softworld.check.spoilt
 local count = require "softworld.check.events"
 
-local of_run = count "crash overload breaking fold folded"
+local of_run = count "crash overload breaking walls tie clip"
+local of_gripper = { slip = "slips", lost = "is lost", crushed = "is crushed" }
 
 local function value(_, context)
   local v = of_run(nil, context)
@@ -12,11 +14,10 @@ local function value(_, context)
   for _, g in ipairs(context.grippers) do
     for _, e in ipairs(g.object.events) do
       local inside = e.time >= run.start and e.time <= run.time
-      if inside and (e.kind == "slip" or e.kind == "lost") then
+      if inside and of_gripper[e.kind] then
         v.value = v.value + 1
         if not v.time or e.time < v.time then
-          v.s, v.time, v.note = e.s, e.time, ("gripper '%s': the wire %s"):format(g.name,
-            e.kind == "lost" and "is lost" or "slips")
+          v.s, v.time, v.note = e.s, e.time, ("gripper '%s': the wire %s"):format(g.name, of_gripper[e.kind])
         end
       end
     end

@@ -9,8 +9,8 @@ local stored = {}
 -- Arc lengths of the nodes, in equal parts of the wire as it is; nil where the mesh is uneven.
 local function place(wire, k, count) return count > 1 and wire.length * (k - 1) / (count - 1) or 0 end
 
---- Call look(values, k, time, s) at every node k of every frame of the run. Returns how many frames there
--- are, nil where they cannot be told apart: wires were taken away.
+--- Call look(values, k, time, s) at every node k of every frame of the run. Returns how many frames of steps
+-- there are, without that of its begin; nil where they cannot be told apart: wires were taken away.
 function stored.each(context, entry, look)
   local scene, run = context.scene, context.run
   if #(build.data(scene).gone or {}) > 0 then return nil end
@@ -19,7 +19,7 @@ function stored.each(context, entry, look)
     local frame = scene:frame(i)
     local values = frame.values[entry.number]
     if values and frame.t >= run.start then
-      count = count + 1
+      if frame.t > run.start then count = count + 1 end
       for k = 1, #values.tension do look(values, k, frame.t, place(entry.object, k, #values.tension)) end
     end
   end

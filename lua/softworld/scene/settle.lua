@@ -43,7 +43,8 @@ end
 
 local function settle(scene, args)
   build.check(scene, "scene:settle", 4)
-  local before = kinks(scene)
+  local before, data = kinks(scene), build.data(scene)
+  data.runs = (data.runs or 0) + 1 -- peaks begin anew, as in a run
   local rest = build.call(3, core_settle, scene, args)
   for tube, e in pairs(rest.ok and kinks(scene) or {}) do
     if not before[tube] or before[tube].count < e.count then rest.kinked = e.text end
