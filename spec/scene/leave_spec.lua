@@ -345,6 +345,25 @@ describe("scene:remove with grippers", function()
     refused("'b' was taken away from scene", function() other:run{ dt = 0.005 } end)
   end)
 
+  it("leaves everything as it was when a motion of what holds the wire fails", function()
+    local scene, a = three()
+    local hand = scene:gripper{ name = "hand", pads = { friction = 0.6, opening = 0.014 } }
+    hand:grasp(a, { s = 0.02, approach = "plates", force = 2 })
+    local clamp, fails = scene:clamp(a, { s = 0.4 }), false
+    clamp:follow(function()
+      if fails then error "no place" end
+      return { -0.4, 0, 0.1 }
+    end)
+    scene:run{ duration = 0.01, dt = 0.005 }
+    fails = true
+    refused("no place", function() scene:remove(a) end)
+    assert.is_true(a.present and clamp.held)
+    assert.are.equal(a, hand.wire)
+    fails = false
+    scene:remove(a)
+    assert.is_nil(hand.wire)
+  end)
+
   it("refuses a part of a gripper, and its grip, and names it", function()
     table_with("plates", function(scene, hand)
       refused("is a part of gripper 'hand'; remove that", function()
