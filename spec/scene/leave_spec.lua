@@ -345,6 +345,51 @@ describe("scene:remove with grippers", function()
     refused("'b' was taken away from scene", function() other:run{ dt = 0.005 } end)
   end)
 
+  it("ends a process whose wire is taken away in the middle of a grasp, or before it", function()
+    -- the jaws take 0.475 s to 4.5 mm, at 20 mm/s from 14 mm; a mixed grasp rests for 40 ms at least
+    for _, case in ipairs{ { "plates", 0.2, distance = 0.0045 }, { "mixed", 0.46, force = 2 },
+      { "tie", 0.005 }, { "imposed", 0.005 } } do
+      local how, when = case[1], case[2]
+      local scene = sw.scene()
+      local a = rod(scene, "a", 0, { E = 5e6, from = { 0, 0, R }, to = { -0.3, 0, R } })
+      rod(scene, "b", 0.1, { from = { 0, 0.1, R }, to = { -0.3, 0.1, R } })
+      scene:obstacle{ shape = "plane", friction = 0.3 }
+      local pads = how == "plates" or how == "mixed"
+      local hand = scene:gripper{ name = "hand", pads = pads and { friction = 0.6, opening = 0.014 } or nil }
+      scene:process(function(p)
+        if not pads then p:wait(0.01) end
+        if how == "tie" then scene:tie(a, { s = 0.1 }) end
+        hand:grasp(a, { s = 0.02, approach = how, distance = case.distance, force = case.force })
+        assert(false, "it has grasped what was not there")
+      end)
+      at(scene, when, function() scene:remove(a) end)
+      local run = scene:run{ dt = 0.005 }
+      assert.is_true(run.ok, run.reason)
+      local last = run.events[#run.events]
+      assert(last.text:find("process 1 ends: .*'a' was taken away from scene", 1), last.text)
+      assert.is_nil(hand.wire)
+    end
+  end)
+
+  it("leaves everything as it was when a motion of what holds the wire fails", function()
+    local scene, a = three()
+    local hand = scene:gripper{ name = "hand", pads = { friction = 0.6, opening = 0.014 } }
+    hand:grasp(a, { s = 0.02, approach = "plates", force = 2 })
+    local clamp, fails = scene:clamp(a, { s = 0.4 }), false
+    clamp:follow(function()
+      if fails then error "no place" end
+      return { -0.4, 0, 0.1 }
+    end)
+    scene:run{ duration = 0.01, dt = 0.005 }
+    fails = true
+    refused("no place", function() scene:remove(a) end)
+    assert.is_true(a.present and clamp.held)
+    assert.are.equal(a, hand.wire)
+    fails = false
+    scene:remove(a)
+    assert.is_nil(hand.wire)
+  end)
+
   it("refuses a part of a gripper, and its grip, and names it", function()
     table_with("plates", function(scene, hand)
       refused("is a part of gripper 'hand'; remove that", function()

@@ -175,8 +175,7 @@ end
 function grasp.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do
-    if self.left then why = why or nil
-    elseif self.tool then why = look_at(self) or why
+    if self.tool and not self.left then why = look_at(self) or why
     elseif self.hold then why = look_at_hold(self) or why end
   end
   return why
@@ -418,6 +417,7 @@ local function grasp_by_pads(self, wires, args)
   end
   if not move_jaws(self, order) then return end
   if self.wire ~= wire then
+    build.present(wire)
     error(("gripper '%s': something let go of wire '%s' while its jaws moved to grasp it"):format(self.name,
       wire.name), 0)
   end
@@ -469,17 +469,12 @@ local function wires_of(self, given)
     error("gripper:grasp expects a wire, or a list of wires, got "
       .. (given == nil and "nil" or "an empty table"), 0)
   end
-  local ours, seen = {}, {}
-  for _, entry in ipairs(build.data(self.scene).wires) do ours[#ours + 1] = entry.object end
+  local seen = {}
   for _, wire in ipairs(list) do
     if core.type(wire) ~= "wire" then
       error("gripper:grasp expects a wire, got " .. (core.type(wire) or type(wire)), 0)
     end
-    local known = false
-    for _, one in ipairs(ours) do known = known or one == wire end
-    if not known then
-      error(("gripper '%s': wire '%s' belongs to another scene"):format(self.name, wire.name), 0)
-    end
+    build.own(self.scene, ("gripper '%s': wire '%s' belongs to"):format(self.name, wire.name), wire)
     for _, one in ipairs(seen) do
       if one == wire then
         error(("gripper '%s': wire '%s' is in the list twice"):format(self.name, wire.name), 0)

@@ -7,13 +7,17 @@ local mixed = require "softworld.grip.mixed"
 local losing = {}
 
 --- The gripper is about to be taken away: its wires are as they would be had it let go.
-function losing.all(self)
+function losing.begin(self)
   if self.frozen then mixed.thaw(self) end
   if self.tool and self.way == "mixed" and self.wire then mixed.finish(self) end
+end
+
+--- It has been taken away.
+function losing.all(self)
   for _, grip in ipairs(self.grips) do losing.wire(self, grip.wire) end
 end
 
---- The wire is about to be taken away: the gripper has it no more, and to let go of it later is no mistake.
+--- The wire has been taken away: the gripper has it no more, and to let go of it later is no mistake.
 function losing.wire(self, wire)
   local left, held = {}, false
   for _, grip in ipairs(self.grips) do

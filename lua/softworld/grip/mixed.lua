@@ -46,9 +46,10 @@ function mixed.settle(self, args)
   local p = process.current()
   self.margin = args.margin or LIMIT
   local last, since, quiet = self.tool:state(), self.scene.time, 0
-  local late = since + PATIENCE
+  local late, wire = since + PATIENCE, self.wire
   p:wait_until(function()
     if not self.tool or not self.wire then -- let go by another process, or a snapshot was restored
+      if wire then build.present(wire) end
       error(("gripper '%s': it let go while its grasp was to come to rest"):format(self.name), 0)
     end
     local now, t = self.tool:state(), self.scene.time

@@ -26,10 +26,8 @@ function fixing.wire(scene, what, name, value)
   if core.type(value) ~= "wire" then
     error(("%s: %s must be a wire, got %s"):format(what, name, core.type(value) or type(value)), 0)
   end
-  for _, entry in ipairs(build.data(scene).wires) do
-    if entry.object == value then return value end
-  end
-  error(("%s: %s is a wire of another scene"):format(what, name), 0)
+  build.own(scene, ("%s: %s is a wire of"):format(what, name), value)
+  return value
 end
 
 --- The name to use, see build.name; errors have no place yet.

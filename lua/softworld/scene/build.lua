@@ -124,6 +124,17 @@ end
 --- Raise unless scene is one that may be changed now.
 function build.check(scene, what) build.call(3, check_scene, scene, what) end
 
+--- Raise when a wire has left its scene; of one that was taken away it says when.
+function build.present(wire)
+  if not wire.present then wire:positions() end
+end
+
+--- Raise unless a wire is one of the scene. what: how the error begins.
+function build.own(scene, what, wire)
+  if not rawequal((select(4, core.number(wire))), scene) then error(what .. " another scene", 0) end
+  build.present(wire)
+end
+
 local function copy(t)
   local c = {}
   for k, v in pairs(t) do c[k] = v end

@@ -56,8 +56,8 @@ local function remove_body(scene, kind, body)
   end
   local gone = entry_of(kind, entry)
   gone.time = scene.time
+  core.remove_body(body) -- first, for a motion of what holds it may fail
   for _, gripper in ipairs(data.grippers) do losing.wire(gripper, body) end
-  core.remove_body(body)
   data[lists[kind]] = left
   data.gone = table.move(data.gone or {}, 1, #(data.gone or {}), 1, {})
   data.gone[#data.gone + 1] = gone
@@ -66,10 +66,11 @@ end
 
 local function remove_gripper(scene, gripper)
   grasp.check_there(gripper, 0)
-  losing.all(gripper)
+  losing.begin(gripper)
   for _, tool in ipairs{ gripper.tool or false, gripper.carrier or false } do
     if tool and core.exists(tool) then core.remove_tool(tool) end
   end
+  losing.all(gripper)
   gripper.left = scene.time
   told(scene, "gripper", gripper.name)
 end
