@@ -172,6 +172,20 @@ static int mod_remesh(lua_State *L) {
   return 0;
 }
 
+/* core.redraw(wire, rolls, EA, EI, GJ): a rod that has not moved, with other stiffnesses (factors).
+ */
+static int mod_redraw(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const sw_redrawing as = {.rolls = lua_toboolean(L, 2),
+                           .EA = luaL_optnumber(L, 3, 1),
+                           .EI = luaL_optnumber(L, 4, 1),
+                           .GJ = luaL_optnumber(L, 5, 1)};
+  lsw_must(L, sw_scene_redraw(scene, w->id, &as, &err), &err);
+  return 0;
+}
+
 /* core.segments(wire): even ones of its mesh, before holds added nodes. */
 static int mod_segments(lua_State *L) {
   sw_scene *scene;
@@ -435,6 +449,7 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"begin_run", mod_begin_run},
                                      {"window", mod_window},
                                      {"remesh", mod_remesh},
+                                     {"redraw", mod_redraw},
                                      {"segments", mod_segments},
                                      {NULL, NULL}};
 

@@ -214,6 +214,32 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
   return SW_OK;
 }
 
+sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_error *err) {
+  sw_scene_wire *w;
+  size_t segments;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
+  w = &s->wires[h.slot];
+  if (strcmp(w->cls->name, "rod") != 0)
+    return sw_fail(err, SW_EINVAL, "redraw: wire '%s' is a %s, not a rod", w->name, w->cls->name);
+  if (!is_drawn(w))
+    return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved since it was drawn", w->name);
+  SW_TRY(check_fed(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  const sw_beam beam = w->beam;
+  const int rolled = w->drawing.rolls;
+  w->beam.EA *= as->EA, w->beam.EI *= as->EI, w->beam.GJ *= as->GJ, w->beam.E *= as->EA;
+  for (int k = 0; k < 2; k++) w->beam.EI_axis[k] *= as->EI;
+  w->drawing.rolls = as->rolls;
+  w->beam.framed = beam.EI_axis[0] != beam.EI_axis[1] || w->drawing.rest == SW_REST_PATH;
+  sw_status status = sw_scene_wire_segments(s, h, &segments, err);
+  if (status == SW_OK) status = redraw(s, h.slot, segments, err);
+  if (status == SW_OK) return status;
+  w->beam = beam, w->drawing.rolls = rolled;
+  return status == SW_ENOMEM ? sw_fail(err, status, "scene '%s': out of memory", s->name) : status;
+}
+
 sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
   if (!w) return SW_EDEAD;

@@ -144,6 +144,13 @@ const char *sw_scene_gone_name(const sw_scene *scene, sw_handle body, double *ti
  * any other keeps its length, shape, motion, strains and twist. After SW_ENOMEM some
  * wires may have the new mesh. */
 sw_status sw_scene_remesh(sw_scene *scene, const size_t *segments, size_t count, sw_error *err);
+/* What a rod that has not moved is to be instead, its mesh as before. */
+typedef struct sw_redrawing {
+  int rolls;         /* 1: friction turns it about its axis; 0: it does not */
+  double EA, EI, GJ; /* times what they are [-] */
+} sw_redrawing;
+/* Draw such a rod anew. SW_EINVAL: it has moved, or is no rod. */
+sw_status sw_scene_redraw(sw_scene *scene, sw_handle wire, const sw_redrawing *as, sw_error *err);
 /* Even segments that a wire's mesh stands for, holds' own nodes left out. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
 

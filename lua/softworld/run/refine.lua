@@ -82,7 +82,8 @@ local function sample(job)
   end
 end
 
---- Check everything; returns the job for trust.work and the steps of its levels.
+--- Check everything; returns the job for trust.work. job.steps(changes): options of the run of each level,
+-- changes being options in place of those given.
 function refine.job(scene, given, check)
   local args = {}
   for key, value in pairs(given) do args[key] = value end
@@ -100,20 +101,29 @@ function refine.job(scene, given, check)
   job.advice = method_of(args.integrator).implicit
     and "a smaller dt [s], more segments or a gentler motion may help"
     or "a dt [s] below scene:stable_dt() or an implicit integrator may help"
-  return job, steps_of(job, args)
+  function job.steps(changes)
+    local own = {}
+    for key, value in pairs(args) do own[key] = value end
+    for key, value in pairs(changes or {}) do own[key] = value end
+    return steps_of(job, own)
+  end
+  return job
 end
 
---- The run of the finest level, with quantities.
-function refine.run(job, steps, run_once)
-  local scene, wall, cpu, rests = job.scene, 0, 0, false
-  function job.prepare(start)
-    if steps(1).quasistatic then return end
-    rests = is_at_rest(scene)
-    job.restore(start)
-  end
-  local function compute(k, name)
+--- Look whether the scene is at rest to begin with, as each level then is too; leaves it as it is.
+function refine.look(job)
+  job.rests = is_at_rest(job.scene)
+  job.restore()
+end
+
+--- compute(k, name): the run of level k, of the scene as it has been restored and meshed. total: wall and
+-- cpu are summed up in it.
+function refine.computer(job, steps, run_once, total)
+  local scene = job.scene
+  return function(k, name)
+    local options = steps(k)
     process.renew(scene, {}) -- settling is not for them
-    if rests then
+    if job.rests and not options.quasistatic then
       local settled = scene:settle()
       if not settled.ok then
         return { ok = false, reason = "no equilibrium to begin with: " .. settled.reason }
@@ -121,12 +131,20 @@ function refine.run(job, steps, run_once)
     end
     job.begin_processes()
     sample(job)
-    local r = run_once(scene, steps(k), name)
-    wall, cpu = wall + r.wall, cpu + r.cpu
+    local r = run_once(scene, options, name)
+    total.wall, total.cpu = total.wall + r.wall, total.cpu + r.cpu
     return r
   end
-  local result = trust.work(job, compute)
-  result.wall, result.cpu = wall, cpu
+end
+
+--- The run of the finest level, with quantities.
+function refine.run(job, run_once)
+  local steps, total = job.steps(), { wall = 0, cpu = 0 }
+  if not steps(1).quasistatic then
+    function job.prepare() refine.look(job) end
+  end
+  local result = trust.once(job, refine.computer(job, steps, run_once, total))
+  result.wall, result.cpu = total.wall, total.cpu
   return result
 end
 

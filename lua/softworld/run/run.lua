@@ -222,8 +222,8 @@ function core.class.scene.run(scene, args)
     build.call(3, check_frames, args)
   end
   if trust.wanted(args) then
-    local job, steps = build.call(3, refine.job, scene, args, check_start)
-    return hide_failure(build.call(3, refine.run, job, steps, run_once))
+    local job = build.call(3, refine.job, scene, args, check_start)
+    return hide_failure(build.call(3, refine.run, job, run_once))
   end
   build.call(3, core.check_run, args)
   if not args.quasistatic then remarks.on("run", "scene:run", args) end

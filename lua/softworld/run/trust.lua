@@ -141,8 +141,8 @@ end
 
 -- --- levels -----------------------------------------------------------------------------
 
--- Even segments of every wire on level k, counted from 1.
-local function counts_of(job, k)
+--- Even segments of every wire on level k, counted from 1.
+function trust.counts(job, k)
   local list = {}
   for i, n in ipairs(job.first) do list[i] = n << (k - 1) end
   return list
@@ -214,7 +214,8 @@ local function was_redone(scene)
   return l.redone.count > 0.01 * l.steps
 end
 
-local function touches(scene)
+--- Does anything touch, or has it in this run?
+function trust.touches(scene)
   if scene:contacts() > 0 or build.data(scene).touching then return true end
   for _, o in ipairs(build.data(scene).obstacles) do
     local rows, count = o.object:log()
@@ -229,7 +230,7 @@ end
 -- or less all tolerances are met.
 local function judge(job, result)
   local worst = 0
-  job.contact = job.contact or touches(job.scene) or was_redone(job.scene)
+  job.contact = job.contact or trust.touches(job.scene) or was_redone(job.scene)
   job.read = {}
   for _, q in ipairs(job.quantities) do
     local now = q.sample or quantity.read(q, result.start)
@@ -248,7 +249,7 @@ end
 
 local function describe(job, k)
   local most = 0
-  for _, n in ipairs(counts_of(job, k)) do most = math.max(most, n) end
+  for _, n in ipairs(trust.counts(job, k)) do most = math.max(most, n) end
   return ("level %d, %d segments"):format(k, most)
 end
 
@@ -268,18 +269,19 @@ local function check_wires(job)
 end
 
 -- Compute level after level until the bars are met. Returns the last result.
-local function climb(job, start, compute)
+local function climb(job, compute)
   local good, bad, result = 0, 0, nil
-  if job.prepare then job.prepare(start) end
+  if job.prepare then job.prepare() end
   for k = 1, job.most do
     if k > 1 then
       check_wires(job)
-      job.restore(start)
+      job.restore()
     end
-    core.remesh(job.scene, counts_of(job, k))
+    if job.arrange then job.arrange() end
+    core.remesh(job.scene, trust.counts(job, k))
     local begun = os.clock()
     result = compute(k, describe(job, k))
-    job.levels[#job.levels + 1] = { segments = counts_of(job, k), ok = result.ok, reason = result.reason,
+    job.levels[#job.levels + 1] = { segments = trust.counts(job, k), ok = result.ok, reason = result.reason,
       cpu = os.clock() - begun }
     if result.ok then
       good, bad, job.finest = good + 1, 0, k
@@ -340,26 +342,38 @@ local function conclude(job, result)
   return result
 end
 
---- Do the job: compute(level, name) gives a result with ok and reason. After an error or
--- a refusal the scene is as it was before; else at the finest level's end.
-function trust.work(job, compute)
+--- Take down where the job begins. job.restore() goes back there.
+function trust.open(job)
   local scene, data = job.scene, build.data(job.scene)
-  local restores = data.restores
-  local start = scene:snapshot()
-  job.restore = function(snapshot)
-    scene:restore(snapshot)
+  local start, restores = scene:snapshot(), data.restores
+  function job.restore()
+    scene:restore(start)
     data.restores = restores -- what earlier runs have recorded is still there
   end
-  local fine, result = pcall(climb, job, start, compute)
+  function job.close() start:close() end
+end
+
+--- Do the job: compute(level, name) gives a result with ok and reason. After an error or
+-- a refusal the scene is as it was before; else at the finest level's end. Needs trust.open.
+function trust.work(job, compute)
+  local fine, result = pcall(climb, job, compute)
   if fine then result = conclude(job, result) end
   local tidy, why = true, nil
   if not fine or result.refused then
-    tidy, why = pcall(job.restore, start)
+    tidy, why = pcall(job.restore)
     job.begin_processes()
   end
-  start:close()
   if not fine then error(result, 0) end
   if not tidy then error(why, 0) end
+  return result
+end
+
+--- The same of a job whose beginning is not needed any more.
+function trust.once(job, compute)
+  trust.open(job)
+  local fine, result = pcall(trust.work, job, compute)
+  job.close()
+  if not fine then error(result, 0) end
   return result
 end
 

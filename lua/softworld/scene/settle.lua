@@ -69,7 +69,7 @@ local function with_bars(scene, given)
   job.advice = "hold what moves freely, come nearer in smaller moves, or allow more max_iterations"
   core.check_settle(args)
   local iterations = 0
-  local result = trust.work(job, function(_, level)
+  local result = trust.once(job, function(_, level)
     local r = settle(scene, args)
     if shown then
       io.stderr:write(("%s, %s: %s, %d iterations\n"):format(scene.name, level, r.reason, r.iterations))
