@@ -146,8 +146,31 @@ local function check_value(what, name, value, unit)
   end
 end
 
-local own_keys = { name = "string", value = "number", unit = "string", of = "function", at = "number" }
-local own_names = { "name", "value", "unit", "of", "at" }
+-- A tolerance: a number in the unit, or { relative = share of the value }. Sets it for the quantity.
+local function take(what, q, value)
+  if checks.kind(value) ~= "table" then
+    check_value(what, q.name, value, q.unit)
+    q.tolerance = value
+    return q
+  end
+  for key in pairs(value) do
+    if key ~= "relative" then
+      error(("%s: tolerance: %s: there is no parameter '%s'; it must be a number%s, or { relative = share }")
+        :format(what, q.name, checks.shown(key), q.unit ~= "" and " " .. q.unit or ""), 0)
+    end
+  end
+  local share = value.relative
+  if type(share) ~= "number" or not (share > 0 and share < 1) then
+    error(("%s: tolerance: %s: relative = %s is not allowed; it must be a number above 0 and below 1"):format(
+      what, q.name, checks.shown(share)), 0)
+  end
+  q.relative = share
+  return q
+end
+
+local own_keys = { name = "string", value = "number", unit = "string", of = "function", at = "number",
+  relative = "number" }
+local own_names = { "name", "value", "relative", "unit", "of", "at" }
 
 -- The user's own: { name =, value =, unit =, of = function, at = [s] }.
 local function own(what, number, given)
@@ -166,16 +189,18 @@ local function own(what, number, given)
       error(("%s: %s must be a %s, got %s"):format(label, key, own_keys[key], type(value)), 0)
     end
   end
-  for _, key in ipairs{ "name", "value", "of" } do
+  for _, key in ipairs{ "name", "of" } do
     if given[key] == nil then error(("%s: %s is missing"):format(label, key), 0) end
+  end
+  if (given.value == nil) == (given.relative == nil) then
+    error(("%s: %s"):format(label, given.value and "value or relative, not both" or "value is missing"), 0)
   end
   if given.at and not (given.at >= 0 and given.at < math.huge) then
     error(("%s: at = %s s is not allowed; it must be a time of at least 0 s after the start")
       :format(label, checks.shown(given.at)), 0)
   end
-  check_value(what, given.name, given.value, given.unit or "")
-  return { name = given.name, unit = given.unit or "", tolerance = given.value, of = given.of,
-    at = given.at, own = true }
+  local q = { name = given.name, unit = given.unit or "", of = given.of, at = given.at, own = true }
+  return take(what, q, given.value or { relative = given.relative })
 end
 
 --- The quantities that tolerance = {...} asks for, in order; raises what is wrong with
@@ -196,9 +221,8 @@ function quantity.list(scene, tolerance, what)
   table.sort(words)
   for _, word in ipairs(words) do
     local entry = find(word, found, names, what)
-    check_value(what, word, tolerance[word], entry.unit)
-    list[#list + 1] = { name = word, unit = entry.unit, tolerance = tolerance[word], of = entry.of,
-      plain = entry.plain }
+    list[#list + 1] = take(what, { name = word, unit = entry.unit, of = entry.of, plain = entry.plain },
+      tolerance[word])
   end
   for _, q in ipairs(list) do
     if taken[q.name] then
@@ -246,6 +270,15 @@ function quantity.distance(a, b)
     sum, most = sum + d * d, math.max(most, d)
   end
   return is_vector(a) and sum ^ 0.5 or most
+end
+
+--- What is asked for, of a value, in its unit.
+function quantity.asked(q, value)
+  if q.relative then
+    local size = quantity.size(value)
+    q.tolerance = size < math.huge and q.relative * size or 0
+  end
+  return q.tolerance
 end
 
 --- Have both values the same shape?

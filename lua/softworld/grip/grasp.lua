@@ -431,7 +431,7 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
   { "s", "arc length", "m", "place along the wire, of several wires also a list",
     usual = "nearest to the tool" },
   { "approach", "choice", "-", "one with the wire, by the pads' friction, or squeezed first and then carried",
-    choices = { "imposed", "plates", "mixed" }, usual = "imposed" },
+    choices = { "imposed", "plates", "mixed", "auto" }, usual = "imposed" },
   force_row, distance_row, speed_row,
   grasp.on_slip_row,
   { "freeze", "boolean", "-", "of mixed: false stays with the pads until gripper:freeze()", usual = "true" },
@@ -507,6 +507,25 @@ local function check_free(self, wires, approach, args)
   end
 end
 
+-- How it is to take hold; a run that chooses its model chooses that too, where the script leaves it open.
+local function approach_of(self, wires, args)
+  local auto = build.data(self.scene).auto
+  local open = args.approach == "auto" or args.approach == nil and auto and args.force
+  if not open then return args.approach or "imposed" end
+  if not auto then
+    error(("gripper '%s': approach = 'auto' is for runs that choose: scene:run{ model = 'auto' }"):format(
+      self.name), 0)
+  end
+  auto.asked[#auto.asked + 1] = { gripper = self, wire = wires[1], force = args.force, s = args.s }
+  if auto.approach == "imposed" then
+    for _, word in ipairs(pad_words) do args[word] = nil end
+  end
+  if auto.approach ~= "mixed" then
+    for _, word in ipairs(mesh_words) do args[word] = nil end
+  end
+  return auto.approach
+end
+
 --- Take hold of a wire, see help "gripper:grasp". A list of wires, with one s or a list of them, is taken at
 -- once; an imposed grip also takes one wire after another. In a process it returns when the wire is held;
 -- elsewhere jaws begin to close.
@@ -516,7 +535,7 @@ function Methods:grasp(wire, args)
   grasp.check_scene(self, 3)
   local wires = build.call(3, wires_of, self, wire)
   args = take:read(args)
-  local approach = args.approach or "imposed"
+  local approach = build.call(3, approach_of, self, wires, args)
   build.call(3, check_free, self, wires, approach, args)
   remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
   check_words(self, approach, args)

@@ -5,6 +5,7 @@ local core = require "softworld.core"
 local advice = require "softworld.run.advice"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local choose = require "softworld.model.choose"
 local grasp = require "softworld.grip.grasp"
 local leave = require "softworld.scene.leave"
 local ledger = require "softworld.run.ledger"
@@ -221,6 +222,9 @@ function core.class.scene.run(scene, args)
     build.call(3, check_files, scene, args)
     build.call(3, check_frames, args)
   end
+  if build.call(3, choose.wanted, scene, args) then
+    return hide_failure(build.call(3, choose.run, scene, args, check_start, run_once))
+  end
   if trust.wanted(args) then
     local job = build.call(3, refine.job, scene, args, check_start)
     return hide_failure(build.call(3, refine.run, job, run_once))
@@ -433,14 +437,15 @@ end
 for name, method in pairs(runfiles.methods) do Run[name] = method end
 tables.later(Run, "softworld.run.pictures", "picture film gltf obj stl")
 tables.later(Run, "softworld.check.check", "check")
+tables.later(Run, "softworld.model.answer", "why")
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 
 -- Fields that a run may lack.
 local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
-  ok reason]]
+  ok reason model]]
 local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
-  "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels" }
+  "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels", "model" }
 
 --- Names of methods and fields, for completion at the prompt.
 function Run.__names()

@@ -242,7 +242,8 @@ local function judge(job, result)
     values[#values + 1] = now.value
     now.error, now.rate = trust.estimate(q, values, job.contact)
     job.read[q.name] = now
-    worst = math.max(worst, now.error / q.tolerance)
+    local asked = quantity.asked(q, now.value)
+    worst = math.max(worst, now.error / (q.aim and q.aim(asked) or asked))
   end
   return worst
 end

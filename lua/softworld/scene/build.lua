@@ -248,9 +248,12 @@ function class.scene.wire(scene, args)
   take_body(args)
   local entry, use = build.call(3, take_cable, args)
   args.name = build.name(scene, args.name, "wire", #data.wires, 3)
+  local auto = args.model == "auto" -- a rod, until a run needs more
+  if auto then args.model = nil end
   local wire = build.call(3, new_wire, scene, args)
   data.wires[#data.wires + 1] = { object = wire, name = args.name }
   local kept = core.data(wire)
+  kept.auto = auto or nil
   if entry then kept.cable, kept.use = entry, use end
   if args.breaking_load then
     kept.breaking = { value = args.breaking_load, flag = args.breaking_flag or "given" }

@@ -1,0 +1,93 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What was chosen and why: run.model, run:why().
+-- @module softworld.model.answer
+local number = require "softworld.output.number"
+local rows = require "softworld.rows"
+
+local answer = {}
+
+rows.calls{
+  { "run:why", "", "which model was chosen and why, of a run with model = 'auto'; print it", "run.model",
+    example = "print(run:why())" },
+}
+
+local Model = { __name = "model" }
+Model.__index = Model
+
+local function quantity_line(q)
+  return ("  %s = %s: edges and steps +- %s, model +- %s, asked for %s: %s"):format(q.name, q:text(),
+    number.text(q.discretisation, q.unit), number.text(q.model_error, q.unit),
+    number.text(q.tolerance, q.unit), q.met and "met" or "NOT met")
+end
+
+--- The reasons as lines of text.
+function Model:__tostring()
+  local words, lines = {}, {}
+  for _, c in ipairs(self.choices) do words[#words + 1] = ("%s %s"):format(c.name, c.rung) end
+  lines[1] = "model: " .. table.concat(words, ", ")
+  if self.spread then lines[#lines + 1] = "  first: " .. self.spread end
+  for _, c in ipairs(self.choices) do
+    lines[#lines + 1] = ("  %s %s: %s"):format(c.name, c.rung, c.why)
+    if c.leaves ~= "nothing" then lines[#lines + 1] = "      leaves out " .. c.leaves end
+  end
+  for _, q in ipairs(self.quantities or {}) do lines[#lines + 1] = quantity_line(q) end
+  for _, text in ipairs(self.short) do lines[#lines + 1] = "  NOT enough: " .. text end
+  for _, text in ipairs(self.unchecked) do lines[#lines + 1] = "  not checked: " .. text end
+  lines[#lines + 1] = ("  %d coarse computations to choose, %.3g s; the run %.3g s"):format(self.probes,
+    self.cost, self.run_cost)
+  return table.concat(lines, "\n")
+end
+
+local function choice_of(state)
+  local rung = state.choice.rungs[state.rung]
+  return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = state.by,
+    why = state.why or state.doubt or "there is no dearer one", error = state.change }
+end
+
+-- Bars with what rungs leave out.
+local function widen(result, model)
+  model.quantities = result:error_bars()
+  local met = #model.short == 0
+  for _, q in ipairs(model.quantities) do
+    local sum = 0
+    for _, c in ipairs(model.choices) do sum = sum + (c.by == "compared" and c.error[q.name] or 0) end
+    q.discretisation, q.model_error, q.error = q.error, sum, q.error + sum
+    q.met = q.error <= q.tolerance
+    met = met and q.met
+  end
+  if not met and not result.advice then
+    result.advice = model.short[1] or "the tolerance is below what the cable's spread makes worth computing"
+  end
+  result.met = met
+end
+
+--- Give the result its model.
+function answer.add(context, result)
+  local model = setmetatable({ choices = {}, short = {}, unchecked = {}, probes = context.probe_count,
+    cost = context.spent.cpu, run_cost = result.cpu, spread = context.spread:text() }, Model)
+  for _, state in ipairs(context.states) do
+    if state.by ~= "idle" then
+      local c = choice_of(state)
+      model.choices[#model.choices + 1], model[c.name] = c, c.rung
+      if state.short then model.short[#model.short + 1] = state.short end
+      if not state.short and state.doubt and (state.by == "failed" or state.last == 1) then
+        model.unchecked[#model.unchecked + 1] = ("%s: %s"):format(c.name, state.doubt)
+      end
+    end
+  end
+  if context.spread.failed then model.unchecked[#model.unchecked + 1] = context.spread.failed end
+  for _, e in ipairs(context.given_up) do result.events[#result.events + 1] = e end
+  if not result.refused then widen(result, model) end
+  result.model = model
+  return result
+end
+
+--- run:why(): see help "auto".
+function answer.why(run)
+  if not run.model then
+    error("the model of this run was not chosen: run with model = 'auto' and tolerance = { quantity = value }", 0)
+  end
+  return run.model
+end
+
+return answer

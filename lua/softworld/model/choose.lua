@@ -1,0 +1,299 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:run{ tolerance = { quantity = value }, model = "auto" }: no more model than the quantities need.
+--
+-- Every choice begins at its cheapest rung. Where a free check tells that it suffices, it stays. Otherwise the
+-- next rung is computed too, on coarse edges and steps, and what the quantities change by decides: a rung
+-- stays where the change is a small part of what was asked for. Then edges and steps are refined for the
+-- rungs chosen, and what the finest run tells must still bear out the free checks.
+-- @module softworld.model.choose
+local answer = require "softworld.model.answer"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local number = require "softworld.output.number"
+local probe = require "softworld.model.probe"
+local process = require "softworld.run.process"
+local quantity = require "softworld.quantity"
+local refine = require "softworld.run.refine"
+local registry = require "softworld.model.registry"
+local spread = require "softworld.model.spread"
+local trust = require "softworld.run.trust"
+
+local choose = {}
+
+local MODEL = 0.5  -- of a tolerance: what rungs may leave out [-]
+local SAFETY = 1.5 -- of a change from one rung to the next [-]
+local DOUBT = 4    -- a change nearer than this to what is allowed is looked at on a finer mesh too [-]
+
+local function rungs_of(context)
+  local rungs = {}
+  for _, state in ipairs(context.states) do rungs[state.choice.name] = state.rung end
+  return rungs
+end
+
+local function with(rungs, name, rung)
+  local copy = {}
+  for key, value in pairs(rungs) do copy[key] = value end
+  copy[name] = rung
+  return copy
+end
+
+-- The tightest tolerance over its value [-].
+local function tightest(context, values)
+  local share = 1
+  for _, q in ipairs(context.job.quantities) do
+    local size, asked = quantity.size(values[q.name]), quantity.asked(q, values[q.name])
+    if size > 0 and size < math.huge then share = math.min(share, asked / size) end
+  end
+  return share
+end
+
+-- --- one choice ---------------------------------------------------------------------------
+
+-- How many choices are still to be compared: each has a part of what rungs may leave out.
+local function open_count(context)
+  local count = 0
+  for _, state in ipairs(context.states) do
+    if state.last > 1 and state.by ~= "given" and state.by ~= "idle" and state.by ~= "free" then
+      count = count + 1
+    end
+  end
+  return math.max(1, count)
+end
+
+-- By how much quantities change between two results, with what is allowed: the worst share, its quantity, all.
+local function change(context, here, above)
+  local worst, name, all, part = -1, nil, {}, MODEL / open_count(context)
+  for _, q in ipairs(context.job.quantities) do
+    local a, b = here.values[q.name], above.values[q.name]
+    local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
+    if d ~= d then d = math.huge end
+    all[q.name] = SAFETY * d
+    local off = d > 0 and SAFETY * d / (part * quantity.asked(q, b)) or 0
+    if off > worst then worst, name = off, q end
+  end
+  return { worst = worst, quantity = name, all = all, allowed = part * name.tolerance }
+end
+
+-- The same on a coarse level, and on a finer one where that leaves doubt.
+local function compare(context, rungs, above)
+  local c = change(context, probe.of(context, rungs, 1), probe.of(context, above, 1))
+  if c.worst < 1 / DOUBT or c.worst > DOUBT then return c end
+  local here, there = probe.of(context, rungs, 2), probe.of(context, above, 2)
+  if here.ok and there.ok then return change(context, here, there) end
+  return c
+end
+
+local function changed_by(c)
+  local q = c.quantity
+  if c.worst == 0 then return "nothing" end
+  return ("%s by %s (allowed %s)"):format(q.name, number.text(c.all[q.name], q.unit),
+    number.text(c.allowed, q.unit))
+end
+
+local function raise_rung(state, why)
+  state.rung, state.by, state.raised = state.rung + 1, "raised", why
+end
+
+-- Settled, and why: by the reason for which it went up, if it did, and the one for which it stays.
+local function stay(state, by, why)
+  state.by = by
+  state.why = state.raised and why and state.raised .. "; " .. why or state.raised or why
+  return true
+end
+
+-- One look at a choice; true when it is settled.
+local function look(context, state)
+  local choice, rungs = state.choice, rungs_of(context)
+  local name, rung = choice.name, state.rung
+  local here = probe.of(context, rungs, 1)
+  if not here.ok then
+    if rung == state.last or here.raised then return stay(state, "failed") end
+    raise_rung(state, ("%s cannot be computed: %s"):format(choice.rungs[rung].name, here.reason))
+    return false
+  end
+  local f = here.facts[name]
+  if choice.idle and choice.idle(f) then
+    return stay(state, "idle")
+  end
+  local why
+  if choice.free then why, state.doubt = choice.free(context, rung, f, tightest(context, here.values)) end
+  if why then
+    state.known = why
+    return stay(state, "free", why)
+  end
+  if rung == state.last then return stay(state, "last") end
+  local up = with(rungs, name, rung + 1)
+  local above = probe.of(context, up, 1)
+  local next_name = choice.rungs[rung + 1].name
+  if not above.ok then
+    state.doubt = ("%s cannot be computed: %s"):format(next_name, above.reason)
+    return stay(state, "failed", state.doubt)
+  end
+  local c = compare(context, rungs, up)
+  local costly = choice.costly and choice.costly(rung, here, above)
+  if costly then raise_rung(state, costly)
+  elseif c.worst > 1 then raise_rung(state, ("%s instead of %s changes %s"):format(next_name,
+    choice.rungs[rung].name, changed_by(c)))
+  else
+    state.change = c.all
+    return stay(state, "compared", ("%s would change %s"):format(next_name, changed_by(c)))
+  end
+  return false
+end
+
+local function decide(context)
+  for _, state in ipairs(context.states) do
+    if state.by ~= "given" then
+      state.by, state.known, state.doubt, state.change = nil, nil, nil, nil
+      repeat until look(context, state)
+    end
+  end
+end
+
+-- Until nothing changes: what is chosen later may undo what was free before.
+local function settle(context)
+  for _ = 1, 3 do
+    local before = rungs_of(context)
+    decide(context)
+    local same = true
+    for name, rung in pairs(rungs_of(context)) do same = same and before[name] == rung end
+    if same then break end
+  end
+  local base = probe.of(context, rungs_of(context), 1)
+  if not base.ok then
+    if base.raised then error(base.raised, 0) end
+    return nil
+  end
+  return base
+end
+
+-- --- the run --------------------------------------------------------------------------------
+
+-- What the rungs chosen leave out of a quantity, by comparing, in its unit.
+local function left_out(context, name)
+  local sum = 0
+  for _, state in ipairs(context.states) do
+    sum = sum + (state.by == "compared" and state.change[name] or 0)
+  end
+  return sum
+end
+
+-- The finest run of the rungs chosen.
+local function refined(context)
+  local job, steps = context.job, nil
+  for name in pairs(job.values) do job.values[name] = {} end
+  job.levels, job.contact, job.finest = {}, nil, nil
+  for _, q in ipairs(job.quantities) do
+    local left = left_out(context, q.name)
+    function q.aim(asked) return math.max(asked - left, asked * MODEL, context.spread:floor(q)) end
+  end
+  job.restore()
+  function job.arrange() steps = probe.arrange(context, rungs_of(context)) end
+  local total = { wall = 0, cpu = 0 }
+  local result = trust.work(job, function(k, name)
+    return refine.computer(job, steps, context.run_once, total)(k, name)
+  end)
+  result.wall, result.cpu = total.wall, total.cpu
+  return result
+end
+
+-- A free check that the finest run does not bear out: its choice goes up by one rung.
+local function broken(context, result)
+  local values = {}
+  for name, q in pairs(result.quantities) do values[name] = q.value end
+  local facts, share = probe.facts(context, result), tightest(context, values)
+  for _, state in ipairs(context.states) do
+    local f = facts[state.choice.name]
+    if state.by == "free" and not state.choice.free(context, state.rung, f, share) then
+      if state.rung < state.last then
+        local was = state.choice.rungs[state.rung].name
+        raise_rung(state, ("%s was given up: in the fine run it does not hold any more that %s"):format(was,
+          state.known))
+        context.given_up[#context.given_up + 1] = { kind = "model", time = result.time, count = 1,
+          text = ("%s: %s"):format(state.choice.name, state.why) }
+        return true
+      end
+      state.by, state.doubt = "failed", "in the fine run it does not hold any more that " .. state.known
+    end
+    state.short = state.choice.short and state.choice.short(context, f, share)
+  end
+  return false
+end
+
+local function compute(context)
+  local base = settle(context)
+  if base then context.spread:look(rungs_of(context), base) end
+  for _ = 1, #context.states + 1 do
+    local result = refined(context)
+    if result.refused or not broken(context, result) then return result end
+  end
+  return refined(context)
+end
+
+local function new_context(scene, job, args, run_once)
+  local data = build.data(scene)
+  local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
+    probe_count = 0, spent = { wall = 0, cpu = 0 }, states = {}, given_up = {},
+    scripted_contact = data.touching }
+  context.spread = spread.new(context)
+  return context
+end
+
+local function begin(context)
+  trust.open(context.job)
+  if not context.args.quasistatic then refine.look(context.job) end
+  for i, choice in ipairs(registry.list) do
+    if choice.begin then choice.begin(context) end
+    local state = { choice = choice, rung = 1, last = #choice.rungs }
+    local why, rung
+    if choice.given then why, rung = choice.given(context) end
+    if why then state.by, state.why, state.rung = "given", why, rung end
+    context.states[i] = state
+  end
+end
+
+--- Is a model to be chosen? Raises where it cannot be.
+function choose.wanted(scene, args)
+  local word = args.model
+  if word ~= nil and word ~= "auto" then
+    error(("scene:run: model = %s is not allowed; it must be 'auto', or left out: each wire has its own model")
+      :format(checks.shown(word)), 0)
+  end
+  local named
+  for _, w in ipairs(build.data(scene).wires) do named = named or core.data(w.object).auto and w.name end
+  if word == nil and not named then return false end
+  if type(args.tolerance) ~= "table" then
+    error(("scene:run: %s needs to know what for: give tolerance = { quantity = value }, see help 'auto'")
+      :format(word and "model = 'auto'" or ("wire '%s' has model = 'auto', which"):format(named)), 0)
+  end
+  return true
+end
+
+--- The run, with run.model and run:why().
+function choose.run(scene, given, check, run_once)
+  local args = {}
+  for key, value in pairs(given) do args[key] = value end
+  args.model = nil
+  local job = refine.job(scene, args, check)
+  local context = new_context(scene, job, args, run_once)
+  local touching = context.data.touching
+  local fine, result = pcall(function()
+    begin(context)
+    return compute(context)
+  end)
+  context.data.auto = nil
+  if not fine or result.refused then
+    context.data.touching = touching
+    if job.restore then
+      job.restore()
+      process.renew(scene, {})
+      job.begin_processes()
+    end
+  end
+  if job.close then job.close() end
+  if not fine then error(result, 0) end
+  return answer.add(context, result)
+end
+
+return choose

@@ -1,0 +1,69 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The choice of grip: the wire one with the gripper, held by the friction of pads, or squeezed first. It is
+-- of grasps with approach = "auto", and of those that give a force and no approach.
+-- @module softworld.model.grip
+local facts = require "softworld.model.facts"
+local number = require "softworld.output.number"
+local section = require "softworld.model.section"
+
+local HELD = 0.5 -- of what pads hold: below this nothing slips, however force and moment add up [-]
+
+local grip = { name = "grip", rungs = {
+  { name = "imposed", leaves = "slip, and the wire's turning between the pads" },
+  { name = "plates", leaves = "flattening between the pads" },
+  { name = "mixed", leaves = "flattening elsewhere" } } }
+
+function grip.apply(context, rung)
+  context.data.auto = { approach = grip.rungs[rung].name, asked = {} }
+end
+
+-- Friction of both fingers together [-].
+local function friction(gripper)
+  local mu = gripper.pads.friction
+  if type(mu) == "table" then return mu[1] + mu[2] end
+  return 2 * mu
+end
+
+-- Of one grasp: load over what its pads hold, and the flattening; nil where no force was told.
+local function of_grasp(asked, start)
+  local gripper, wire = asked.gripper, asked.wire
+  if not asked.force then return nil end
+  local m = gripper:over(start)
+  local load = (m.peak_force or 0) + 2 * (m.peak_moment or 0) / gripper.pads.width
+  return load / (friction(gripper) * asked.force), section.flattening(wire, asked.force / gripper.pads.width)
+end
+
+function grip.look(context, run)
+  local f = { count = 0, load = 0, flat = 0 }
+  for _, asked in ipairs(context.data.auto and context.data.auto.asked or {}) do
+    f.count = f.count + 1
+    local load, flat = of_grasp(asked, run.start)
+    if not load then f.blind = asked.gripper.name
+    elseif load > f.load then f.load, f.gripper = load, asked.gripper.name end
+    if not flat then f.unknown = asked.wire.name
+    elseif flat > f.flat then f.flat, f.wire, f.force = flat, asked.wire.name, asked.force end
+  end
+  return f
+end
+
+function grip.idle(f) return f.count == 0 end
+
+function grip.free(_, rung, f, share)
+  if rung == 1 then
+    if f.blind then return nil, ("the grip force of '%s' is not told"):format(f.blind) end
+    if f.unknown or f.flat > share then return nil end
+    if f.load > HELD then return nil end
+    return ("the pads of '%s' bear %s of what their friction holds (limit %s), and flatten the wire by %s of "
+      .. "its width (limit %s)"):format(f.gripper, facts.percent(f.load), facts.percent(HELD),
+      facts.percent(f.flat), facts.percent(share))
+  end
+  if rung > 2 then return nil end
+  if f.unknown then
+    return nil, ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
+  end
+  if f.flat > share then return nil end
+  return ("%s flatten '%s' by %s of its width (limit %s)"):format(number.text(f.force or 0, "N"), f.wire or "?",
+    facts.percent(f.flat), facts.percent(share))
+end
+
+return grip

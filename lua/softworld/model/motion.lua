@@ -1,0 +1,89 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The choice of motion: a row of poses in equilibrium, or dynamics.
+-- @module softworld.model.motion
+local build = require "softworld.scene.build"
+local facts = require "softworld.model.facts"
+local number = require "softworld.output.number"
+
+local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
+local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
+local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be [-]
+local usual_dt = 0.01 -- of a run that is told none [s]
+
+local motion = { name = "motion", rungs = {
+  { name = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
+  { name = "dynamic", leaves = "nothing" } } }
+
+-- Largest speed of the wires [m/s].
+local function speed(scene)
+  local most = 0
+  for _, w in ipairs(build.data(scene).wires) do
+    for _, v in ipairs(w.object:velocities()) do most = math.max(most, math.abs(v)) end
+  end
+  return most
+end
+
+function motion.given(context)
+  if context.args.quasistatic ~= nil then
+    return "as the script says, quasistatic = " .. tostring(context.args.quasistatic),
+      context.args.quasistatic and 1 or 2
+  end
+  if context.args.integrator then return "as the script says, integrator = " .. context.args.integrator, 2 end
+  local v = speed(context.scene)
+  if v > 0 then return ("it begins in motion, at %s"):format(number.text(v, "m/s")), 2 end
+end
+
+function motion.apply(context, rung, changes)
+  if context.args.quasistatic ~= nil then return end
+  changes.quasistatic = rung == 1 or nil
+  if rung == 1 then
+    changes.dt = (context.args.dt or usual_dt) * POSES
+    if context.args.frames ~= false and not context.args.frame then changes.each_frame = true end
+  end
+end
+
+-- First period of a wire about where the scene rests, the longest of all wires [s]; nil where it rests nowhere.
+local function period(scene)
+  local longest
+  for _, w in ipairs(build.data(scene).wires) do
+    local fine, list = pcall(w.object.frequencies, w.object, { modes = 1 })
+    if not fine or not list[1] or list.unstable > 0 then return nil end
+    longest = math.max(longest or 0, 1 / list[1])
+  end
+  return longest
+end
+
+function motion.look(context, run)
+  local scene = context.scene
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(scene, run.start),
+    weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
+    period = context.period, iterations = run.iterations }
+end
+
+--- The first period, of the scene at rest as it begins [s].
+function motion.begin(context)
+  if context.job.rests then context.period = period(context.scene) end
+end
+
+function motion.free(_, rung, f, share)
+  if rung ~= 1 then return nil end
+  if f.jumps > 0 then
+    return nil, ("poses jump from one equilibrium to another, %d times"):format(f.jumps)
+  end
+  if not f.acceleration or not f.period or f.weight == 0 then return nil end
+  local inertia, long = f.acceleration / f.weight, f.lasts / f.period
+  if long < PERIODS or inertia > INERTIA * share then return nil end
+  return ("it lasts %.3g of its first periods of %s (%d are slow), and inertia is up to %s of the weight "
+    .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia),
+    facts.percent(INERTIA * share))
+end
+
+--- Poses that need more iterations than steps do are no saving.
+function motion.costly(rung, here, above)
+  if rung == 1 and here.iterations >= above.iterations then
+    return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
+      above.iterations)
+  end
+end
+
+return motion

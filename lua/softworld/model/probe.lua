@@ -1,0 +1,87 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- One computation on the way to a model: from the start of the run, of one rung of each choice, on a coarse
+-- level of edges and steps.
+-- @module softworld.model.probe
+local checks = require "softworld.checks"
+local core = require "softworld.core"
+local quantity = require "softworld.quantity"
+local refine = require "softworld.run.refine"
+local registry = require "softworld.model.registry"
+local trust = require "softworld.run.trust"
+
+local probe = {}
+
+-- Options of the run in place of those given.
+local function changes_of(context, rungs)
+  local changes = {}
+  for _, choice in ipairs(registry.list) do
+    if choice.apply then choice.apply(context, rungs[choice.name], changes) end
+  end
+  return changes
+end
+
+-- Stiffer or softer wires, of cables whose stiffness is known between bounds.
+local function stiffen(context, factors)
+  for wire, factor in pairs(factors or {}) do
+    core.redraw(wire, wire:get().spin_inertia ~= nil, 1, factor, 1)
+  end
+end
+
+--- Set the scene, as it begins, for rungs; returns the steps of the levels of its run.
+function probe.arrange(context, rungs, factors)
+  local changes = changes_of(context, rungs)
+  local each_frame = changes.each_frame
+  changes.each_frame = nil
+  stiffen(context, factors)
+  local steps = context.job.steps(changes)
+  return not each_frame and steps or function(k)
+    local options = steps(k)
+    options.frame = options.dt
+    return options
+  end
+end
+
+local function facts_of(context, run)
+  local facts = {}
+  for _, choice in ipairs(registry.list) do
+    facts[choice.name] = choice.look and choice.look(context, run) or {}
+  end
+  return facts
+end
+probe.facts = facts_of
+
+local function compute(context, rungs, k, factors)
+  local job, scene = context.job, context.scene
+  job.restore()
+  local steps = probe.arrange(context, rungs, factors)
+  core.remesh(scene, trust.counts(job, k))
+  local run = refine.computer(job, steps, context.run_once, context.spent)(k, "choosing a model")
+  local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
+  if not run.ok then return result end
+  result.values = {}
+  for _, q in ipairs(job.quantities) do
+    result.values[q.name] = (q.sample or quantity.read(q, run.start)).value
+  end
+  result.facts = facts_of(context, run)
+  return result
+end
+
+--- The values and facts of rungs (by the choices' names) on level k; of what was computed before the same.
+-- A computation that raises counts as one that failed.
+function probe.of(context, rungs, k, factors, label)
+  local words = { k, label or "" }
+  for _, choice in ipairs(registry.list) do words[#words + 1] = rungs[choice.name] end
+  local key = table.concat(words, " ")
+  local known = context.probes[key]
+  if known then return known end
+  local fine, result = pcall(compute, context, rungs, k, factors)
+  if not fine then
+    if checks.is_interrupt(result) then error(result, 0) end
+    result = { ok = false, reason = tostring(result), raised = result }
+  end
+  context.probes[key] = result
+  context.probe_count = context.probe_count + 1
+  return result
+end
+
+return probe
