@@ -257,6 +257,22 @@ static void seen_from(sw_hold *h, sw_pose pose) {
   }
 }
 
+void sw_scene_frame_holds(sw_scene *s, size_t wire) {
+  const sw_mesh *m = &s->wires[wire].mesh;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    if (!h->alive || h->wire != wire) continue;
+    for (int side = 0; side < 2; side++) {
+      const sw_vec held = sw_rotate(h->turn, h->director[side]);
+      sw_mesh_frame *f = &h->frame[side];
+      *f = sw_mesh_frame_at(m, side ? h->s2 : h->s1);
+      f->normal = sw_unrotate(h->turn, sw_carry_unit(f->normal, f->tangent, held));
+      f->tangent = h->director[side];
+    }
+    h->shape = ++s->serial;
+  }
+}
+
 /* Can a hold take the wire that has become another one? Those that are alive have done so. */
 static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_args *a,
                              sw_error *err) {

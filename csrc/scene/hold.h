@@ -30,6 +30,8 @@ sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh
 /* Where and how a hold holds, into another slot that owns nothing. SW_ENOMEM. */
 sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to);
 
+/* A wire without frames has got some: its living holds keep it as they do, frames and all. */
+void sw_scene_frame_holds(sw_scene *scene, size_t wire);
 /* Take hold of a wire that has other nodes but lies as before; the hold's pose is known. It is
  * not alive; those that are have done so. SW_EINVAL when one of them is in the way; SW_ENOMEM. */
 sw_status sw_scene_rehold(sw_scene *scene, sw_hold *hold, sw_pose pose, sw_error *err);

@@ -214,27 +214,55 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
   return SW_OK;
 }
 
-sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_error *err) {
-  sw_scene_wire *w;
+/* More than this is lost when a wire that has moved gets frames [rad]. */
+static const double LEAST_TWIST = 1e-3;
+
+/* One that has moved becomes one that rolls, where nothing twists it: its frames go along it. */
+static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
+  sw_scene_wire *w = &s->wires[wire];
+  sw_mesh *m = &w->mesh;
+  for (size_t k = 0; k < w->twisted_count; k++)
+    if (!(fabs(w->twisted[k].twist) <= LEAST_TWIST))
+      return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved and is twisted by %.3g rad",
+                     w->name, w->twisted[k].twist);
+  const sw_vec along = sw_unit_or(sw_sub(sw_load(m->x + 3), sw_load(m->x)), sw_v(1, 0, 0));
+  SW_TRY(sw_mesh_add_frames(m, sw_perpendicular(along), 1, 0.0));
+  w->beam.rolls = w->beam.framed = 1;
+  s->kept.changed = wire + 1;
+  sw_course_jump(&s->course);
+  sw_scene_frame_holds(s, wire);
+  return SW_OK;
+}
+
+static sw_status change_beam(sw_scene *s, size_t wire, const sw_redrawing *as, sw_error *err) {
+  sw_scene_wire *w = &s->wires[wire];
   size_t segments;
+  const int rolls = as->rolls && !w->beam.rolls, drawn = is_drawn(w);
+  if (!drawn && (w->beam.rolls != as->rolls || as->EA != 1) &&
+      (!rolls || w->mesh.rest || as->EA != 1))
+    return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved since it was drawn", w->name);
+  w->beam.EA *= as->EA, w->beam.EI *= as->EI, w->beam.GJ *= as->GJ, w->beam.E *= as->EA;
+  for (int k = 0; k < 2; k++) w->beam.EI_axis[k] *= as->EI;
+  w->drawing.rolls = as->rolls;
+  if (!drawn) return rolls ? add_rolling(s, wire, err) : SW_OK;
+  w->beam.framed = w->beam.EI_axis[0] != w->beam.EI_axis[1] || w->drawing.rest == SW_REST_PATH;
+  SW_TRY(sw_scene_wire_segments(s, (sw_handle){.slot = (uint32_t)wire, .generation = w->generation},
+                                &segments, err));
+  return redraw(s, wire, segments, err);
+}
+
+sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
-  w = &s->wires[h.slot];
+  sw_scene_wire *w = &s->wires[h.slot];
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL, "redraw: wire '%s' is a %s, not a rod", w->name, w->cls->name);
-  if (!is_drawn(w))
-    return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved since it was drawn", w->name);
   SW_TRY(check_fed(s, err));
   SW_TRY(sw_scene_thaw(s));
   const sw_beam beam = w->beam;
   const int rolled = w->drawing.rolls;
-  w->beam.EA *= as->EA, w->beam.EI *= as->EI, w->beam.GJ *= as->GJ, w->beam.E *= as->EA;
-  for (int k = 0; k < 2; k++) w->beam.EI_axis[k] *= as->EI;
-  w->drawing.rolls = as->rolls;
-  w->beam.framed = beam.EI_axis[0] != beam.EI_axis[1] || w->drawing.rest == SW_REST_PATH;
-  sw_status status = sw_scene_wire_segments(s, h, &segments, err);
-  if (status == SW_OK) status = redraw(s, h.slot, segments, err);
+  const sw_status status = change_beam(s, h.slot, as, err);
   if (status == SW_OK) return status;
   w->beam = beam, w->drawing.rolls = rolled;
   return status == SW_ENOMEM ? sw_fail(err, status, "scene '%s': out of memory", s->name) : status;

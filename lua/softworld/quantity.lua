@@ -148,7 +148,7 @@ end
 
 -- A tolerance: a number in the unit, or { relative = share of the value }. Sets it for the quantity.
 local function take(what, q, value)
-  if checks.kind(value) ~= "table" then
+  if checks.kind(value) ~= "table" or next(value) == nil then
     check_value(what, q.name, value, q.unit)
     q.tolerance = value
     return q

@@ -23,7 +23,10 @@ local choose = {}
 
 local MODEL = 0.5  -- of a tolerance: what rungs may leave out [-]
 local SAFETY = 1.5 -- of a change from one rung to the next [-]
-local DOUBT = 4    -- a change nearer than this to what is allowed is looked at on a finer mesh too [-]
+local DOUBT = 4    -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
+local LEVELS = 3   -- coarse ones on which rungs are compared
+local HOPE = 4     -- by how much a change may shrink from level to level [-]
+local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 local function rungs_of(context)
   local rungs = {}
@@ -50,37 +53,40 @@ end
 
 -- --- one choice ---------------------------------------------------------------------------
 
--- How many choices are still to be compared: each has a part of what rungs may leave out.
-local function open_count(context)
-  local count = 0
+-- What the rungs chosen leave out of a quantity, by comparing, in its unit; but one choice.
+local function left_out(context, name, but)
+  local sum = 0
   for _, state in ipairs(context.states) do
-    if state.last > 1 and state.by ~= "given" and state.by ~= "idle" and state.by ~= "free" then
-      count = count + 1
-    end
+    sum = sum + (state.by == "compared" and state ~= but and state.change[name] or 0)
   end
-  return math.max(1, count)
+  return sum
 end
 
 -- By how much quantities change between two results, with what is allowed: the worst share, its quantity, all.
-local function change(context, here, above)
-  local worst, name, all, part = -1, nil, {}, MODEL / open_count(context)
+local function change(context, state, here, above)
+  local c = { worst = -1, all = {} }
   for _, q in ipairs(context.job.quantities) do
     local a, b = here.values[q.name], above.values[q.name]
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
     if d ~= d then d = math.huge end
-    all[q.name] = SAFETY * d
-    local off = d > 0 and SAFETY * d / (part * quantity.asked(q, b)) or 0
-    if off > worst then worst, name = off, q end
+    c.all[q.name] = SAFETY * d
+    local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_out(context, q.name, state))
+    local off = d > 0 and SAFETY * d / allowed or 0
+    if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
   end
-  return { worst = worst, quantity = name, all = all, allowed = part * name.tolerance }
+  return c
 end
 
--- The same on a coarse level, and on a finer one where that leaves doubt.
-local function compare(context, rungs, above)
-  local c = change(context, probe.of(context, rungs, 1), probe.of(context, above, 1))
-  if c.worst < 1 / DOUBT or c.worst > DOUBT then return c end
-  local here, there = probe.of(context, rungs, 2), probe.of(context, above, 2)
-  if here.ok and there.ok then return change(context, here, there) end
+-- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
+-- cheap rung must not pay for coarse steps. Nothing is computed twice.
+local function compare(context, state, rungs, above)
+  local c
+  for k = 1, LEVELS do
+    local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
+    if k > 1 and not (here.ok and there.ok) then return c end
+    c = change(context, state, here, there)
+    if c.worst < 1 / DOUBT or c.worst > HOPE ^ (LEVELS - k) or k > 1 and c.worst <= 1 then return c end
+  end
   return c
 end
 
@@ -92,7 +98,7 @@ local function changed_by(c)
 end
 
 local function raise_rung(state, why)
-  state.rung, state.by, state.raised = state.rung + 1, "raised", why
+  state.rung, state.by, state.raised, state.why = state.rung + 1, "raised", why, why
 end
 
 -- Settled, and why: by the reason for which it went up, if it did, and the one for which it stays.
@@ -117,7 +123,9 @@ local function look(context, state)
     return stay(state, "idle")
   end
   local why
-  if choice.free then why, state.doubt = choice.free(context, rung, f, tightest(context, here.values)) end
+  if choice.free and not state.checked then
+    why, state.doubt = choice.free(context, rung, f, tightest(context, here.values))
+  end
   if why then
     state.known = why
     return stay(state, "free", why)
@@ -130,7 +138,7 @@ local function look(context, state)
     state.doubt = ("%s cannot be computed: %s"):format(next_name, above.reason)
     return stay(state, "failed", state.doubt)
   end
-  local c = compare(context, rungs, up)
+  local c = compare(context, state, rungs, up)
   local costly = choice.costly and choice.costly(rung, here, above)
   if costly then raise_rung(state, costly)
   elseif c.worst > 1 then raise_rung(state, ("%s instead of %s changes %s"):format(next_name,
@@ -170,23 +178,34 @@ end
 
 -- --- the run --------------------------------------------------------------------------------
 
--- What the rungs chosen leave out of a quantity, by comparing, in its unit.
-local function left_out(context, name)
-  local sum = 0
-  for _, state in ipairs(context.states) do
-    sum = sum + (state.by == "compared" and state.change[name] or 0)
+-- Do the values of k levels already have the bars that are asked for?
+local function suffices(job, k, contact)
+  if k < LEVELS then return false end
+  for _, q in ipairs(job.quantities) do
+    local values = job.values[q.name]
+    if trust.estimate(q, values, contact) > q.aim(quantity.asked(q, values[k])) then return false end
   end
-  return sum
+  return true
 end
 
 -- The finest run of the rungs chosen.
 local function refined(context)
   local job, steps = context.job, nil
-  for name in pairs(job.values) do job.values[name] = {} end
-  job.levels, job.contact, job.finest = {}, nil, nil
   for _, q in ipairs(job.quantities) do
     local left = left_out(context, q.name)
     function q.aim(asked) return math.max(asked - left, asked * MODEL, context.spread:floor(q)) end
+  end
+  job.levels, job.contact, job.finest, job.begun = {}, nil, nil, 0
+  for name in pairs(job.values) do job.values[name] = {} end
+  for k = 1, LEVELS do -- what was computed on the way is not computed again
+    local known = probe.known(context, rungs_of(context), k)
+    if not known or not known.ok then break end
+    for name, value in pairs(known.values) do job.values[name][k] = value end
+    if suffices(job, k, known.contact) then break end -- the scene is to end there
+    job.levels[k], job.begun = known.level, k
+  end
+  for _, values in pairs(job.values) do
+    for k = job.begun + 1, #values do values[k] = nil end
   end
   job.restore()
   function job.arrange() steps = probe.arrange(context, rungs_of(context)) end
@@ -198,27 +217,34 @@ local function refined(context)
   return result
 end
 
--- A free check that the finest run does not bear out: its choice goes up by one rung.
+-- A free check that the finest run does not bear out is no reason any more: its choice is compared.
+local function given_up(context, state)
+  local was, why = state.choice.rungs[state.rung].name, state.known
+  state.checked, state.by, state.known = true, nil, nil
+  local rung = state.rung
+  repeat until look(context, state)
+  local text = ("in the fine run it does not hold any more that %s"):format(why)
+  state.why = state.why and text .. "; " .. state.why or text
+  if state.rung == rung then return end
+  context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
+    text = ("%s: %s was given up; %s"):format(state.choice.name, was, state.why) }
+end
+
+-- Look at what the finest run tells; true when it is to be computed again.
 local function broken(context, result)
   local values = {}
   for name, q in pairs(result.quantities) do values[name] = q.value end
   local facts, share = probe.facts(context, result), tightest(context, values)
+  local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
-    if state.by == "free" and not state.choice.free(context, state.rung, f, share) then
-      if state.rung < state.last then
-        local was = state.choice.rungs[state.rung].name
-        raise_rung(state, ("%s was given up: in the fine run it does not hold any more that %s"):format(was,
-          state.known))
-        context.given_up[#context.given_up + 1] = { kind = "model", time = result.time, count = 1,
-          text = ("%s: %s"):format(state.choice.name, state.why) }
-        return true
-      end
-      state.by, state.doubt = "failed", "in the fine run it does not hold any more that " .. state.known
+    if state.by == "free" and not state.choice.free(context, state.rung, f, SLACK * share) then
+      given_up(context, state)
+      again = true
     end
     state.short = state.choice.short and state.choice.short(context, f, share)
   end
-  return false
+  return again
 end
 
 local function compute(context)

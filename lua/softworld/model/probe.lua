@@ -62,16 +62,24 @@ local function compute(context, rungs, k, factors)
   for _, q in ipairs(job.quantities) do
     result.values[q.name] = (q.sample or quantity.read(q, run.start)).value
   end
-  result.facts = facts_of(context, run)
+  result.facts, result.contact = facts_of(context, run), trust.touches(scene)
+  result.level = { segments = trust.counts(job, k), ok = true, cpu = run.cpu }
   return result
 end
+
+local function key_of(rungs, k, label)
+  local words = { k, label or "" }
+  for _, choice in ipairs(registry.list) do words[#words + 1] = rungs[choice.name] end
+  return table.concat(words, " ")
+end
+
+--- What was computed of rungs on level k; nil: nothing.
+function probe.known(context, rungs, k) return context.probes[key_of(rungs, k)] end
 
 --- The values and facts of rungs (by the choices' names) on level k; of what was computed before the same.
 -- A computation that raises counts as one that failed.
 function probe.of(context, rungs, k, factors, label)
-  local words = { k, label or "" }
-  for _, choice in ipairs(registry.list) do words[#words + 1] = rungs[choice.name] end
-  local key = table.concat(words, " ")
+  local key = key_of(rungs, k, label)
   local known = context.probes[key]
   if known then return known end
   local fine, result = pcall(compute, context, rungs, k, factors)

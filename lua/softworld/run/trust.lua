@@ -271,10 +271,11 @@ end
 
 -- Compute level after level until the bars are met. Returns the last result.
 local function climb(job, compute)
-  local good, bad, result = 0, 0, nil
+  local first = math.min(job.begun or 0, job.most - 1) -- levels whose values are known
+  local good, bad, result = first, 0, nil
   if job.prepare then job.prepare() end
-  for k = 1, job.most do
-    if k > 1 then
+  for k = first + 1, job.most do
+    if k > first + 1 then
       check_wires(job)
       job.restore()
     end

@@ -1,0 +1,211 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Runs that choose their model: scenes drawn at random, each with a tolerance of 10, 3 or 1 %, against every
+-- fixed model and against far finer runs of the dearest one.
+-- @module bench.auto
+local sw = require "softworld"
+
+local auto = {}
+
+-- --- scenes: each takes a source of random numbers, gives build(options) -> scene, arguments of the run ---
+
+local function between(random, a, b) return a + (b - a) * random() end
+local function pick(random, list) return list[1 + math.floor(random() * #list)] end
+
+local function wire_of(random)
+  return pick(random, { { E = 5e6, density = 1500, radius = 0.0025 }, { E = 50e6, density = 1500, radius = 0.0025 },
+    { EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.0018 },
+    { EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3, mass_per_length = 0.02, radius = 0.0015 } })
+end
+
+local function made(scene, section, options, more)
+  local args = { segments = 24, rolls = options.rolls, model = options.auto and "auto" or nil }
+  for key, value in pairs(section) do args[key] = value end
+  for key, value in pairs(more) do args[key] = value end
+  return scene:wire(args)
+end
+
+local function finish(scene, options)
+  scene:force{ kind = "damping", mass = 5 }
+  if options.contact then scene:wire_contact{} end
+  return scene
+end
+
+auto.scenes = {
+  { name = "hung", of = function(random)
+    local section, duration = wire_of(random), pick(random, { 1, 3, 10, 40 })
+    local span, near = between(random, 0.4, 0.8), between(random, 0.3, 0.7)
+    return function(options)
+      local scene = sw.scene{ name = "hung" }
+      local w = made(scene, section, options, { name = "w", from = { 0, 0, 0 }, to = { span, 0, 0 } })
+      scene:clamp(w, { s = 0, name = "left" })
+      local right = scene:clamp(w, { s = span, name = "right" })
+      right:follow{ points = { { span, 0, 0 }, { span * near, 0.1, 0.05 } }, duration = duration }
+      return finish(scene, options), { "right.force", "min_bend_radius" }, duration
+    end
+  end },
+  { name = "lifted", of = function(random)
+    local section, duration = wire_of(random), pick(random, { 0.5, 2, 8, 30 })
+    local mu, side = between(random, 0, 0.5), between(random, -0.15, 0.15)
+    return function(options)
+      local scene = sw.scene{ name = "lifted" }
+      local r = section.radius
+      scene:obstacle{ name = "table", shape = "plane", friction = mu < 0.1 and 0 or mu }
+      local w = made(scene, section, options, { name = "w", from = { 0, 0, r }, to = { 0.6, 0, r } })
+      local hand = scene:clamp(w, { s = 0, name = "hand" })
+      hand:follow{ points = { { 0, 0, r }, { 0.05, side, 0.12 } }, duration = duration }
+      return finish(scene, options), { "hand.force", "tip" }, duration
+    end
+  end },
+  { name = "turned", of = function(random)
+    local section, duration = wire_of(random), pick(random, { 1, 4 })
+    local mu, turn = between(random, 0, 0.6), between(random, 0.3, 2.5)
+    return function(options)
+      local scene = sw.scene{ name = "turned" }
+      local r = section.radius
+      scene:obstacle{ name = "table", shape = "plane", friction = mu < 0.1 and 0 or mu }
+      local w = made(scene, section, options, { name = "w", from = { 0, 0, r }, to = { 0.4, 0, r } })
+      local hand = scene:clamp(w, { s = 0, name = "hand" })
+      hand:follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, turn = { axis = { 1, 0, 0 }, angle = turn },
+        duration = duration }
+      return finish(scene, options), { "hand.moment", "tip" }, duration
+    end
+  end },
+  { name = "crossed", of = function(random)
+    local section, duration = wire_of(random), pick(random, { 1, 4 })
+    local gap, down = between(random, 0.02, 0.1), between(random, 0.03, 0.09)
+    return function(options)
+      local scene = sw.scene{ name = "crossed" }
+      local a = made(scene, section, options, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
+      local b = made(scene, section, options, { name = "b", from = { 0, -0.2, gap }, to = { 0, 0.2, gap } })
+      for k, w in ipairs{ a, b } do
+        for i, s in ipairs{ 0, 0.4 } do
+          local c = scene:clamp(w, { s = s, name = ("%s%d"):format(k == 1 and "a" or "b", i) })
+          if k == 2 then
+            c:follow{ points = { { 0, 0, 0 }, { 0, 0, -down } }, relative = true, duration = duration }
+          end
+        end
+      end
+      return finish(scene, options), { "b1.force", "a1.force" }, duration
+    end
+  end },
+  { name = "pegged", of = function(random)
+    local section, duration = wire_of(random), pick(random, { 1, 5 })
+    local mu, down = between(random, 0, 0.4), between(random, 0.05, 0.12)
+    return function(options)
+      local scene = sw.scene{ name = "pegged" }
+      scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.02, length = 0.2, friction = mu < 0.1 and 0 or mu,
+        at = { 0, 0, -0.02 - section.radius - 0.003 }, rotation = { math.cos(math.pi / 4), math.sin(math.pi / 4), 0, 0 } }
+      local w = made(scene, section, options, { name = "w", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 }, segments = 40 })
+      for i, s in ipairs{ 0, 0.4 } do
+        local x = i == 1 and 0.06 or -0.06
+        scene:clamp(w, { s = s, name = "c" .. i }):follow{ points = { { 0, 0, 0 }, { x, 0, -down } }, relative = true,
+          duration = duration }
+      end
+      return finish(scene, options), { "peg.mean_force", "min_bend_radius" }, duration
+    end
+  end },
+}
+
+-- --- what is true ------------------------------------------------------------------------------
+
+local function tolerance(names, share)
+  local t = {}
+  for _, name in ipairs(names) do t[name] = { relative = share } end
+  return t
+end
+
+local function run(build, options, share, levels, static)
+  local scene, names, duration = build(options)
+  if options.settle ~= false then scene:settle() end
+  local clock = sw.core.clock()
+  local fine, r = pcall(scene.run, scene, { duration = duration, tolerance = tolerance(names, share), levels = levels,
+    quasistatic = static, dt = static and 0.04 or nil })
+  if not fine then return nil, r end
+  return r.ok and r or nil, r.reason, sw.core.clock() - clock
+end
+
+local function near(a, b)
+  if type(a) == "number" then return math.abs(a - b) end
+  local sum = 0
+  for i, x in ipairs(a) do sum = sum + near(x, b[i]) ^ 2 end
+  return sum ^ 0.5
+end
+
+local function size(a) return type(a) == "number" and math.abs(a) or near(a, { 0, 0, 0 }) end
+
+-- The rungs of a run with model = "auto", in the order of fixed models.
+local function rungs_of(model)
+  return (model.motion == "poses" and "p" or "d") .. (model.twist == "rolling" and "r" or "h")
+    .. (model.contact == "wires" and "w" or "n")
+end
+
+local fixed = {}
+for _, m in ipairs{ "p", "d" } do
+  for _, t in ipairs{ "h", "r" } do
+    for _, c in ipairs{ "n", "w" } do fixed[#fixed + 1] = m .. t .. c end
+  end
+end
+
+-- Is a cheaper than b in no choice dearer?
+local function cheaper(a, b)
+  if a == b then return false end
+  for k, low in ipairs{ "p", "h", "n" } do
+    if a:sub(k, k) ~= low and b:sub(k, k) == low then return false end
+  end
+  return true
+end
+
+local function one(kind, random, share)
+  local build = kind.of(random)
+  local truth, why = run(build, { rolls = true, contact = true }, share / 8, 6)
+  if not truth then return nil, why end
+  local r, reason, cost = run(build, { auto = true }, share)
+  if not r then return { failed = reason } end
+  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu, probes = r.model.cost,
+    enough = {}, met = r.met, wall = cost, times = {} }
+  for name, q in pairs(r.quantities) do
+    local t = truth.quantities[name]
+    out.rows = out.rows + 1
+    local off = near(q.value, t.value)
+    local bar = q.error + t.error
+    out.held = out.held + (off <= bar and 1 or 0)
+    out.off = math.max(out.off or 0, off / bar)
+  end
+  for _, word in ipairs(fixed) do
+    local f = run(build, { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w" }, share / 4, 5,
+      word:sub(1, 1) == "p" or nil)
+    local enough = f ~= nil
+    for name, q in pairs(f and f.quantities or {}) do
+      local t = truth.quantities[name]
+      enough = enough and near(q.value, t.value) <= share * size(t.value) + q.error + t.error
+    end
+    out.enough[word], out.times[word] = enough, f and f.cpu
+  end
+  return out
+end
+
+--- Scenes drawn by a seed: { name =, share =, rungs =, held =, rows =, cheapest =, too_cheap =, cost =, probes = }.
+function auto.draw(count, seed, tell)
+  local generator, list = require("softworld.study.design").generator(seed, 17), {}
+  for k = 1, count do
+    local kind, share = auto.scenes[1 + (k - 1) % #auto.scenes], ({ 0.1, 0.03, 0.01 })[1 + (k - 1) % 3]
+    local got, why = one(kind, generator, share)
+    if not got then why = tostring(why) end
+    local row = got or { failed = why, no_truth = true }
+    row.name, row.share = kind.name, share
+    if row.enough then
+      row.too_cheap = not row.enough[row.rungs]
+      row.cheapest = not row.too_cheap
+      for _, word in ipairs(fixed) do
+        if row.enough[word] and cheaper(word, row.rungs) and row.times[word] < row.times[row.rungs] then
+          row.cheapest, row.better = false, word
+        end
+      end
+    end
+    list[k] = row
+    if tell then tell(row) end
+  end
+  return list
+end
+
+return auto
