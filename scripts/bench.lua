@@ -6,7 +6,7 @@
 -- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
 -- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run;
 -- case=study: what a study's workers bring and cost; case=calibration: 1,000 known cables, and how often
--- intervals hold the truth.
+-- intervals hold the truth; case=auto: runs that choose their model, against fixed models.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 package.cpath = (arg[-1]:match "^(.*/)" or "") .. "lib/?.so;" .. package.cpath -- softworld.probe
@@ -182,7 +182,7 @@ for _, name in ipairs(order) do
 end
 if #jobs == 0 and not (wanted.case and (wanted.case.meshes or wanted.case.grip
   or wanted.case.crowds or wanted.case.report or wanted.case.bundle or wanted.case.view
-  or wanted.case.study or wanted.case.calibration)) then
+  or wanted.case.study or wanted.case.calibration or wanted.case.auto)) then
   io.stderr:write("bench: nothing fits these options\n")
   os.exit(2)
 end
@@ -554,6 +554,7 @@ if not next(wanted) or wanted.case and wanted.case.grip then print_grips() end
 if wanted.case and wanted.case.view then print_view() end
 if wanted.case and wanted.case.study then print_study() end
 if wanted.case and wanted.case.calibration then print_calibration() end
+if wanted.case and wanted.case.auto then require("bench.auto").print(wanted.n and next(wanted.n)) end
 if wanted.case and wanted.case.crowds then print_crowds() end
 if wanted.case and wanted.case.bundle then print_bundles() end
 local bad = {}

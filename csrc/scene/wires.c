@@ -17,7 +17,8 @@ static const sw_param wire_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
      "name used in messages and series"},
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
-     "wire model: 'rod' (default), 'string', or a mesh: 'tube', 'radial', 'cubic', 'composite'"},
+     "wire model: 'rod' (default), 'string', a mesh: 'tube', 'radial', 'cubic', 'composite', or "
+     "'auto'"},
     {"from", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, from),
      "start of a straight wire (s = 0)"},
     {"to", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_wire_args, to),

@@ -66,6 +66,7 @@ function sw.cables() return sw.cable.list() end
 
 rows.later(core.class.scene, "softworld.scene.script", "script")
 rows.later(core.class.scene, "softworld.scene.describe", "describe")
+rows.later(core.class.scene, "softworld.model.advise", "advise")
 rows.later(core.class.scene, "softworld.run.pictures", "picture")
 rows.later(core.class.scene, "softworld.view.view", "view")
 rows.later(sw, "softworld.run.plot", "plot")

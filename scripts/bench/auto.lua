@@ -12,7 +12,8 @@ local function between(random, a, b) return a + (b - a) * random() end
 local function pick(random, list) return list[1 + math.floor(random() * #list)] end
 
 local function wire_of(random)
-  return pick(random, { { E = 5e6, density = 1500, radius = 0.0025 }, { E = 50e6, density = 1500, radius = 0.0025 },
+  return pick(random, { { E = 5e6, density = 1500, radius = 0.0025 }, { E = 50e6, density = 1500,
+    radius = 0.0025 },
     { EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.0018 },
     { EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3, mass_per_length = 0.02, radius = 0.0015 } })
 end
@@ -65,7 +66,8 @@ auto.scenes = {
       scene:obstacle{ name = "table", shape = "plane", friction = mu < 0.1 and 0 or mu }
       local w = made(scene, section, options, { name = "w", from = { 0, 0, r }, to = { 0.4, 0, r } })
       local hand = scene:clamp(w, { s = 0, name = "hand" })
-      hand:follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, turn = { axis = { 1, 0, 0 }, angle = turn },
+      hand:follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, turn = { axis = { 1, 0, 0 },
+        angle = turn },
         duration = duration }
       return finish(scene, options), { "hand.moment", "tip" }, duration
     end
@@ -93,12 +95,16 @@ auto.scenes = {
     local mu, down = between(random, 0, 0.4), between(random, 0.05, 0.12)
     return function(options)
       local scene = sw.scene{ name = "pegged" }
-      scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.02, length = 0.2, friction = mu < 0.1 and 0 or mu,
-        at = { 0, 0, -0.02 - section.radius - 0.003 }, rotation = { math.cos(math.pi / 4), math.sin(math.pi / 4), 0, 0 } }
-      local w = made(scene, section, options, { name = "w", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 }, segments = 40 })
+      scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.02, length = 0.2, friction = mu < 0.1
+        and 0 or mu,
+        at = { 0, 0, -0.02 - section.radius - 0.003 }, rotation = { math.cos(math.pi / 4),
+          math.sin(math.pi / 4), 0, 0 } }
+      local w = made(scene, section, options, { name = "w", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 },
+        segments = 40 })
       for i, s in ipairs{ 0, 0.4 } do
         local x = i == 1 and 0.06 or -0.06
-        scene:clamp(w, { s = s, name = "c" .. i }):follow{ points = { { 0, 0, 0 }, { x, 0, -down } }, relative = true,
+        scene:clamp(w, { s = s, name = "c" .. i }):follow{ points = { { 0, 0, 0 }, { x, 0, -down } },
+          relative = true,
           duration = duration }
       end
       return finish(scene, options), { "peg.mean_force", "min_bend_radius" }, duration
@@ -118,7 +124,8 @@ local function run(build, options, share, levels, static)
   local scene, names, duration = build(options)
   if options.settle ~= false then scene:settle() end
   local clock = sw.core.clock()
-  local fine, r = pcall(scene.run, scene, { duration = duration, tolerance = tolerance(names, share), levels = levels,
+  local fine, r = pcall(scene.run, scene, { duration = duration, tolerance = tolerance(names, share),
+    levels = levels,
     quasistatic = static, dt = static and 0.04 or nil })
   if not fine then return nil, r end
   return r.ok and r or nil, r.reason, sw.core.clock() - clock
@@ -161,7 +168,8 @@ local function one(kind, random, share)
   if not truth then return nil, why end
   local r, reason, cost = run(build, { auto = true }, share)
   if not r then return { failed = reason } end
-  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu, probes = r.model.cost,
+  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu,
+    probes = r.model.cost,
     enough = {}, met = r.met, wall = cost, times = {} }
   for name, q in pairs(r.quantities) do
     local t = truth.quantities[name]
@@ -184,7 +192,8 @@ local function one(kind, random, share)
   return out
 end
 
---- Scenes drawn by a seed: { name =, share =, rungs =, held =, rows =, cheapest =, too_cheap =, cost =, probes = }.
+--- Scenes drawn by a seed: { name =, share =, rungs =, held =, rows =, cheapest =, too_cheap =, cost =,
+-- probes = }.
 function auto.draw(count, seed, tell)
   local generator, list = require("softworld.study.design").generator(seed, 17), {}
   for k = 1, count do
@@ -206,6 +215,50 @@ function auto.draw(count, seed, tell)
     if tell then tell(row) end
   end
   return list
+end
+
+-- Aims: of rows that hold, of models that are the cheapest, of models too cheap; of the cost of choosing
+-- over the run of the model chosen (20 ms are allowed), of the dearest model over choosing and running.
+auto.aims = { held = 0.95, cheapest = 0.9, too_cheap = 0.02, choosing = 0.3, gain = 10 }
+
+--- Figures of a list of rows.
+function auto.figures(list)
+  local f = { scenes = 0, rows = 0, held = 0, cheapest = 0, too_cheap = 0, choosing = 0, run = 0, dearest = 0,
+    failed = 0, over = 0 }
+  for _, r in ipairs(list) do
+    if r.failed then f.failed = f.failed + 1
+    else
+      f.scenes, f.rows, f.held = f.scenes + 1, f.rows + r.rows, f.held + r.held
+      f.cheapest, f.too_cheap = f.cheapest + (r.cheapest and 1 or 0), f.too_cheap + (r.too_cheap and 1 or 0)
+      f.choosing, f.run, f.dearest = f.choosing + r.probes, f.run + r.cost, f.dearest + (r.times.drw or 0)
+      if r.probes > math.max(0.02, auto.aims.choosing * r.cost) then f.over = f.over + 1 end
+    end
+  end
+  return f
+end
+
+local function verdict(met) return met and "met" or "missed" end
+
+--- Draw twenty scenes by each of two seeds and print what comes of it.
+function auto.print(seed)
+  local aims = auto.aims
+  for k = 1, 2 do
+    local number = (tonumber(seed) or 1) + k - 1
+    local f = auto.figures(auto.draw(20, number))
+    print(("\nruns that choose their model, seed %d: %d scenes (%d without a result)"):format(number,
+      f.scenes,
+      f.failed))
+    print(("  %.1f %% of %d bars hold (aim %g: %s); %.1f %% the cheapest that suffices (aim %g: %s), %.1f "
+      .. "%% too "
+      .. "cheap (aim %g: %s)"):format(100 * f.held / f.rows, f.rows, 100 * aims.held,
+      verdict(f.held >= aims.held * f.rows), 100 * f.cheapest / f.scenes, 100 * aims.cheapest,
+      verdict(f.cheapest >= aims.cheapest * f.scenes), 100 * f.too_cheap / f.scenes, 100 * aims.too_cheap,
+      verdict(f.too_cheap <= aims.too_cheap * f.scenes)))
+    print(("  choosing %.3g s, over 20 ms and 0.3 of the run in %d scenes; the runs %.3g s; the dearest "
+      .. "model at a "
+      .. "quarter of the tolerance %.3g times as much"):format(f.choosing, f.over, f.run,
+      f.dearest / (f.choosing + f.run)))
+  end
 end
 
 return auto

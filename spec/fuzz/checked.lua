@@ -82,7 +82,7 @@ local function wrong_number(value, path, infinite, depth)
     table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
     for _, key in ipairs(keys) do
       local inside = infinite or type(key) == "string" and (key:find "radius" or key:find "limit"
-        or key:find "smallest")
+        or key:find "smallest" or key == "error") -- an error bar of what the data do not tell
       local found = wrong_number(rawget(value, key), ("%s.%s"):format(path, type(key) == "number" and "#"
         or tostring(key)), inside, depth + 1)
       if found then return found end

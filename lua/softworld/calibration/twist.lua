@@ -8,13 +8,15 @@ local twisted = require "softworld.calibration.twisted"
 local twist = { name = "twist" }
 
 local WHAT = "sw.calibration: twist"
+local MOST = 1e4 -- angle at which a wire buckles [rad]
 
 twist.rows = rows.list{
   { "length", "number", "m", "of the straight wire between its ends", min = 0, above = true,
     required = true },
   { "ends", "choice", "-", "clamped in line, or hinged", choices = { "clamped", "hinged" },
     default = "clamped" },
-  { "angle", "number", "rad", "by which one end is turned when it buckles", min = 0, above = true },
+  { "angle", "number", "rad", "by which one end is turned when it buckles", min = 0, max = MOST,
+    above = true },
   { "tension", "number", "N", "that pulls it meanwhile", default = 0 },
   { "file", "text", "-", "CSV with columns tension [N], angle [deg], instead of angle" },
   { "points", "list of {tension, angle}", "-", "the same as a table [N], [rad]" },
@@ -53,7 +55,9 @@ function twist.read(o)
   local values = {}
   for k, point in ipairs(list) do
     values[k] = point[2]
-    if point[2] <= 0 then fail("%s: the angle is %.4g rad; it must be above 0", list.where(k), point[2]) end
+    if point[2] <= 0 or point[2] > MOST then
+      fail("%s: the angle is %.4g rad; it must be above 0 and up to %g rad", list.where(k), point[2], MOST)
+    end
   end
   return { name = "twist", sigma = o.sigma, unit = "rad", values = values, points = list, options = o,
     needs_EI = true, source = ("twist that buckles it, %d reading%s"):format(#list, #list == 1 and "" or "s"),

@@ -2,6 +2,7 @@
 --- How grippers take hold of a wire and let go: imposed, by plates, or mixed.
 -- @module softworld.grip.grasp
 local core = require "softworld.core"
+local approach_words = require "softworld.grip.approach"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasped = require "softworld.grip.grasped"
@@ -446,22 +447,6 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
   { "layers", "mesh", "-", "of mixed, as of wire:remodel" },
   { "across", "mesh", "-", "of mixed, as of wire:remodel" },
 })
-local pad_words = { "force", "distance", "speed" }
-local mesh_words = { "region", "model", "section", "spacing", "particles", "layers", "across",
-  "margin", "freeze" }
-
-local function check_words(self, approach, args)
-  local function refuse(words, wanted)
-    for _, word in ipairs(words) do
-      if args[word] ~= nil then
-        error(("gripper '%s': %s goes with approach = %s"):format(self.name, word, wanted), 0)
-      end
-    end
-  end
-  if approach == "imposed" then refuse(pad_words, "'plates' or 'mixed'") end
-  if approach ~= "mixed" then refuse(mesh_words, "'mixed'") end
-end
-
 -- The wire or list of wires as a list.
 local function wires_of(self, given)
   local list = type(given) == "table" and given or { given }
@@ -507,25 +492,6 @@ local function check_free(self, wires, approach, args)
   end
 end
 
--- How it is to take hold; a run that chooses its model chooses that too, where the script leaves it open.
-local function approach_of(self, wires, args)
-  local auto = build.data(self.scene).auto
-  local open = args.approach == "auto" or args.approach == nil and auto and args.force
-  if not open then return args.approach or "imposed" end
-  if not auto then
-    error(("gripper '%s': approach = 'auto' is for runs that choose: scene:run{ model = 'auto' }"):format(
-      self.name), 0)
-  end
-  auto.asked[#auto.asked + 1] = { gripper = self, wire = wires[1], force = args.force, s = args.s }
-  if auto.approach == "imposed" then
-    for _, word in ipairs(pad_words) do args[word] = nil end
-  end
-  if auto.approach ~= "mixed" then
-    for _, word in ipairs(mesh_words) do args[word] = nil end
-  end
-  return auto.approach
-end
-
 --- Take hold of a wire, see help "gripper:grasp". A list of wires, with one s or a list of them, is taken at
 -- once; an imposed grip also takes one wire after another. In a process it returns when the wire is held;
 -- elsewhere jaws begin to close.
@@ -535,10 +501,10 @@ function Methods:grasp(wire, args)
   grasp.check_scene(self, 3)
   local wires = build.call(3, wires_of, self, wire)
   args = take:read(args)
-  local approach = build.call(3, approach_of, self, wires, args)
+  local approach = build.call(3, approach_words.of, self, wires, args)
   build.call(3, check_free, self, wires, approach, args)
   remarks.on("grasp", ("gripper '%s': grasp"):format(self.name), args)
-  check_words(self, approach, args)
+  approach_words.check(self, approach, args)
   if approach == "mixed" and not process.current() then
     error(("gripper '%s': a mixed grasp takes its time; call it in a process"):format(self.name), 2)
   end

@@ -13,7 +13,7 @@ manual.groups = {
     "winding", "join", "touches", "particles", "process", "waiting", "observe", "view", "tuning", "study",
     "search", "fit", "calibration", "cluster", "player", "plotting", "save", "snapshot", "remove",
     "mistakes" } },
-  { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
+  { "Choose", { "models", "auto", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
   { "What runs tell", { "results", "check", "refused", "remarks", "crashes", "breaking", "kinks", "files" } },
@@ -24,6 +24,7 @@ manual.groups = {
 --- Other words under which a page is found.
 manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", harness = "join",
   plastic = "springback", exact = "accuracy", errors = "mistakes",
+  advise = "auto", why = "auto", cheapest = "auto",
   rail = "slider", plot = "plotting", charts = "plotting",
   pictures = "plotting", paraview = "plotting", resume = "save", load = "save", ledger = "energy",
   observer = "observe", live = "view",

@@ -85,7 +85,8 @@ end
 --- run:why(): see help "auto".
 function answer.why(run)
   if not run.model then
-    error("the model of this run was not chosen: run with model = 'auto' and tolerance = { quantity = value }", 0)
+    error("the model of this run was not chosen: run with model = 'auto' and tolerance = { quantity = "
+      .. "value }", 0)
   end
   return run.model
 end

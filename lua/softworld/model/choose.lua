@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- scene:run{ tolerance = { quantity = value }, model = "auto" }: no more model than the quantities need.
 --
--- Every choice begins at its cheapest rung. Where a free check tells that it suffices, it stays. Otherwise the
--- next rung is computed too, on coarse edges and steps, and what the quantities change by decides: a rung
+-- Every choice begins at its cheapest rung. Where a free check tells that it suffices, it stays. Otherwise
+-- the next rung is computed too, on coarse edges and steps, and what the quantities change by decides: a rung
 -- stays where the change is a small part of what was asked for. Then edges and steps are refined for the
 -- rungs chosen, and what the finest run tells must still bear out the free checks.
 -- @module softworld.model.choose
@@ -23,7 +23,8 @@ local choose = {}
 
 local MODEL = 0.5  -- of a tolerance: what rungs may leave out [-]
 local SAFETY = 1.5 -- of a change from one rung to the next [-]
-local DOUBT = 4    -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
+-- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
+local DOUBT = 4
 local LEVELS = 3   -- coarse ones on which rungs are compared
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
@@ -62,7 +63,8 @@ local function left_out(context, name, but)
   return sum
 end
 
--- By how much quantities change between two results, with what is allowed: the worst share, its quantity, all.
+-- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
+-- all.
 local function change(context, state, here, above)
   local c = { worst = -1, all = {} }
   for _, q in ipairs(context.job.quantities) do
@@ -92,8 +94,8 @@ end
 
 local function changed_by(c)
   local q = c.quantity
-  if c.worst == 0 then return "nothing" end
-  return ("%s by %s (allowed %s)"):format(q.name, number.text(c.all[q.name], q.unit),
+  if c.worst == 0 then return "nothing changes" end
+  return ("%s changes by %s (allowed %s)"):format(q.name, number.text(c.all[q.name], q.unit),
     number.text(c.allowed, q.unit))
 end
 
@@ -115,7 +117,7 @@ local function look(context, state)
   local here = probe.of(context, rungs, 1)
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
-    raise_rung(state, ("%s cannot be computed: %s"):format(choice.rungs[rung].name, here.reason))
+    raise_rung(state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
     return false
   end
   local f = here.facts[name]
@@ -133,19 +135,18 @@ local function look(context, state)
   if rung == state.last then return stay(state, "last") end
   local up = with(rungs, name, rung + 1)
   local above = probe.of(context, up, 1)
-  local next_name = choice.rungs[rung + 1].name
+  local next_as = choice.rungs[rung + 1].as
   if not above.ok then
-    state.doubt = ("%s cannot be computed: %s"):format(next_name, above.reason)
+    state.doubt = ("%s cannot be computed: %s"):format(next_as, above.reason)
     return stay(state, "failed", state.doubt)
   end
   local c = compare(context, state, rungs, up)
   local costly = choice.costly and choice.costly(rung, here, above)
   if costly then raise_rung(state, costly)
-  elseif c.worst > 1 then raise_rung(state, ("%s instead of %s changes %s"):format(next_name,
-    choice.rungs[rung].name, changed_by(c)))
+  elseif c.worst > 1 then raise_rung(state, ("with %s %s"):format(next_as, changed_by(c)))
   else
     state.change = c.all
-    return stay(state, "compared", ("%s would change %s"):format(next_name, changed_by(c)))
+    return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
   end
   return false
 end
@@ -219,7 +220,7 @@ end
 
 -- A free check that the finest run does not bear out is no reason any more: its choice is compared.
 local function given_up(context, state)
-  local was, why = state.choice.rungs[state.rung].name, state.known
+  local was, why = state.choice.rungs[state.rung].as, state.known
   state.checked, state.by, state.known = true, nil, nil
   local rung = state.rung
   repeat until look(context, state)
@@ -227,7 +228,7 @@ local function given_up(context, state)
   state.why = state.why and text .. "; " .. state.why or text
   if state.rung == rung then return end
   context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
-    text = ("%s: %s was given up; %s"):format(state.choice.name, was, state.why) }
+    text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
 end
 
 -- Look at what the finest run tells; true when it is to be computed again.
@@ -283,7 +284,8 @@ end
 function choose.wanted(scene, args)
   local word = args.model
   if word ~= nil and word ~= "auto" then
-    error(("scene:run: model = %s is not allowed; it must be 'auto', or left out: each wire has its own model")
+    error(("scene:run: model = %s is not allowed; it must be 'auto', or left out: each wire has its own "
+      .. "model")
       :format(checks.shown(word)), 0)
   end
   local named

@@ -5,8 +5,8 @@ local facts = require "softworld.model.facts"
 local record = require "softworld.scene.record"
 
 local contact = { name = "contact", rungs = {
-  { name = "none", leaves = "touches of wires with wires and with themselves" },
-  { name = "wires", leaves = "nothing" } } }
+  { name = "none", as = "no touches of wires", leaves = "touches of wires with wires and with themselves" },
+  { name = "wires", as = "touches of wires", leaves = "nothing" } } }
 
 function contact.given(context)
   if context.scripted_contact then return "as the script says, scene:wire_contact", 2 end
@@ -41,7 +41,8 @@ end
 
 function contact.free(_, rung, f)
   if rung ~= 1 or not f.frames or f.room <= 0 or f.turning >= math.pi then return nil end
-  local apart = f.room < math.huge and ("the boxes that wires sweep stay %.3g m apart, and "):format(f.room) or ""
+  local apart = f.room < math.huge and ("the boxes that wires sweep stay %.3g m apart, and "):format(f.room)
+    or ""
   return ("wires cannot meet: %sno wire turns by more than %.3g rad along its length (limit %.3g)"):format(
     apart, f.turning, math.pi)
 end

@@ -93,7 +93,8 @@ function facts.swept(scene, start)
   local boxes, most, before = {}, 0, nil
   facts.frames(scene, start, function(frame)
     for w, x in ipairs(frame.wires) do
-      local box = boxes[w] or { math.huge, math.huge, math.huge, -math.huge, -math.huge, -math.huge, step = 0 }
+      local box = boxes[w] or { math.huge, math.huge, math.huge, -math.huge, -math.huge, -math.huge,
+        step = 0 }
       boxes[w] = box
       for i = 1, #x - 2, 3 do
         grow(box, x[i], x[i + 1], x[i + 2])

@@ -9,9 +9,9 @@ local section = require "softworld.model.section"
 local HELD = 0.5 -- of what pads hold: below this nothing slips, however force and moment add up [-]
 
 local grip = { name = "grip", rungs = {
-  { name = "imposed", leaves = "slip, and the wire's turning between the pads" },
-  { name = "plates", leaves = "flattening between the pads" },
-  { name = "mixed", leaves = "flattening elsewhere" } } }
+  { name = "imposed", as = "an imposed grip", leaves = "slip, and the wire's turning between the pads" },
+  { name = "plates", as = "pads", leaves = "flattening between the pads" },
+  { name = "mixed", as = "mixed handling", leaves = "flattening elsewhere" } } }
 
 function grip.apply(context, rung)
   context.data.auto = { approach = grip.rungs[rung].name, asked = {} }
@@ -62,7 +62,8 @@ function grip.free(_, rung, f, share)
     return nil, ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
   end
   if f.flat > share then return nil end
-  return ("%s flatten '%s' by %s of its width (limit %s)"):format(number.text(f.force or 0, "N"), f.wire or "?",
+  return ("%s flatten '%s' by %s of its width (limit %s)"):format(number.text(f.force or 0, "N"), f.wire
+    or "?",
     facts.percent(f.flat), facts.percent(share))
 end
 

@@ -11,8 +11,8 @@ local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be
 local usual_dt = 0.01 -- of a run that is told none [s]
 
 local motion = { name = "motion", rungs = {
-  { name = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
-  { name = "dynamic", leaves = "nothing" } } }
+  { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
+  { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 
 -- Largest speed of the wires [m/s].
 local function speed(scene)
@@ -42,7 +42,8 @@ function motion.apply(context, rung, changes)
   end
 end
 
--- First period of a wire about where the scene rests, the longest of all wires [s]; nil where it rests nowhere.
+-- First period of a wire about where the scene rests, the longest of all wires [s]; nil where it rests
+-- nowhere.
 local function period(scene)
   local longest
   for _, w in ipairs(build.data(scene).wires) do
@@ -55,7 +56,8 @@ end
 
 function motion.look(context, run)
   local scene = context.scene
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(scene, run.start),
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(scene,
+    run.start),
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
     period = context.period, iterations = run.iterations }
 end

@@ -21,7 +21,7 @@ local function changes_of(context, rungs)
 end
 
 -- Stiffer or softer wires, of cables whose stiffness is known between bounds.
-local function stiffen(context, factors)
+local function stiffen(factors)
   for wire, factor in pairs(factors or {}) do
     core.redraw(wire, wire:get().spin_inertia ~= nil, 1, factor, 1)
   end
@@ -32,7 +32,7 @@ function probe.arrange(context, rungs, factors)
   local changes = changes_of(context, rungs)
   local each_frame = changes.each_frame
   changes.each_frame = nil
-  stiffen(context, factors)
+  stiffen(factors)
   local steps = context.job.steps(changes)
   return not each_frame and steps or function(k)
     local options = steps(k)

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What a run with model = "auto" chooses, each by itself: one file per choice, one line here.
 --
--- A choice: { name =, rungs = { { name =, leaves = what it leaves out }, ... } from cheap to dear, and
--- functions of the context { scene =, data =, args =, job =, ... }:
+-- A choice: { name =, rungs = { { name =, as = in a sentence, leaves = what it leaves out }, ... } from
+-- cheap to dear, and functions of the context { scene =, data =, args =, job =, ... }:
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
 --   apply(context, rung, changes): sets the scene, or options of its run, before a computation

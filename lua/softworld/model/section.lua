@@ -8,7 +8,8 @@ local number = require "softworld.output.number"
 
 local POISSON = 0.4 -- of what wires are made of, where nobody says [-]
 
-local section = { name = "section", rungs = { { name = "round", leaves = "flattening of the section" } } }
+local section = { name = "section", rungs = { { name = "round", as = "round sections",
+  leaves = "flattening of the section" } } }
 
 -- Young's modulus of what is pressed [Pa], and what it is of: of a wire told by E its own, of a cable that of
 -- its insulation; nil where it is not known.
@@ -75,16 +76,19 @@ function section.look(context, run)
 end
 
 function section.free(_, _, f, share)
-  if f.unknown then return nil, ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown) end
+  if f.unknown then return nil, ("how stiff the section of '%s' is, is not known: give "
+    .. "E"):format(f.unknown) end
   if f.q == 0 then return "nothing presses on a wire" end
   if f.share > share then return nil end
-  return ("'%s' is pressed by up to %s and flattened by %s of its width, by the modulus of %s (limit %s)"):format(
+  return ("'%s' is pressed by up to %s and flattened by %s of its width, by the modulus of %s (limit "
+    .. "%s)"):format(
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
 end
 
 function section.short(_, f, share)
   if f.unknown or f.share <= share then return nil end
-  return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): take a mesh, help 'models'")
+  return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): take a mesh, help "
+    .. "'models'")
     :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
 end
 

@@ -18,7 +18,8 @@ function spread.new(context)
     local entry, EI = w.object:cable(), w.object:get().EI
     if entry and w.object.model == "rod" and EI == entry.EI.value and entry.EI.low < entry.EI.high then
       self.low[w.object], self.high[w.object] = entry.EI.low / EI, entry.EI.high / EI
-      self.names[#self.names + 1] = ("EI of '%s' (%s) is between %.3g and %.3g N m2"):format(w.name, entry.name,
+      self.names[#self.names + 1] = ("EI of '%s' (%s) is between %.3g and %.3g N m2"):format(w.name,
+        entry.name,
         entry.EI.low, entry.EI.high)
     end
   end
@@ -32,7 +33,8 @@ function spread:look(rungs, base)
     local r = probe.of(self.context, rungs, 1, self[word], word)
     if r.ok then
       for name, value in pairs(r.values) do
-        local d = quantity.alike(value, base.values[name]) and quantity.distance(value, base.values[name]) or 0
+        local d = quantity.alike(value, base.values[name]) and quantity.distance(value, base.values[name])
+          or 0
         if d == d then self.changes[name] = math.max(self.changes[name] or 0, d) end
       end
     else

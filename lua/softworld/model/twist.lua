@@ -5,19 +5,19 @@ local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 
 local twist = { name = "twist", rungs = {
-  { name = "held", leaves = "rolling, and twist by friction: it acts on the axis" },
-  { name = "rolling", leaves = "nothing" } } }
+  { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: it acts on the axis" },
+  { name = "rolling", as = "rolling", leaves = "nothing" } } }
 
 -- Can it be made one that rolls?
 local function may_roll(wire) return wire.model == "rod" and not wire:get().spin_inertia end
 
 function twist.given(context)
-  local why = "there is no rod"
+  local why, rung = "there is no rod", 1
   for _, w in ipairs(context.data.wires) do
     if may_roll(w.object) then return nil end
-    if w.object:get().spin_inertia then why = ("as the script says, '%s' rolls"):format(w.name) end
+    if w.object:get().spin_inertia then why, rung = ("as the script says, '%s' rolls"):format(w.name), 2 end
   end
-  return why, 1
+  return why, rung
 end
 
 function twist.apply(context, rung)

@@ -3,6 +3,7 @@
 -- hardly meant is told with the line of the script that made it. Runs give a placeholder that takes every
 -- call; where a script needs a number of one, it ends there, and lint says so.
 -- @module softworld.program.lint
+local advise = require "softworld.model.advise"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local place = require "softworld.place"
@@ -207,6 +208,11 @@ local function check_scene(record)
     end
   end
   check_holds(record.holds)
+  for _, item in ipairs(advise.spare(record.scene)) do
+    for _, w in ipairs(record.wires) do
+      if w.object == item.wire then tell(w.at, item.text) end
+    end
+  end
   record.checked = true
 end
 

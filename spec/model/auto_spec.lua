@@ -1,0 +1,314 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Runs that choose their model: what each choice stands on, against scenes whose answer is known.
+local sw = require "softworld"
+local core = sw.core
+
+local R = 0.0025
+
+local function rod(scene, more)
+  local args = { name = "w", E = 5e6, density = 1500, radius = R, from = { 0, 0, 0 }, to = { 0.6, 0, 0 },
+    segments = 24, model = "auto" }
+  for key, value in pairs(more or {}) do args[key] = value end
+  return scene:wire(args)
+end
+
+local function fails(f, ...)
+  local fine, why = pcall(f)
+  assert.is_false(fine)
+  for _, words in ipairs { ... } do assert.truthy(tostring(why):find(words, 1, true), tostring(why)) end
+end
+
+local function follow(hold, points, duration) hold:follow { points = points, duration = duration } end
+
+-- A wire hangs between two clamps, and one comes nearer; more: of the wire.
+local function hung(duration, tolerance, more, settled)
+  local scene = sw.scene { name = "hung" }
+  scene:force { kind = "damping", mass = 5 }
+  local w = rod(scene, more)
+  scene:clamp(w, { s = 0 })
+  local right = scene:clamp(w, { s = 0.6, name = "right" })
+  if settled ~= false then scene:settle() end
+  follow(right, { { 0.6, 0, 0 }, { 0.4, 0.1, 0 } }, duration)
+  return scene:run { duration = duration, tolerance = tolerance or { min_bend_radius = { relative = 0.1 } } },
+    scene, w
+end
+
+-- One end of a wire on a table is turned about the wire.
+local function turned(friction, settled)
+  local scene = sw.scene { name = "turned" }
+  scene:force { kind = "damping", mass = 5 }
+  scene:obstacle { name = "table", shape = "plane", friction = friction }
+  local w = rod(scene, { from = { 0, 0, R }, to = { 0.4, 0, R } })
+  local hand = scene:clamp(w, { s = 0, name = "hand" })
+  if settled then scene:settle() end
+  hand:follow { points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, duration = 1,
+    turn = { axis = { 1, 0, 0 }, angle = 1 } }
+  return scene:run { duration = 1, tolerance = { ["hand.moment"] = { relative = 0.1 } } }, scene, hand
+end
+
+-- Two wires that cross; the upper one comes down.
+local function crossed(gap, down)
+  local scene = sw.scene { name = "crossed" }
+  scene:force { kind = "damping", mass = 5 }
+  local a = rod(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
+  local b = rod(scene, { name = "b", from = { 0, -0.2, gap }, to = { 0, 0.2, gap } })
+  for i, s in ipairs { 0, 0.4 } do
+    scene:clamp(a, { s = s, name = "a" .. i })
+    scene:clamp(b, { s = s, name = "b" .. i }):follow { points = { { 0, 0, 0 }, { 0, 0, -down } },
+      relative = true, duration = 1 }
+  end
+  return scene:run { duration = 1, tolerance = { ["b1.force"] = { relative = 0.1 } } }, scene
+end
+
+describe("model = 'auto'", function()
+  it("takes poses where motion is slow, dynamics where it is fast, and says by how much they differ",
+    function()
+    local slow, fast = hung(40), hung(0.5)
+    assert.equal("poses", slow.model.motion, tostring(slow:why()))
+    assert.equal("dynamic", fast.model.motion, tostring(fast:why()))
+    assert.truthy(tostring(fast:why()):find("motion dynamic: ", 1, true))
+    assert.truthy(tostring(slow:why()):find("leaves out inertia", 1, true))
+  end)
+
+  -- The same scene by the dearest model on finer edges and steps.
+  it("keeps to the error that it states, and to the tolerance", function()
+    for _, duration in ipairs { 0.5, 40 } do
+      local share = duration > 1 and 0.05 or 0.5 -- the force of a wire that swings is not known better
+      local run = hung(duration, { ["right.force"] = { relative = share },
+        min_bend_radius = { relative = 0.05 } })
+      local scene = sw.scene()
+      scene:force { kind = "damping", mass = 5 }
+      local w = rod(scene, { model = "rod", rolls = true })
+      scene:wire_contact {}
+      scene:clamp(w, { s = 0 })
+      local right = scene:clamp(w, { s = 0.6, name = "right" })
+      scene:settle()
+      follow(right, { { 0.6, 0, 0 }, { 0.4, 0.1, 0 } }, duration)
+      local fine = scene:run { duration = duration, levels = 6, tolerance = {
+        ["right.force"] = { relative = 0.005 }, min_bend_radius = { relative = 0.005 } } }
+      assert.is_true(run.met, tostring(run:why()))
+      for name, q in pairs(run.quantities) do
+        local truth, off = fine.quantities[name], 0
+        if type(q.value) == "number" then off = math.abs(q.value - truth.value)
+        else
+          for k = 1, 3 do off = off + (q.value[k] - truth.value[k]) ^ 2 end
+          off = off ^ 0.5
+        end
+        assert.is_true(off <= q.error + truth.error, ("%s: %g off, %g stated"):format(name, off, q.error))
+        assert.is_true(math.abs(q.error - q.discretisation - q.model_error) <= 1e-12 * q.error)
+      end
+    end
+  end)
+
+  it("lets a wire roll where friction twists it, also one that has settled", function()
+    for _, settled in ipairs { false, true } do
+      local rough = turned(0.5, settled)
+      assert.equal("rolling", rough.model.twist, tostring(rough:why()))
+      local smooth = turned(0, settled)
+      assert.equal("held", smooth.model.twist, tostring(smooth:why()))
+      assert.truthy(tostring(smooth:why()):find("no friction torque", 1, true))
+    end
+  end)
+
+  it("makes wires touch where they meet, and only there", function()
+    local meet, apart = crossed(0.02, 0.04), crossed(0.1, 0.04)
+    assert.equal("wires", meet.model.contact, tostring(meet:why()))
+    assert.equal("none", apart.model.contact, tostring(apart:why()))
+    assert.truthy(tostring(apart:why()):find("wires cannot meet: the boxes that wires sweep stay", 1, true))
+  end)
+
+  it("keeps what the script has decided", function()
+    local scene = sw.scene()
+    local w = rod(scene, { rolls = true })
+    scene:clamp(w, { s = 0 })
+    scene:wire_contact {}
+    local run = scene:run { duration = 0.05, model = "auto", quasistatic = true, tolerance = { tip = 0.01 } }
+    assert.same({ "poses", "rolling", "wires" }, { run.model.motion, run.model.twist, run.model.contact },
+      tostring(run:why()))
+    for _, c in ipairs(run.model.choices) do
+      if c.name ~= "section" then assert.equal("given", c.by, c.name) end
+    end
+  end)
+
+  -- 2 mu F of the pads is what they hold: 29 % are free, 3 times as much slips.
+  it("grips by friction only where that may slip", function()
+    local function carry(force)
+      local scene = sw.scene { name = "carry" }
+      scene:force { kind = "damping", mass = 8 }
+      local w = rod(scene, { E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0.003 },
+        to = { 0.24, 0, 0.003 } })
+      local hand = scene:gripper { name = "hand", pads = { width = 0.012, friction = 0.6, opening = 0.009 } }
+      scene:obstacle { name = "table", shape = "plane", friction = 0.2 }
+      scene:process(function()
+        hand:grasp(w, { s = 0.12, approach = "auto", force = force })
+        hand:move { by = { 0, 0, 0.04 }, duration = 0.5 }
+      end)
+      return scene:run { tolerance = { tip = 0.002 } }, hand
+    end
+    local firm = carry(0.3)
+    assert.equal("imposed", firm.model.grip, tostring(firm:why()))
+    assert.truthy(tostring(firm:why()):find("of what their friction holds (limit 50 %)", 1, true))
+    local loose, hand = carry(0.02)
+    assert.equal("plates", loose.model.grip, tostring(loose:why()))
+    assert.equal("plates", hand.way or "plates")
+  end)
+
+  it("says when no section that stays round suffices", function()
+    local scene = sw.scene { name = "soft" }
+    scene:obstacle { name = "edge", shape = "cylinder", radius = 0.01, length = 0.2, at = { 0.2, 0, -0.0126 },
+      rotation = { math.cos(math.pi / 4), math.sin(math.pi / 4), 0, 0 }, friction = 0 }
+    local w = rod(scene, { E = 2e4, to = { 0.4, 0, 0 } })
+    for i, s in ipairs { 0, 0.4 } do
+      scene:clamp(w, { s = s }):follow { points = { { 0, 0, 0 }, { i == 1 and -0.05 or 0.05, 0, -0.06 } },
+        relative = true, duration = 1 }
+    end
+    local run = scene:run { duration = 1, quasistatic = true,
+      tolerance = { max_tension = { relative = 0.001 } } }
+    assert.is_false(run.met)
+    assert.truthy(tostring(run:why()):find("NOT enough: 'w' is pressed by up to", 1, true),
+      tostring(run:why()))
+  end)
+
+  it("tells first what is not known of the cable, and refines no further than that", function()
+    local scene = sw.scene()
+    scene:force { kind = "damping", mass = 5 }
+    local w = scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.4, 0, 0 },
+      model = "auto" }
+    scene:clamp(w, { s = 0 })
+    scene:settle()
+    local run = scene:run { duration = 0.1, tolerance = { tip = 1e-6 } }
+    local lines = {}
+    for line in tostring(run:why()):gmatch "[^\n]+" do lines[#lines + 1] = line end
+    assert.truthy(lines[2]:find("first: EI of 'w' (GXL 1.5) is between 0.0009 and 0.022 N m2", 1, true),
+      lines[2])
+    assert.truthy(lines[2]:find("no model can repair that", 1, true))
+    assert.is_false(run.met)
+    assert.is_true(#run.levels <= 3)
+  end)
+
+  it("gives the same bits twice, and leaves nothing behind", function()
+    local one, two = hung(2), hung(2)
+    assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))
+    local a, b = tostring(one:why()):gsub(", [%d.e-]+ s; the run.*", ""), tostring(two:why()):gsub(
+      ", [%d.e-]+ s; the run.*", "")
+    assert.equal(a, b)
+    local _, scene, w = hung(2)
+    assert.is_nil(w:get().spin_inertia)
+    assert.truthy(scene:script():find('model = "auto"', 1, true))
+    assert.is_nil(scene:script():find("wire_contact", 1, true))
+  end)
+
+  -- A process that fails is the script's: its error comes as it is, and the scene is as before.
+  it("passes on errors of processes, and puts the scene back", function()
+    local scene = sw.scene()
+    local w = rod(scene)
+    scene:clamp(w, { s = 0 })
+    scene:process(function(p)
+      p:wait(0.02)
+      error({ "mine" })
+    end)
+    local before = w:positions()
+    local fine, why = pcall(scene.run, scene, { tolerance = { tip = 0.01 } })
+    assert.is_false(fine)
+    assert.truthy(type(why) == "table" and why[1] == "mine" or tostring(why):find "mine", tostring(why))
+    assert.same(before, w:positions())
+    assert.equal(0, scene.time)
+  end)
+
+  it("refuses what cannot be chosen", function()
+    local scene = sw.scene()
+    local w = rod(scene)
+    scene:clamp(w, { s = 0 })
+    fails(function() scene:run { duration = 0.1 } end, "wire 'w' has model = 'auto'", "tolerance = {")
+    fails(function() scene:run { duration = 0.1, model = "auto" } end, "needs to know what for")
+    fails(function() scene:run { duration = 0.1, model = "rod", tolerance = { tip = 1 } } end,
+      "model = rod is not allowed", "'auto'")
+    fails(function() scene:run { duration = 0.1, tolerance = { tip = { relative = 2 } } } end,
+      "relative = 2 is not allowed", "above 0 and below 1")
+    fails(function() scene:run { duration = 0.1, tolerance = { tip = { share = 0.1 } } } end,
+      "no parameter 'share'")
+    local hand = scene:gripper { name = "hand" }
+    fails(function() hand:grasp(w, { s = 0.1, approach = "auto" }) end, "gripper 'hand'", "model = 'auto'")
+    local plain = sw.scene()
+    plain:clamp(rod(plain, { model = "rod" }), { s = 0 })
+    fails(function() plain:run { duration = 0.01 }:why() end, "was not chosen", "model = 'auto'")
+  end)
+
+  -- 1 % of a parameter changes the value by about as much, and the choice in few cases.
+  it("does not jump under small changes of the scene", function()
+    local other, base = 0, hung(3)
+    local q = base.quantities.min_bend_radius
+    for k = 1, 6 do
+      local run = hung(3 * (1 + 0.01 * (k % 3 - 1)), nil, { E = 5e6 * (1 + 0.01 * ((k + 1) % 3 - 1)) })
+      local p = run.quantities.min_bend_radius
+      assert.is_true(math.abs(p.value - q.value) <= p.error + q.error + 0.02 * q.value)
+      for _, name in ipairs { "motion", "twist", "contact" } do
+        if run.model[name] ~= base.model[name] then other = other + 1 end
+      end
+    end
+    assert.is_true(other <= 1, ("%d other choices"):format(other))
+  end)
+end)
+
+describe("tolerance = { relative = share }", function()
+  it("is of the value", function()
+    local scene = sw.scene()
+    local w = rod(scene, { model = "rod" })
+    scene:clamp(w, { s = 0 })
+    local rest = scene:settle { tolerance = { min_bend_radius = { relative = 0.02 },
+      { name = "sag", relative = 0.05, unit = "m", of = function() return -w:position(0.6)[3] end } } }
+    local q = rest.quantities.min_bend_radius
+    assert.is_near(0.02 * q.value, q.tolerance, 1e-15)
+    assert.is_true(q.met and q.error <= q.tolerance)
+    assert.is_near(0.05 * rest.quantities.sag.value, rest.quantities.sag.tolerance, 1e-15)
+    fails(function()
+      scene:settle { tolerance = { { name = "x", relative = 0.1, value = 1, of = function() return 1 end } } }
+    end, "not both")
+  end)
+end)
+
+-- What core.redraw makes of a wire is what scene:wire would have made.
+describe("core.redraw", function()
+  local function swing(rolls, change)
+    local scene = sw.scene()
+    scene:obstacle { shape = "plane", friction = 0.3 }
+    local w = rod(scene, { model = "rod", rolls = rolls, from = { 0, 0, R }, to = { 0.4, 0, R } })
+    local hand = scene:clamp(w, { s = 0 })
+    if change then change(scene, w) end
+    hand:follow { points = { { 0, 0, 0 }, { 0, 0.05, 0.05 } }, relative = true, duration = 0.3 }
+    scene:run { duration = 0.3 }
+    return w:positions(), w
+  end
+
+  it("gives the bits of a wire that was made so", function()
+    assert.same(swing(true), (swing(nil, function(_, w) core.redraw(w, true) end)))
+    assert.same(swing(nil), (swing(true, function(_, w) core.redraw(w, false) end)))
+  end)
+
+  it("leaves a wire that has settled at rest, and holds as they hold", function()
+    local scene = sw.scene()
+    local w = rod(scene, { model = "rod", EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3 })
+    local left = scene:clamp(w, { s = 0 })
+    scene:clamp(w, { s = 0.6 })
+    scene:settle()
+    local x, force = w:positions(), left:force()
+    core.redraw(w, true)
+    scene:settle()
+    for k, value in ipairs(w:positions()) do assert.is_near(x[k], value, 1e-9) end
+    assert.is_near(force[1], left:force()[1], 1e-6 * math.abs(force[1]))
+  end)
+
+  it("refuses what would lose twist or frames, and meshes", function()
+    local scene = sw.scene()
+    local w = rod(scene, { model = "rod" })
+    scene:clamp(w, { s = 0 })
+    local right = scene:clamp(w, { s = 0.6 })
+    right:follow { points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, duration = 0.1,
+      turn = { axis = { 1, 0, 0 }, angle = 0.5 } }
+    scene:run { duration = 0.1 }
+    fails(function() core.redraw(w, true) end, "has moved and is twisted by")
+    local tube = scene:wire { name = "tube", model = "tube", E = 5e6, density = 1200, radius = 0.01,
+      from = { 0, 1, 0 }, to = { 0.1, 1, 0 } }
+    fails(function() core.redraw(tube, true) end, "wire 'tube' is a tube, not a rod")
+  end)
+end)
