@@ -94,9 +94,8 @@ local CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true, calloc = true
   -- temporary files of the Lua library, which itself has no locks and no fsync
   ["bind/bind_files.c"] = { open = true, openat = true } }
 
--- Most files in a circle of files that need one another (scripts/circles.lua), by rooms.
-local MOST_IN_CIRCLE = { contact = 4, system = 11 }
-local USUAL_IN_CIRCLE = 3
+-- Most files in a circle of files that need one another (scripts/circles.lua).
+local MOST_IN_CIRCLE = 3
 
 -- What the top level may hold, besides dot-files and what make and the examples leave there.
 local TOP = "Makefile csrc lua scripts spec examples README.md"
@@ -319,10 +318,9 @@ function check.circles()
   end
   local here = (arg[0]:match "^(.*)/" or ".")
   for _, circle in ipairs(dofile(here .. "/circles.lua").find(codes)) do
-    local most = MOST_IN_CIRCLE[circle[1]:match "^csrc/([%w_]+)/"] or USUAL_IN_CIRCLE
-    if #circle > most then
+    if #circle > MOST_IN_CIRCLE then
       finding(circle[1], 1, "is in a circle of %d files (%d at most) that need one another: %s; "
-        .. "move what all of them need into a file that needs none", #circle, most,
+        .. "move what all of them need into a file that needs none", #circle, MOST_IN_CIRCLE,
         table.concat(circle, " "))
     end
   end

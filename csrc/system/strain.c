@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "system/arrays.h"
 #include "system/part.h"
 #include "system/pull.h"
 
