@@ -35,7 +35,8 @@ local ROOMS = {
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
-  film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" }, scene = { "frames.h" },
+  film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
+  scene = { "account.h", "frames.h", "links.h", "reading.h", "wires.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },

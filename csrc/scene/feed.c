@@ -5,6 +5,7 @@
 #include "link/hold.h"
 #include "scene/hold.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

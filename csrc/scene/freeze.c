@@ -9,6 +9,7 @@
 #include "contact/contact.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "state/hinge.h"
 
 /* Rings that the tool presses; 0: there are none. */

@@ -12,6 +12,7 @@
 #include "scene/jaws.h"
 #include "scene/join.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "state/field.h"

@@ -8,6 +8,7 @@
 #include "scene/hold.h"
 #include "scene/jaws.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 

@@ -5,10 +5,12 @@
 #define SW_SCENE_LINE_H
 
 #include "link/hold.h"
+#include "scene/reading.h"
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/strand.h"
 #include "scene/window.h"
+#include "scene/wires.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 #include "system/system.h"

@@ -6,6 +6,7 @@
 #include "base/tape.h"
 #include "scene/jaws.h"
 #include "scene/live.h"
+#include "scene/reading.h"
 #include "scene/strand.h"
 #include "scene/world.h"
 #include "system/system.h"

@@ -8,6 +8,7 @@
 #include "contact/contact.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "state/hinge.h"
 
 /* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds
