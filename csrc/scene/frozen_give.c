@@ -17,6 +17,7 @@
 #include "scene/linear.h"
 #include "scene/obstacle.h"
 #include "solve/dense.h"
+#include "system/linear.h"
 #include "system/system.h"
 
 enum { READ = 3, MOVED = 5, WAYS = 6 }; /* so many rings outside the pads; see above [-] */

@@ -4,6 +4,7 @@
  * direction. For specs, and for anyone who wants to look inside. */
 #include "scene/line.h"
 #include "scene/world.h"
+#include "system/linear.h"
 
 /* Node forces out of what the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {

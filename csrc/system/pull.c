@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "system/pull.h"
+#include "system/axial.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 #include "base/vec.h"
 #include "solve/blocks.h"
 #include "system/assemble.h"
+#include "system/linear.h"
 #include "system/web.h"
 
 sw_status sw_system_inner_forces(sw_system *s, size_t body, double *out, sw_error *err) {
