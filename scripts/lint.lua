@@ -45,8 +45,9 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
 -- Headers of a room that one other room alone may see: what makes a scene go on sees its inside.
-local OPEN_TO = { step = { scene = { "feed.h", "hold.h", "jaws.h", "join.h", "kept_frames.h", "ledger.h",
-  "line.h", "linear.h", "live.h", "observe.h", "obstacle.h", "touching.h", "world.h" } } }
+local OPEN_TO = { step = { scene = { "course.h", "events.h", "feed.h", "hold.h", "jaws.h", "join.h",
+  "kept_frames.h", "ledger.h", "line.h", "linear.h", "live.h", "observe.h", "obstacle.h", "parts.h",
+  "touching.h", "world.h" } } }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

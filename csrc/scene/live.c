@@ -7,6 +7,7 @@
 #include "contact/grains.h"
 #include "scene/line.h"
 #include "scene/save.h"
+#include "scene/world.h"
 
 sw_live sw_live_of(const sw_scene *s) {
   sw_live p = {.state = s->system.state, .state_size = s->system.state_size};
