@@ -5,6 +5,7 @@
 #include "bind/bind_motion.h"
 #include "bind/bind_particles.h"
 #include "bind/child.h"
+#include "bind/share.h"
 
 /* A Lua function as a force. The function and its arrays are an entry of a table
  * in the scene's user value 1, so that the garbage collector sees them: { call =,
@@ -229,15 +230,7 @@ static int meth_read(lua_State *L) {
 
 /* force:log() -> flat rows of 4: t, force on wires; number of rows */
 static int meth_log(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const double *rows;
-  size_t count;
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
-  lsw_must(L, sw_scene_force_log(scene, f->id, &rows, &count, &err), &err);
-  lsw_push_flat(L, rows, count * SW_LOG_FORCE_SIZE);
-  lua_pushinteger(L, (lua_Integer)count);
-  return 2;
+  return lsw_log(L, &lsw_class_force, sw_scene_force_log, SW_LOG_FORCE_SIZE);
 }
 
 /* force:call_it(name): what its events call it */

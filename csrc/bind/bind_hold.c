@@ -6,6 +6,7 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
+#include "bind/share.h"
 
 /* scene:clamp, pin, ...: one of each class of holds, which is the upvalue. */
 static int new_hold(lua_State *L) {
@@ -72,43 +73,15 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
+static const lsw_posed posed = {&lsw_class_clamp,   "clamp",           "clamp:follow",
+                                sw_scene_hold_pose, sw_scene_set_pose, sw_scene_follow};
+
 /* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets;
  * without a rotation it keeps the one it has. */
-static int meth_pose(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  sw_pose pose;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  if (lua_gettop(L) > 1) {
-    const sw_vec to = lsw_vector(L, 2, "clamp:pose: position", "m");
-    lsw_must(L, sw_scene_editable(scene, &err), &err);
-    if (lua_isnoneornil(L, 3))
-      lsw_must(L, sw_scene_hold_pose(scene, c->id, &pose, &err), &err);
-    else
-      pose.q = lsw_rotation(L, 3, "clamp:pose: rotation");
-    pose.p = to;
-    lsw_must(L, sw_scene_set_pose(scene, c->id, pose, &err), &err);
-    return 0;
-  }
-  lsw_must(L, sw_scene_hold_pose(scene, c->id, &pose, &err), &err);
-  lsw_push_vector(L, pose.p);
-  lsw_push_quaternion(L, pose.q);
-  return 2;
-}
+static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
 
 /* clamp:follow(trajectory or its table); clamp:follow(nil) stops it there. */
-static int meth_follow(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  lsw_given(L, 2, "clamp:follow: a trajectory is needed, or nil to stop");
-  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "clamp:follow");
-  const sw_status status = sw_scene_follow(scene, c->id, motion, 0, &err);
-  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
-  sw_motion_release(motion);
-  lsw_must(L, status, &err);
-  return 1;
-}
+static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
 
 static int meth_release(lua_State *L) {
   sw_scene *scene;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "bind/child.h"
+#include "bind/share.h"
 
 /* One of the ends at the top of the stack: { wire, s = }. Pops it. */
 static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) {
@@ -98,15 +99,7 @@ static int meth_read(lua_State *L) {
 
 /* join:log() of a tie -> flat rows of time, force on the first wire [s], [N]; their number */
 static int meth_log(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const double *rows;
-  size_t count;
-  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
-  lsw_must(L, sw_scene_tie_log(scene, j->id, &rows, &count, &err), &err);
-  lsw_push_flat(L, rows, count * SW_LOG_FORCE_SIZE);
-  lua_pushinteger(L, (lua_Integer)count);
-  return 2;
+  return lsw_log(L, &lsw_class_join, sw_scene_tie_log, SW_LOG_FORCE_SIZE);
 }
 
 static int meth_release(lua_State *L) {

@@ -5,6 +5,7 @@
 #include "bind/bind_motion.h"
 #include "bind/bind_shape.h"
 #include "bind/child.h"
+#include "bind/share.h"
 
 int lsw_scene_obstacle(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
@@ -55,42 +56,15 @@ static int meth_moment(lua_State *L) {
   return 1;
 }
 
+static const lsw_posed posed = {&lsw_class_obstacle,        "obstacle",
+                                "obstacle:follow",          sw_scene_obstacle_pose,
+                                sw_scene_obstacle_set_pose, sw_scene_obstacle_follow};
+
 /* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets; without a
  * rotation it keeps the one it has. */
-static int meth_pose(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  sw_pose pose;
-  const lsw_child *o = check(L, &scene);
-  if (lua_gettop(L) > 1) {
-    const sw_vec to = lsw_vector(L, 2, "obstacle:pose: position", "m");
-    lsw_must(L, sw_scene_editable(scene, &err), &err);
-    if (lua_isnoneornil(L, 3))
-      lsw_must(L, sw_scene_obstacle_pose(scene, o->id, &pose, &err), &err);
-    else
-      pose.q = lsw_rotation(L, 3, "obstacle:pose: rotation");
-    pose.p = to;
-    lsw_must(L, sw_scene_obstacle_set_pose(scene, o->id, pose, &err), &err);
-    return 0;
-  }
-  lsw_must(L, sw_scene_obstacle_pose(scene, o->id, &pose, &err), &err);
-  lsw_push_vector(L, pose.p);
-  lsw_push_quaternion(L, pose.q);
-  return 2;
-}
+static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
 
-static int meth_follow(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const lsw_child *o = check(L, &scene);
-  lsw_given(L, 2, "obstacle:follow: a trajectory is needed, or nil to stop");
-  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "obstacle:follow");
-  const sw_status status = sw_scene_obstacle_follow(scene, o->id, motion, 0, &err);
-  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
-  sw_motion_release(motion);
-  lsw_must(L, status, &err);
-  return 1;
-}
+static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
 
 /* obstacle:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
@@ -142,15 +116,7 @@ static int meth_remove(lua_State *L) {
 /* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an
  * equilibrium) [s, N, s]; number of rows. */
 static int meth_log(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const double *rows;
-  size_t count;
-  const lsw_child *o = check(L, &scene);
-  lsw_must(L, sw_scene_obstacle_log(scene, o->id, &rows, &count, &err), &err);
-  lsw_push_flat(L, rows, count * SW_LOG_OBSTACLE_SIZE);
-  lua_pushinteger(L, (lua_Integer)count);
-  return 2;
+  return lsw_log(L, &lsw_class_obstacle, sw_scene_obstacle_log, SW_LOG_OBSTACLE_SIZE);
 }
 
 /* obstacle.shape: the shape at the origin, in its own axes. */

@@ -6,6 +6,7 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
+#include "bind/share.h"
 
 static const sw_param rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_tool_args, name),
@@ -67,40 +68,13 @@ static int meth_pads_on(lua_State *L) {
   return 0;
 }
 
-static int meth_follow(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const lsw_child *t = check(L, &scene);
-  lsw_given(L, 2, "tool:follow: a trajectory is needed, or nil to stop");
-  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, "gripper:move");
-  const sw_status status = sw_scene_tool_follow(scene, t->id, motion, 0, &err);
-  lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
-  sw_motion_release(motion);
-  lsw_must(L, status, &err);
-  return 1;
-}
+static const lsw_posed posed = {&lsw_class_tool,        "tool",
+                                "gripper:move",         sw_scene_tool_pose,
+                                sw_scene_tool_set_pose, sw_scene_tool_follow};
 
-static int meth_pose(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  sw_pose pose;
-  const lsw_child *t = check(L, &scene);
-  if (lua_gettop(L) > 1) {
-    const sw_vec to = lsw_vector(L, 2, "tool:pose: position", "m");
-    lsw_must(L, sw_scene_editable(scene, &err), &err);
-    if (lua_isnoneornil(L, 3))
-      lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
-    else
-      pose.q = lsw_rotation(L, 3, "tool:pose: rotation");
-    pose.p = to;
-    lsw_must(L, sw_scene_tool_set_pose(scene, t->id, pose, &err), &err);
-    return 0;
-  }
-  lsw_must(L, sw_scene_tool_pose(scene, t->id, &pose, &err), &err);
-  lsw_push_vector(L, pose.p);
-  lsw_push_quaternion(L, pose.q);
-  return 2;
-}
+static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
+
+static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
 
 static const char *const modes[] = {"still", "to", "force", NULL};
 static const sw_param jaw_rows[] = {
@@ -212,15 +186,7 @@ static int meth_moment(lua_State *L) {
  * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at
  * whose end it is the force; 0 at an equilibrium [s]. */
 static int meth_log(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const double *values;
-  size_t count;
-  const lsw_child *t = check(L, &scene);
-  lsw_must(L, sw_scene_tool_log(scene, t->id, &values, &count, &err), &err);
-  lsw_push_flat(L, values, count * SW_LOG_TOOL_SIZE);
-  lua_pushinteger(L, (lua_Integer)count);
-  return 2;
+  return lsw_log(L, &lsw_class_tool, sw_scene_tool_log, SW_LOG_TOOL_SIZE);
 }
 
 /* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,

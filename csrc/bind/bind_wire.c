@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bind/child.h"
+#include "bind/share.h"
 
 int lsw_read_model(lua_State *L, int table) {
   const char *names[32];
@@ -323,15 +324,7 @@ static int meth_folded(lua_State *L) {
 
 /* wire:log() -> flat rows of 3: t, largest tension, largest curvature; number of rows */
 static int meth_log(lua_State *L) {
-  sw_scene *scene;
-  sw_error err = {""};
-  const double *rows;
-  size_t count;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_log(scene, w->id, &rows, &count, &err), &err);
-  lsw_push_flat(L, rows, count * SW_LOG_WIRE_SIZE);
-  lua_pushinteger(L, (lua_Integer)count);
-  return 2;
+  return lsw_log(L, &lsw_class_wire, sw_scene_wire_log, SW_LOG_WIRE_SIZE);
 }
 
 static int prop_length(lua_State *L) {

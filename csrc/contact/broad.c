@@ -231,3 +231,13 @@ const int *sw_broad_near(sw_broad *b, sw_vec low, sw_vec high, double reach, siz
   *count = n;
   return b->found;
 }
+
+int sw_contact_moves(const sw_contact *c) {
+  for (size_t k = 0; k < c->broad.mover_count; k++) {
+    const int o = c->broad.mover[k];
+    const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
+    const sw_quat p = a->q, q = b->q;
+    if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
+  }
+  return 0;
+}

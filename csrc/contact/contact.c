@@ -155,16 +155,6 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
   return sw_broad_place(c, time, c->now, err);
 }
 
-int sw_contact_moves(const sw_contact *c) {
-  for (size_t k = 0; k < c->broad.mover_count; k++) {
-    const int o = c->broad.mover[k];
-    const sw_pose *a = &c->start[o].pose, *b = &c->now[o].pose;
-    const sw_quat p = a->q, q = b->q;
-    if (sw_dist(a->p, b->p) > 0 || p.w != q.w || p.x != q.x || p.y != q.y || p.z != q.z) return 1;
-  }
-  return 0;
-}
-
 /* --- memory ------------------------------------------------------------------- */
 
 /* Chords round a peg press more and less from step to step; friction there goes by a mean over some

@@ -132,15 +132,6 @@ sw_status sw_grains_eval(sw_grains *g, sw_system *s, const double *y, unsigned w
 
 /* --- memory ---------------------------------------------------------------------- */
 
-static int by_number(uint32_t p, uint32_t q) { return p < q ? -1 : p > q; }
-
-int sw_grain_order(const sw_grain_pair *p, const sw_grain_pair *q) {
-  if (p->node[0] != q->node[0]) return by_number(p->node[0], q->node[0]);
-  if (p->end[0] != q->end[0]) return by_number(p->end[0], q->end[0]);
-  if (p->node[1] != q->node[1]) return by_number(p->node[1], q->node[1]);
-  return by_number(p->end[1], q->end[1]);
-}
-
 void sw_grains_commit(sw_grains *g) {
   size_t n = 0;
   if (sw_grow((void **)&g->memory, &g->memory_capacity, g->pair_count, sizeof *g->memory) != SW_OK)

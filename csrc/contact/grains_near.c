@@ -202,6 +202,15 @@ static sw_status look_around(sw_grains *g, const sw_system *s, const grid *all, 
   return SW_OK;
 }
 
+static int by_number(uint32_t p, uint32_t q) { return p < q ? -1 : p > q; }
+
+int sw_grain_order(const sw_grain_pair *p, const sw_grain_pair *q) {
+  if (p->node[0] != q->node[0]) return by_number(p->node[0], q->node[0]);
+  if (p->end[0] != q->end[0]) return by_number(p->end[0], q->end[0]);
+  if (p->node[1] != q->node[1]) return by_number(p->node[1], q->node[1]);
+  return by_number(p->end[1], q->end[1]);
+}
+
 static int by_order(const void *p, const void *q) { return sw_grain_order(p, q); }
 
 static sw_status search(sw_grains *g, const sw_system *s) {

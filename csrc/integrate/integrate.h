@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "system/axial.h"
 #include "system/system.h"
 
 enum {
@@ -80,7 +81,7 @@ struct sw_stepper {
   /* axial strains (edges): where the stage's rates count from, stages', rates of the last stage,
    * of the state before last; NULL without axial dashpots [-], [1/s] */
   double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
-  double *tension;              /* saved for a rejected step (edges) */
+  double *tension; /* saved for a rejected step (edges) */
   /* axial forces times time since the step's start, of stages (edges); mean over the last step, or
    * NULL: the method's end is all there is [N s], [N] */
   double *pulled[SW_STAGES_MAX], *mean;

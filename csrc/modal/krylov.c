@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "modal/eigen.h"
+#include "system/linear.h"
 
 /* A direction of which less than this is left is one of the basis already [-]. */
 static const double NOTHING_NEW = 1e-11;

@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "modal/eigen.h"
 #include "modal/krylov.h"
+#include "system/linear.h"
 
 /* Residual of a Ritz pair of the inverse, of its value: the value itself is then
  * exact to its square [-]. */

@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/tape.h"
 #include "link/hold.h"
+#include "scene/body.h"
 #include "scene/forces.h"
 #include "scene/history.h"
 #include "scene/hold.h"
@@ -85,26 +86,14 @@ static sw_status keep_contact(sw_scene *s) {
   return SW_OK;
 }
 
-/* What nodes of wire w that contact remembers are now, and segments, by their first nodes: a node
- * is the same when its arc length is, one that was moved for a clamp starts anew; a segment is
- * when both of its ends are. */
+/* What nodes of wire w that contact remembers are now, and segments, by their first nodes. */
 static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *new_edge) {
   const size_t first = s->kept.first[w], end = s->kept.first[w + 1], now = s->kept.now[w];
   for (size_t k = first; k < end; k++) new_node[k] = new_edge[k] = SIZE_MAX;
   if (now == SIZE_MAX || s->kept.changed == w + 1) return;
-  const sw_body *b = &s->system.bodies[now];
-  size_t i = 0;
-  for (size_t k = first; k < end; k++) {
-    if (b->plan->web) { /* its particles stay as they are */
-      new_node[k] = new_edge[k] = b->first_node + k - first;
-      continue;
-    }
-    while (i < b->plan->nodes && b->plan->s[i] < s->kept.s[k]) i++;
-    if (i == b->plan->nodes || b->plan->s[i] != s->kept.s[k]) continue;
-    new_node[k] = b->first_node + i;
-    if (k > first && new_node[k - 1] != SIZE_MAX && new_node[k - 1] + 1 == new_node[k])
-      new_edge[k - 1] = new_node[k - 1];
-  }
+  sw_body_class_of(&s->wires[now])
+      ->carry_over(&s->system.bodies[now], s->kept.s + first, end - first, new_node + first,
+                   new_edge + first);
 }
 
 /* Give the kept memory to the new system's contact. */
@@ -197,64 +186,11 @@ sw_status sw_scene_thaw(sw_scene *s) {
   sw_scene_undo_holds(s);
   SW_TRY(keep_contact(s));
   SW_TRY(sw_scene_keep_histories(s));
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
-    sw_mesh *m = &s->wires[w].mesh;
-    if (b->plan->web) {
-      SW_TRY(sw_strand_take(&s->wires[w], &s->system, b));
-      continue;
-    }
-    m->drawn = m->drawn &&
-               memcmp(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x) == 0 &&
-               memcmp(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v) == 0;
-    memcpy(m->x, s->system.x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
-    memcpy(m->v, s->system.v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
-    memcpy(m->a, s->system.a + 3 * b->first_node, 3 * m->n * sizeof *m->a);
-    memcpy(m->tension, s->system.tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
-    if (b->axial_time > 0)
-      memcpy(m->rate, s->system.strain_rate + b->first_edge, (m->n - 1) * sizeof *m->rate);
-    else
-      memset(m->rate, 0, m->n * sizeof *m->rate);
-    if (b->spin_block) sw_scene_frame_out(s, w);
-  }
+  for (size_t w = 0; w < s->wire_count; w++) SW_TRY(sw_body_class_of(&s->wires[w])->take(s, w));
   SW_TRY(keep_twist(s));
   drop(s);
   sw_course_jump(&s->course);
   return SW_OK;
-}
-
-/* The plan of a wire that is a mesh, its particles held as holds say. */
-static sw_status new_web_plan(const sw_scene *s, size_t w, sw_plan **out) {
-  sw_web *web = s->wires[w].strand.web;
-  int *held = sw_alloc(web->particles, sizeof *held);
-  if (!held) return SW_ENOMEM;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
-    if (!h->alive || h->wire != w) continue;
-    for (size_t i = 0; i < h->count; i++) held[h->particle[i]] = SW_HELD;
-  }
-  const sw_status status = sw_plan_of_web(&s->wires[w].beam, web, held, out);
-  sw_free(held);
-  return status;
-}
-
-/* Place of arc length s in the hold's frame. */
-static sw_vec local_of(const sw_hold *h, double s) {
-  size_t i = 0;
-  while (i + 2 < h->count && h->s[i + 1] <= s) i++;
-  if (h->count == 1) return sw_load(h->local);
-  const double f = (s - h->s[i]) / (h->s[i + 1] - h->s[i]);
-  return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
-}
-
-/* What a hold has formed is as long as it lies there. */
-static void form(const sw_scene *s, size_t w, sw_plan *plan) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
-    if (!h->alive || h->wire != w || !h->formed) continue;
-    for (size_t e = sw_plan_first(plan, h->s1); e < plan->edges && plan->s[e + 1] <= h->s2; e++)
-      plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
-  }
 }
 
 /* Between long parts of building; what goes back to a snapshot gets there. */
@@ -278,11 +214,8 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
             h->s1, h->s2, h->cls->hold->direction, number, {h->give[0], h->give[1]}};
       number++;
     }
-    status = wire->strand.web
-                 ? new_web_plan(s, w, &plans[w])
-                 : sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, n, &plans[w]);
+    status = sw_body_class_of(wire)->plan(s, w, places, n, &plans[w]);
     if (status == SW_OK) status = stopped(s);
-    if (status == SW_OK) form(s, w, plans[w]);
     if (status == SW_OK && wire->mesh.rest) status = sw_scene_unloaded(s, w, plans[w]);
   }
   sw_free(places);
@@ -329,16 +262,7 @@ static sw_status put_holds(sw_scene *s, sw_rail *rails) {
                h->give[side].softer > 0 ? h->give[side].axis : h->frame[side].normal);
     }
     sw_held_node node = {.body = h->wire, .hold = number, .slides = sw_hold_passes(h)};
-    for (size_t i = 0; b->plan->web && i < h->count; i++) {
-      node.node = b->first_node + h->particle[i], node.local = sw_vec_at(h->local, i);
-      s->system.held[s->system.held_count++] = node;
-    }
-    const size_t none = b->plan->nodes;
-    for (size_t i = b->plan->web ? none : sw_plan_first(b->plan, h->s1);
-         i < none && b->plan->s[i] <= h->s2; i++) {
-      node.node = b->first_node + i, node.local = local_of(h, b->plan->s[i]);
-      s->system.held[s->system.held_count++] = node;
-    }
+    sw_body_class_of(&s->wires[h->wire])->add_held(b, h, node, &s->system);
     if (h->cls->hold->rail) {
       h->slider.rail = rail_count;
       h->cls->hold->rail(h, &rails[rail_count]);
@@ -404,7 +328,7 @@ static void inherit_strains(sw_scene *s) {
   sw_system_strain_from_state(&s->system);
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
-    const double *known = b->plan->web ? s->wires[w].strand.rate : s->wires[w].mesh.rate;
+    const double *known = sw_body_state_of(&s->wires[w]).rate;
     if (!(b->axial_time > 0)) continue;
     if (known)
       memcpy(s->system.strain_rate + b->first_edge, known, sw_plan_axial(b->plan) * sizeof *known);
@@ -416,14 +340,13 @@ static void inherit_strains(sw_scene *s) {
 static sw_status fill(sw_scene *s, size_t alive) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_body *b = &s->system.bodies[w];
-    const sw_mesh *m = &s->wires[w].mesh;
-    const sw_strand *strand = &s->wires[w].strand;
+    const sw_body_state from = sw_body_state_of(&s->wires[w]);
     const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
     const size_t axial = sw_plan_axial(b->plan) * sizeof(double);
-    memcpy(s->system.x + at, strand->web ? strand->x : m->x, size);
-    memcpy(s->system.v + at, strand->web ? strand->v : m->v, size);
-    memcpy(s->system.a + at, strand->web ? strand->a : m->a, size);
-    memcpy(s->system.tension + b->first_edge, strand->web ? strand->axial : m->tension, axial);
+    memcpy(s->system.x + at, from.x, size);
+    memcpy(s->system.v + at, from.v, size);
+    memcpy(s->system.a + at, from.a, size);
+    memcpy(s->system.tension + b->first_edge, from.axial, axial);
     SW_TRY(stopped(s));
     SW_TRY(add_terms(s, w));
   }

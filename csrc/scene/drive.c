@@ -5,7 +5,7 @@
 
 #include "link/hold.h"
 #include "scene/jaws.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "state/clamp.h"
 
 void sw_drive_free(sw_drive *d) {
@@ -16,7 +16,7 @@ void sw_drive_free(sw_drive *d) {
 /* In a tool's frame, which itself is at rest or follows a motion. */
 static sw_status carried(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,
                          sw_error *err) {
-  const sw_tool *tool = &s->tools[d->tool - 1];
+  const sw_tool *tool = sw_scene_tool_in(s, d->tool - 1);
   sw_motion_state f;
   SW_TRY(sw_drive_eval(s, &tool->drive, t, &f, err));
   const sw_quat q = f.pose.q;
@@ -40,9 +40,9 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
     out->pose = d->pose;
     return SW_OK;
   }
-  s->running++; /* a user's function may call anything: nothing may change meanwhile */
+  sw_scene_enter(s, 1); /* a user's function may call anything: nothing may change meanwhile */
   const sw_status status = sw_motion_eval(d->motion, t - d->start, out, err);
-  s->running--;
+  sw_scene_enter(s, -1);
   return status;
 }
 
@@ -51,11 +51,11 @@ static const double LARGEST_TURN = 1e-6; /* of orientation, taken as rounding [r
 
 sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motion *motion,
                           int relative, sw_error *err) {
-  const double now = s->time;
+  const double now = sw_scene_time(s);
   sw_motion_state here, first;
   if (d->tool)
     return sw_fail(err, SW_EINVAL, "%s goes with gripper '%s'; move that", object,
-                   s->tools[d->tool - 1].name);
+                   sw_scene_tool_in(s, d->tool - 1)->name);
   SW_TRY(sw_drive_eval(s, d, now, &here, err));
   sw_drive next = {.pose = here.pose, .start = now};
   if (motion && (relative || sw_motion_is_relative(motion))) {

@@ -5,6 +5,7 @@
 #define SW_SCENE_EVENTS_H
 
 #include "base/tape.h"
+#include "scene/account.h"
 #include "scene/scene.h"
 
 enum { SW_EVENTS_MOST = 512 }; /* different ones in a list [-] */

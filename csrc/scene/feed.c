@@ -3,9 +3,11 @@
 #include <math.h>
 
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/hold.h"
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/links.h"
+#include "scene/parts.h"
 #include "state/clamp.h"
 
 static sw_hold *feeding(sw_scene *s, sw_handle hold, sw_error *err) {
@@ -24,8 +26,8 @@ static sw_status open_feed(sw_scene *s, sw_handle hold, sw_hold **h, sw_error *e
 }
 
 static void stop(sw_scene *s, sw_hold *h) {
-  sw_feed_stop(h, s->time);
-  sw_course_jump(&s->course);
+  sw_feed_stop(h, sw_scene_time(s));
+  sw_course_jump(sw_scene_course(s));
 }
 
 sw_status sw_scene_feed_speed(sw_scene *s, sw_handle hold, double speed, sw_error *err) {
@@ -39,7 +41,7 @@ sw_status sw_scene_feed_speed(sw_scene *s, sw_handle hold, double speed, sw_erro
 sw_status sw_scene_feed_push(sw_scene *s, sw_handle hold, double force, sw_error *err) {
   sw_hold *h;
   SW_TRY(open_feed(s, hold, &h, err));
-  const sw_feed_now now = sw_feed_at(h, s->time);
+  const sw_feed_now now = sw_feed_at(h, sw_scene_time(s));
   stop(s, h);
   h->feed.push = force;
   h->feed.slip_speed = now.speed;
@@ -59,14 +61,14 @@ sw_status sw_scene_feed_length(sw_scene *s, sw_handle hold, sw_motion *motion, d
                                sw_error *err) {
   sw_hold *h;
   SW_TRY(open_feed(s, hold, &h, err));
-  const double there = sw_feed_reserve(h, &s->wires[h->wire].mesh, length);
+  const double there = sw_feed_reserve(h, &sw_scene_wire_in(s, h->wire)->mesh, length);
   if (!(fabs(length) < there))
     return sw_fail(err, SW_EINVAL,
                    "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are there",
-                   h->name, length, there, s->wires[h->wire].name);
+                   h->name, length, there, sw_scene_wire_in(s, h->wire)->name);
   stop(s, h);
   h->feed.motion = sw_motion_retain(motion);
-  h->feed.start = s->time;
+  h->feed.start = sw_scene_time(s);
   return SW_OK;
 }
 
@@ -74,7 +76,7 @@ sw_status sw_scene_feed_state(sw_scene *s, sw_handle hold, sw_feed_state *out, s
   SW_TRY(sw_scene_readable(s, err));
   const sw_hold *h = feeding(s, hold, err);
   if (!h) return SW_EDEAD;
-  const sw_feed_now now = sw_feed_at(h, s->time);
+  const sw_feed_now now = sw_feed_at(h, sw_scene_time(s));
   *out = (sw_feed_state){now.fed, now.speed, h->feed.drive, h->feed.limit};
   return SW_OK;
 }

@@ -9,6 +9,7 @@
 #include "scene/obstacle.h"
 #include "scene/save.h"
 #include "scene/touching.h"
+#include "scene/world.h"
 
 /* What need not come back: it is found anew, or grows as it likes. */
 static void blank_scene(sw_scene *s) {

@@ -9,11 +9,12 @@
 #include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/observe.h"
+#include "scene/parts.h"
 #include "scene/spin.h"
-#include "scene/world.h"
 #include "state/clamp.h"
 #include "state/field.h"
 #include "state/plan.h"
+#include "system/axial.h"
 
 static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
 
@@ -63,11 +64,11 @@ static void clamp_values(const sw_system *s, const sw_body *b, float *out) {
 }
 
 static void strand_values(sw_scene *s, size_t w, size_t n, float *out) {
-  const sw_body *b = &s->system.bodies[w];
-  const double *arc = s->wires[w].mesh.s;
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
+  const double *arc = sw_scene_wire_in(s, w)->mesh.s;
   for (size_t i = 0; i < n; i++, out += SW_FRAME_VALUES) {
     sw_point_state at;
-    sw_strand_at(s, &s->wires[w], b, arc[i], &at);
+    sw_strand_at(s, sw_scene_wire_in(s, w), b, arc[i], &at);
     out[SW_FRAME_TENSION] = (float)at.tension, out[SW_FRAME_CURVATURE] = (float)at.curvature;
     out[SW_FRAME_TWIST] = (float)at.twist_moment;
     out[SW_FRAME_STRESS] = (float)(b->plan->beam.E * at.strain);
@@ -90,11 +91,12 @@ static void press(const sw_body *b, size_t node, double share, double normal, sw
 
 static void press_obstacles(const sw_scene *s, const sw_body *b, float *out) {
   size_t k = 0, end = 0;
-  if (s->contact)
-    sw_contact_touches_of(s->contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
+  if (sw_scene_contact(s))
+    sw_contact_touches_of(sw_scene_contact(s), b->first_node, b->first_node + b->plan->nodes, &k,
+                          &end);
   for (; k < end; k++) {
     sw_contact_push p;
-    if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
+    if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &p)) continue;
     press(b, p.node, 1 - p.at, p.normal_force, p.force, out);
     press(b, p.other, p.at, p.normal_force, p.force, out);
   }
@@ -105,7 +107,7 @@ static void press_obstacles(const sw_scene *s, const sw_body *b, float *out) {
 static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place *p, float *out) {
   const sw_vec force = sw_madd(p->friction, p->normal, p->normal_force);
   for (int k = 0; k < 2; k++) {
-    if (&s->system.bodies[p->body[k]] != b) continue;
+    if (&sw_scene_system(s)->bodies[p->body[k]] != b) continue;
     const sw_vec own = k ? sw_neg(force) : force;
     press(b, p->node[k], 1 - p->at[k], p->normal_force, own, out);
     if (p->at[k] > 0) press(b, p->node[k] + 1u, p->at[k], p->normal_force, own, out);
@@ -113,23 +115,24 @@ static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place
 }
 
 static void press_wires(const sw_scene *s, const sw_body *b, float *out) {
-  const size_t pairs = s->pairs ? sw_pairs_count(s->pairs) : 0;
-  const size_t grains = s->grains ? sw_grains_count(s->grains) : 0;
+  const size_t pairs = sw_scene_pairs(s) ? sw_pairs_count(sw_scene_pairs(s)) : 0;
+  const size_t grains = sw_scene_grains(s) ? sw_grains_count(sw_scene_grains(s)) : 0;
   for (size_t k = 0; k < pairs + grains; k++) {
-    const sw_pair_place p =
-        k < pairs ? sw_pairs_place(s->pairs, k) : sw_grains_place(s->grains, k - pairs);
+    const sw_pair_place p = k < pairs ? sw_pairs_place(sw_scene_pairs(s), k)
+                                      : sw_grains_place(sw_scene_grains(s), k - pairs);
     press_place(s, b, &p, out);
   }
 }
 
 void sw_scene_node_values(sw_scene *s, size_t w, size_t n, float *out) {
-  const sw_body *b = &s->system.bodies[w];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
   memset(out, 0, SW_FRAME_VALUES * n * sizeof *out);
   if (b->plan->web) {
     strand_values(s, w, n, out);
   } else {
-    line_values(&s->system, b, out);
-    clamp_values(&s->system, b, out);
+    line_values(system, b, out);
+    clamp_values(system, b, out);
   }
   press_obstacles(s, b, out);
   press_wires(s, b, out);

@@ -7,16 +7,20 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
+#include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
+#include "scene/links.h"
+#include "scene/parts.h"
 #include "state/hinge.h"
 
 /* Rings that the tool presses; 0: there are none. */
 static int pressed_rings(const sw_scene *s, const sw_tool *t, const sw_body *b, sw_frozen *f) {
   f->first = SIZE_MAX, f->last = 0;
-  for (size_t k = 0; s->contact && k < sw_contact_touches(s->contact); k++) {
+  for (size_t k = 0; sw_scene_contact(s) && k < sw_contact_touches(sw_scene_contact(s)); k++) {
     sw_contact_push p;
-    if (!sw_contact_push_at(s->contact, &s->system, k, &p) || !sw_tool_is_pad(t, p.obstacle))
+    if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &p) ||
+        !sw_tool_is_pad(t, p.obstacle))
       continue;
     if (p.node < b->first_node || p.node >= b->first_node + b->plan->nodes) continue;
     const size_t r = sw_web_ring_of(b->plan->web, p.node - b->first_node);
@@ -39,7 +43,7 @@ static sw_status keep_stations(const sw_web *web, const sw_mesh *mesh, sw_statio
 }
 
 static sw_status keep_memory(const sw_scene *s, const sw_body *b, sw_frozen *f) {
-  const void *memory = sw_contact_memory(s->contact, &f->bytes);
+  const void *memory = sw_contact_memory(sw_scene_contact(s), &f->bytes);
   f->memory = sw_alloc(f->bytes, 1);
   if (!f->memory) return SW_ENOMEM;
   if (f->bytes) memcpy(f->memory, memory, f->bytes);
@@ -49,13 +53,14 @@ static sw_status keep_memory(const sw_scene *s, const sw_body *b, sw_frozen *f) 
 /* All that has to be known to come back. */
 static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *f, sw_line *line,
                       sw_grip_end ends[2], sw_error *err) {
-  sw_scene_wire *w = &s->wires[wire.slot];
-  const sw_body *b = &s->system.bodies[wire.slot];
+  sw_system *system = sw_scene_system(s);
+  sw_scene_wire *w = sw_scene_wire_in(s, wire.slot);
+  const sw_body *b = &system->bodies[wire.slot];
   sw_motion_state now;
-  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &now, err));
   f->pose = now.pose;
   f->wire = wire, f->cls = w->cls, f->jaw = t->jaw;
-  SW_TRY(sw_strand_take(w, &s->system, b));
+  SW_TRY(sw_strand_take(w, system, b));
   SW_TRY(sw_mesh_copy(&w->mesh, &f->mesh));
   SW_TRY(sw_strand_copy(&w->strand, &f->strand));
   SW_TRY(keep_stations(w->strand.web, &w->mesh, &f->stations));
@@ -85,7 +90,7 @@ static void take_turns(sw_line *line, const sw_grip_end ends[2]) {
 /* The rod that the line is. */
 static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw_error *err) {
   sw_scene_wire next = {.cls = sw_wire_find("rod")};
-  sw_status status = sw_line_mesh(&s->wires[wire.slot], line, &next.mesh);
+  sw_status status = sw_line_mesh(sw_scene_wire_in(s, wire.slot), line, &next.mesh);
   if (status == SW_OK) status = sw_line_twist(line, &next);
   if (status == SW_OK) status = sw_scene_thaw(s);
   if (status == SW_OK) return sw_scene_replace_wire(s, wire.slot, &next, err);
@@ -105,7 +110,7 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   args.width = out->s2 - out->s1;
   args.direction = sw_v(NAN, NAN, NAN);
   SW_TRY(sw_scene_add_hold(s, cls, f->wire, &args, &out->hold, err));
-  sw_hold *h = &s->holds[out->hold.slot];
+  sw_hold *h = sw_scene_hold_in(s, out->hold.slot);
   h->formed = 1;
   for (size_t k = 0; k < 2; k++) {
     const sw_vec at = sw_sub(ends[k].at, h->drive.pose.p);
@@ -147,9 +152,9 @@ static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const 
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
   SW_TRY(keep_rod(s, f, err));
-  sw_hold *h = &s->holds[out->hold.slot];
+  sw_hold *h = sw_scene_hold_in(s, out->hold.slot);
   sw_motion_state at;
-  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &at, err));
   h->force = out->force; /* until a step tells: what the pads did */
   h->moment = sw_sub(out->moment, sw_cross(sw_sub(at.pose.p, f->pose.p), out->force));
   return SW_OK;
@@ -183,10 +188,10 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   sw_frozen *f = sw_alloc(1, sizeof *f);
   if (!f) return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
   f->references = 1;
-  if (!pressed_rings(s, t, &s->system.bodies[wire.slot], f)) {
+  if (!pressed_rings(s, t, &sw_scene_system(s)->bodies[wire.slot], f)) {
     sw_frozen_release(f);
     return sw_fail(err, SW_EINVAL, "gripper '%s' does not press on wire '%s'", t->name,
-                   s->wires[wire.slot].name);
+                   sw_scene_wire_in(s, wire.slot)->name);
   }
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = keep(s, t, wire, f, &line, ends, err);
@@ -199,9 +204,9 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {
-    s->tools[tool.slot].frozen = f;
-    sw_course_go_on(&s->course);
-    sw_tool_state *now = &s->tools[tool.slot].now;
+    sw_scene_tool_in(s, tool.slot)->frozen = f;
+    sw_course_go_on(sw_scene_course(s));
+    sw_tool_state *now = &sw_scene_tool_in(s, tool.slot)->now;
     now->margin = sw_frozen_margin(f, sw_unrotate(f->pose.q, out->force),
                                    sw_unrotate(f->pose.q, out->moment));
     now->lost_time = NAN;

@@ -8,6 +8,7 @@
 #include "contact/contact.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
+#include "scene/parts.h"
 #include "scene/save.h"
 #include "state/state_tape.h"
 
@@ -83,7 +84,7 @@ int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
   const sw_web *web = f->strand.web;
   if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.kit || f->mesh.rest)
     return 0;
-  if (sw_scene_body_now(s, f->wire).slot >= s->wire_count) return 0;
+  if (sw_scene_body_now(s, f->wire).slot >= sw_scene_wire_slots(s)) return 0;
   if (f->mesh.n != web->rings || f->stations.n != web->rings) return 0;
   if (f->first > f->last || f->last >= web->rings || f->nodes != web->particles) return 0;
   for (size_t i = 0; i < f->stations.n; i++)
@@ -94,5 +95,5 @@ int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
       return 0;
   }
   if (f->node > SIZE_MAX - f->nodes || web->around_count > SW_OUTLINE) return 0;
-  return sw_contact_memory_fits(f->memory, f->bytes, SIZE_MAX, s->obstacle_count);
+  return sw_contact_memory_fits(f->memory, f->bytes, SIZE_MAX, sw_scene_obstacle_slots(s));
 }

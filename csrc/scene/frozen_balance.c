@@ -9,21 +9,23 @@
 
 #include "base/alloc.h"
 #include "scene/frozen_inner.h"
+#include "scene/parts.h"
 
 enum { MOST_POSES = 200 }; /* iterations; without a result the wire stays as it lies [-] */
 static const double BALANCED = 1e-8; /* of the shifts that end them, of the wire's length [-] */
 
 /* Add the forces that velocities make; work: (2 x freedoms). */
 static sw_status add_friction_of_motion(sw_scene *s, double *force, double *work, sw_error *err) {
-  sw_system *system = &s->system;
+  sw_system *system = sw_scene_system(s);
   const size_t n = 3 * system->nodes;
   double *still = work, *a = work + system->freedoms;
   const sw_coupling coupling = system->coupling;
   memset(still, 0, system->freedoms * sizeof *still);
   system->coupling.eval = NULL; /* contact does not know velocities */
-  sw_status status = sw_system_acceleration(system, s->time, system->x, system->v, a, err);
+  sw_status status = sw_system_acceleration(system, sw_scene_time(s), system->x, system->v, a, err);
   for (size_t i = 0; i < n && status == SW_OK; i++) force[i] += system->delta[i];
-  if (status == SW_OK) status = sw_system_acceleration(system, s->time, system->x, still, a, err);
+  if (status == SW_OK)
+    status = sw_system_acceleration(system, sw_scene_time(s), system->x, still, a, err);
   for (size_t i = 0; i < n && status == SW_OK; i++) force[i] -= system->delta[i];
   system->coupling = coupling;
   return status;
@@ -33,39 +35,41 @@ static sw_status add_friction_of_motion(sw_scene *s, double *force, double *work
  * of its rings or nodes before (rings x 3). Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_t count,
                             sw_balance *balance) {
-  const size_t n = s->system.freedoms;
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const size_t n = system->freedoms;
+  const sw_body *b = &system->bodies[wire];
   const sw_web *web = b->plan->web;
   sw_error ignored = {""};
   double *dead = sw_alloc(5 * n, sizeof *dead);
   if (!dead) return SW_ENOMEM;
   double *v = dead + n, *a = dead + 2 * n;
-  memcpy(v, s->system.v, n * sizeof *v);
-  memcpy(a, s->system.a, n * sizeof *a);
+  memcpy(v, system->v, n * sizeof *v);
+  memcpy(a, system->a, n * sizeof *a);
   const int alike = count == (web ? web->rings : b->plan->nodes); /* none came for narrow gaps */
   for (size_t i = 0; i < b->plan->nodes; i++) {
     const size_t r = web ? sw_web_ring_of(web, i) : i;
     sw_store(a + 3 * (b->first_node + i), alike ? sw_vec_at(rings, r) : sw_v(0, 0, 0));
   }
-  sw_inertia_of(&s->system, a, dead);
+  sw_inertia_of(system, a, dead);
   if (add_friction_of_motion(s, dead, dead + 3 * n, &ignored) != SW_OK) {
     sw_free(dead);
     return SW_OK;
   }
-  s->system.dead = dead;
+  system->dead = dead;
   const sw_status status = balance(s, BALANCED, MOST_POSES, &ignored);
-  s->system.dead = NULL;
-  memcpy(s->system.v, v, n * sizeof *v);
-  memcpy(s->system.a, a, n * sizeof *a);
+  system->dead = NULL;
+  memcpy(system->v, v, n * sizeof *v);
+  memcpy(system->a, a, n * sizeof *a);
   sw_free(dead);
   return status == SW_ENOMEM || status == SW_ECALLBACK || status == SW_EINTR ? status : SW_OK;
 }
 
 /* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
 double *sw_frozen_accelerations(const sw_scene *s, size_t wire, size_t *count) {
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
   const sw_web *web = b->plan->web;
-  const double *a = s->system.a + 3 * b->first_node;
+  const double *a = system->a + 3 * b->first_node;
   *count = web ? web->rings : b->plan->nodes;
   double *out = sw_alloc(3 * *count, sizeof *out);
   for (size_t r = 0; out && r < *count; r++) {

@@ -16,7 +16,9 @@
 #include "scene/line.h"
 #include "scene/linear.h"
 #include "scene/obstacle.h"
+#include "scene/parts.h"
 #include "solve/dense.h"
+#include "system/linear.h"
 #include "system/system.h"
 
 enum { READ = 3, MOVED = 5, WAYS = 6 }; /* so many rings outside the pads; see above [-] */
@@ -76,7 +78,7 @@ static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double mo
     sw_vec force = sw_v(0, 0, 0), moment = force;
     double along[3];
     move_rigidly(c, side, way, axes, middle);
-    sw_system_carry(&c->s->system, c->wire, c->fixed, c->motion, c->push);
+    sw_system_carry(sw_scene_system(c->s), c->wire, c->fixed, c->motion, c->push);
     for (size_t p = from; p < c->web->first[c->moved[side] + 1]; p++) {
       const sw_vec f = sw_vec_at(c->push, p);
       force = sw_add(force, f);
@@ -121,7 +123,7 @@ enum { PARTS = 64 }; /* of the rod between the ring and where it is held [-] */
 /* Where a rod is held that lies at the ring that is read as the mesh does, under the present load:
  * from there inwards, bent and stretched by the load as far as the rod bends, to its end. */
 static void follow(const cell *c, int side, double length, sw_grip_end *out) {
-  const sw_beam *beam = &c->s->system.bodies[c->wire].plan->beam;
+  const sw_beam *beam = &sw_scene_system(c->s)->bodies[c->wire].plan->beam;
   const sw_clamp_give *give = &out->give;
   sw_vec axes[3], force, moment, at = sw_strand_middle(c->web, c->x, c->read[side]);
   axes_of(c, c->read[side], axes);
@@ -152,7 +154,7 @@ static void follow(const cell *c, int side, double length, sw_grip_end *out) {
 /* The rod's end from the compliance of one side. */
 static void find_end(const cell *c, const sw_frozen *f, int side, double compliance[WAYS][WAYS],
                      sw_grip_end *out) {
-  const sw_beam *beam = &c->s->system.bodies[c->wire].plan->beam;
+  const sw_beam *beam = &sw_scene_system(c->s)->bodies[c->wire].plan->beam;
   const double face = f->stations.s[side ? f->last : f->first];
   const double way = fabs(f->stations.s[c->read[side]] - face);
   const double most = MOST * (f->stations.s[f->last] - f->stations.s[f->first]);
@@ -192,7 +194,8 @@ static size_t ring_outside(const sw_web *web, size_t face, int side, int count) 
 
 static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, const sw_frozen *f,
                           sw_grip_end ends[2], sw_error *err) {
-  const sw_body *b = &s->system.bodies[f->wire.slot];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[f->wire.slot];
   const size_t face[2] = {f->first, f->last};
   size_t pads[SW_TOOL_PADS];
   for (size_t k = 0; k < t->pads; k++) pads[k] = t->pad[k].obstacle;
@@ -206,9 +209,9 @@ static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, const sw_froze
     const int after = c->moved[1] > f->last && r >= c->moved[1];
     c->fixed[p] = before || after || b->plan->held[p] != SW_FREE;
   }
-  SW_TRY(sw_system_inner_forces(&s->system, c->wire, c->inner, err));
+  SW_TRY(sw_system_inner_forces(system, c->wire, c->inner, err));
   SW_TRY(sw_scene_linearise(s, pads, t->pads, err));
-  SW_TRY(sw_system_fix_particles(&s->system, c->wire, c->fixed));
+  SW_TRY(sw_system_fix_particles(system, c->wire, c->fixed));
   for (int side = 0; side < 2; side++)
     if (c->moved[side] != face[side]) find_side(c, f, side, &ends[side]);
   return SW_OK;
@@ -225,16 +228,17 @@ static void rigid_end(const cell *c, const sw_frozen *f, int side, sw_grip_end *
 
 sw_status sw_frozen_condense(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_grip_end ends[2],
                              sw_error *err) {
-  const sw_body *b = &s->system.bodies[f->wire.slot];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[f->wire.slot];
   const size_t n = b->plan->web->particles;
   double *room = sw_alloc(9 * n, sizeof *room);
   unsigned char *fixed = sw_alloc(n, 1);
   sw_status status = SW_ENOMEM;
-  f->across = sw_unit_or(s->obstacles[t->pad[0].obstacle].drive.opens, sw_v(0, 1, 0));
+  f->across = sw_unit_or(sw_scene_obstacle_in(s, t->pad[0].obstacle)->drive.opens, sw_v(0, 1, 0));
   if (room && fixed) {
     cell c = {.s = s, .wire = f->wire.slot, .web = b->plan->web, .fixed = fixed};
     c.across = sw_rotate(f->pose.q, f->across);
-    c.x = s->system.x + 3 * b->first_node;
+    c.x = system->x + 3 * b->first_node;
     c.motion = room, c.push = room + 3 * n, c.inner = room + 6 * n;
     for (int side = 0; side < 2; side++) rigid_end(&c, f, side, &ends[side]);
     status = condense(s, t, &c, f, ends, err);

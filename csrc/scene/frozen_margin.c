@@ -22,6 +22,7 @@
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/parts.h"
 #include "solve/cholesky.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
@@ -33,10 +34,11 @@ static const double STILL = 1e-6;  /* velocity that counts as none, of the motio
 static const double INSIDE = 0.2;
 
 static sw_vec inside(const sw_scene *s, size_t wire, const sw_contact_push *p) {
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
   const sw_web *web = b->plan->web;
-  const double *x = s->system.x + 3 * b->first_node;
-  const sw_vec one = sw_vec_at(s->system.x, p->node), two = sw_vec_at(s->system.x, p->other);
+  const double *x = system->x + 3 * b->first_node;
+  const sw_vec one = sw_vec_at(system->x, p->node), two = sw_vec_at(system->x, p->other);
   const sw_vec at = sw_lerp(one, two, p->node == p->other ? 0.0 : p->at);
   const sw_vec middle = sw_strand_middle(web, x, sw_web_ring_of(web, p->node - b->first_node));
   const sw_vec in = sw_unit_or(sw_sub(middle, at), sw_v(0, 0, 0));
@@ -44,18 +46,19 @@ static sw_vec inside(const sw_scene *s, size_t wire, const sw_contact_push *p) {
 }
 
 sw_status sw_frozen_keep_touches(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
-  const size_t count = s->contact ? sw_contact_touches(s->contact) : 0;
+  const size_t count = sw_scene_contact(s) ? sw_contact_touches(sw_scene_contact(s)) : 0;
   f->touch = sw_alloc(count, sizeof *f->touch);
   if (!f->touch) return SW_ENOMEM;
   for (size_t k = 0; k < count; k++) {
     sw_contact_push p;
     sw_motion_state at;
     sw_closest near;
-    if (!sw_contact_push_at(s->contact, &s->system, k, &p) || !sw_tool_is_pad(t, p.obstacle))
+    if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &p) ||
+        !sw_tool_is_pad(t, p.obstacle))
       continue;
     if (p.node < f->node || p.node >= f->node + f->nodes) continue;
-    const sw_scene_obstacle *o = &s->obstacles[p.obstacle];
-    SW_TRY(sw_drive_eval(s, &o->drive, s->time, &at, err));
+    const sw_scene_obstacle *o = sw_scene_obstacle_in(s, p.obstacle);
+    SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, err));
     const sw_vec place = sw_pose_local(at.pose, inside(s, f->wire.slot, &p));
     if (!sw_shape_point(o->shape, place, HUGE_VAL, &near)) continue;
     f->touch[f->touches++] =

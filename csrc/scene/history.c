@@ -11,6 +11,7 @@
 #include "scene/forces.h"
 #include "scene/line.h"
 #include "scene/save.h"
+#include "scene/world.h"
 #include "state/state_tape.h"
 
 void sw_scene_forget_histories(sw_scene *s) {

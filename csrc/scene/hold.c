@@ -8,37 +8,18 @@
 
 #include "base/alloc.h"
 #include "link/joint.h"
+#include "scene/body.h"
 #include "scene/hold.h"
 #include "scene/jaws.h"
 #include "scene/join.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "state/field.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 #include "system/system.h"
-
-static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
-  size_t n = 0;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
-    out[n++] = s->holds[k].s1;
-    out[n++] = s->holds[k].s2;
-  }
-  return n + sw_scene_join_places(s, wire, out + n);
-}
-
-/* Room for them and one more, to be freed; NULL: out of memory. */
-static double *new_places(const sw_scene *s, size_t wire) {
-  return sw_alloc(2 * s->hold_count + sw_scene_join_places(s, wire, NULL) + 2, sizeof(double));
-}
-
-/* The interval a hold takes, in the mesh's arc lengths. */
-static void held_interval(const sw_mesh *m, const sw_hold_args *a, double *s1, double *s2) {
-  *s1 = sw_mesh_snap(m, a->s - 0.5 * a->width);
-  *s2 = sw_mesh_snap(m, a->s + 0.5 * a->width);
-}
 
 static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t wire,
                              const sw_hold_args *a, sw_error *err) {
@@ -48,130 +29,16 @@ static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t
     return sw_fail(err, SW_EINVAL, "%s: s = %.6g m is not on wire '%s', which ends at %.6g m",
                    cls->name, a->s - start, w->name, length);
   double s1, s2;
-  held_interval(&w->mesh, a, &s1, &s2);
-  if (w->strand.web) sw_strand_rings(&w->mesh, &s1, &s2);
+  sw_body_interval(&w->mesh, a, &s1, &s2);
+  sw_body_class_of(w)->widen(&w->mesh, &s1, &s2);
   return sw_scene_check_clear(s, wire, NULL, cls->name, s1, s2, err);
-}
-
-/* Fewest edges between two holds: with four the bending stiffness between two
- * clamps is 2 to 5 % low, with three 5 to 10 %, and one edge would be rigid. No
- * more than needed, because a bent wire's energy grows when edges are halved. */
-enum { LEAST_EDGES = 4 };
-
-/* Halve every edge between the nodes at arc lengths low and high. */
-static sw_status halve_edges(sw_mesh *m, double low, double high) {
-  const size_t first = sw_mesh_node(m, low), count = sw_mesh_node(m, high) - first + 1;
-  double placed, *nodes = sw_alloc(count, sizeof *nodes);
-  if (!nodes) return SW_ENOMEM;
-  memcpy(nodes, m->s + first, count * sizeof *nodes);
-  sw_status status = SW_OK;
-  for (size_t i = 0; i + 1 < count && status == SW_OK; i++)
-    status = sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed);
-  sw_free(nodes);
-  return status;
-}
-
-/* Enough edges between h and the holds beside it. */
-static sw_status refine_gaps(const sw_scene *s, size_t wire, const sw_hold *h, sw_mesh *m) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *o = &s->holds[k];
-    if (!o->alive || o->wire != wire || o == h) continue;
-    const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
-    for (size_t before = 0; low < high && before < m->n;) { /* ends when nothing is halved */
-      before = m->n;
-      if (sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES)
-        SW_TRY(halve_edges(m, low, high));
-    }
-  }
-  return SW_OK;
-}
-
-/* How far arc length s is from the nearest node [m]. */
-static double off_nodes(const sw_mesh *m, double s) {
-  const size_t i = sw_mesh_node(m, s);
-  return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
-}
-
-static sw_status place_nodes(sw_scene *s, size_t wire, sw_hold *h, const sw_hold_args *a) {
-  sw_mesh *m = &s->wires[wire].mesh;
-  if (s->wires[wire].strand.web) {
-    held_interval(m, a, &h->s1, &h->s2);
-    sw_strand_rings(m, &h->s1, &h->s2);
-    return SW_OK;
-  }
-  double ends[2], placed[2], *keep = new_places(s, wire);
-  if (!keep) return SW_ENOMEM;
-  size_t n = kept_places(s, wire, keep);
-  held_interval(m, a, &ends[0], &ends[1]);
-  /* an end that is nearer to a node takes it first, from whichever end arc length counts */
-  const int order = off_nodes(m, ends[1]) < off_nodes(m, ends[0]);
-  sw_status status = sw_mesh_place(m, ends[order], keep, n, &placed[order]);
-  placed[!order] = placed[order];
-  if (status == SW_OK && a->width > 0) {
-    keep[n++] = placed[order];
-    status = sw_mesh_place(m, ends[!order], keep, n, &placed[!order]);
-  }
-  h->s1 = placed[0], h->s2 = placed[1];
-  sw_free(keep);
-  return status;
-}
-
-/* Where the held places are in the hold's frame, whose origin is the point at
- * s and whose axes are the world's at this moment. */
-static sw_status take_hold(const sw_mesh *m, sw_hold *h, const sw_hold_args *a) {
-  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
-  h->count = last - first + 1;
-  h->s = sw_alloc(h->count, sizeof *h->s);
-  h->local = sw_alloc(3 * h->count, sizeof *h->local);
-  if (!h->s || !h->local) return SW_ENOMEM;
-  sw_vec origin = sw_vec_at(m->x, first);
-  for (size_t i = first; i < last; i++)
-    if (m->s[i + 1] >= a->s && m->s[i] <= a->s)
-      origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1),
-                       (a->s - m->s[i]) / (m->s[i + 1] - m->s[i]));
-  for (size_t i = first; i <= last; i++) {
-    h->s[i - first] = m->s[i];
-    sw_store(h->local + 3 * (i - first), sw_sub(sw_vec_at(m->x, i), origin));
-  }
-  h->drive.pose = (sw_pose){origin, sw_quat_identity()};
-  h->last_pose = h->drive.pose;
-  h->turn = h->drive.pose.q;
-  return SW_OK;
-}
-
-/* The same of the particles of a mesh. With a direction given the hold's pose is turned to it,
- * while the wire is not yet. */
-static sw_status take_particles(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a) {
-  const sw_web *web = w->strand.web;
-  const sw_mesh *m = &w->mesh;
-  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
-  const size_t room = web->first[last + 1] - web->first[first];
-  h->s = sw_alloc(room, sizeof *h->s);
-  h->local = sw_alloc(3 * room, sizeof *h->local);
-  h->particle = sw_alloc(room, sizeof *h->particle);
-  if (!h->s || !h->local || !h->particle) return SW_ENOMEM;
-  size_t i = first < last ? first : first + 1 < m->n ? first : first - 1;
-  while (i + 2 < m->n && m->s[i + 1] < a->s) i++;
-  const double f = fmin(1.0, fmax(0.0, (a->s - m->s[i]) / (m->s[i + 1] - m->s[i])));
-  const sw_vec origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1), f);
-  const sw_quat turn = sw_quat_between(sw_mesh_tangent_at(m, a->s), h->director[1]);
-  for (size_t p = web->first[first]; p < web->first[last + 1]; p++) {
-    if (!sw_strand_holds(web, h->cls, p)) continue;
-    h->s[h->count] = web->s[p];
-    h->particle[h->count] = (uint32_t)p;
-    sw_store(h->local + 3 * h->count++, sw_sub(sw_vec_at(w->strand.x, p), origin));
-  }
-  h->drive.pose = (sw_pose){origin, turn};
-  h->last_pose = h->drive.pose;
-  h->turn = sw_quat_identity();
-  return SW_OK;
 }
 
 /* The held directions, taken before nodes move: a moved node turns the edges
  * beside it. */
 static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a) {
   double s[2];
-  held_interval(m, a, &s[0], &s[1]);
+  sw_body_interval(m, a, &s[0], &s[1]);
   const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
   for (int side = 0; side < 2; side++) {
     h->director[side] =
@@ -182,6 +49,14 @@ static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a)
     f->normal = sw_carry_unit(f->normal, f->tangent, h->director[side]);
     f->tangent = h->director[side];
   }
+}
+
+static sw_status take_places(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+  sw_scene_wire *w = &s->wires[h->wire];
+  const sw_body_class *body = sw_body_class_of(w);
+  SW_TRY(body->place(s, h, a));
+  SW_TRY(body->grasp(w, h, a));
+  return body->refine(s, h, &w->mesh);
 }
 
 static sw_status check_axis(const sw_scene_wire *w, const sw_link_class *cls, const char *what,
@@ -221,14 +96,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   else
     snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
   take_directions(&s->wires[wire.slot].mesh, &h, args);
-  sw_status status = place_nodes(s, wire.slot, &h, args);
-  const sw_scene_wire *on = &s->wires[wire.slot];
-  if (status == SW_OK && on->strand.web)
-    status = take_particles(on, &h, args);
-  else if (status == SW_OK)
-    status = take_hold(&on->mesh, &h, args);
-  if (status == SW_OK && !on->strand.web)
-    status = refine_gaps(s, wire.slot, &h, &s->wires[wire.slot].mesh);
+  sw_status status = take_places(s, &h, args);
   if (status == SW_OK && acts->begin) {
     const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
     status = acts->begin(&h, &of);
@@ -277,11 +145,10 @@ void sw_scene_frame_holds(sw_scene *s, size_t wire) {
 static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_args *a,
                              sw_error *err) {
   const sw_scene_wire *w = &s->wires[h->wire];
-  const sw_web *web = w->strand.web;
   char what[4 * SW_NAME_SIZE];
   double s1, s2;
-  held_interval(&w->mesh, a, &s1, &s2);
-  if (web) sw_strand_rings(&w->mesh, &s1, &s2);
+  sw_body_interval(&w->mesh, a, &s1, &s2);
+  sw_body_class_of(w)->widen(&w->mesh, &s1, &s2);
   snprintf(what, sizeof what, "remodel to '%s', %s '%s'", w->cls->name, h->cls->name, h->name);
   SW_TRY(check_axis(w, h->cls, what, err));
   return sw_scene_check_clear(s, h->wire, h, what, s1, s2, err);
@@ -297,11 +164,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) 
   take_directions(&w->mesh, &new, &a);
   for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
   sw_status status = check_again(s, h, &a, err);
-  if (status == SW_OK) status = place_nodes(s, h->wire, &new, &a);
-  if (status == SW_OK)
-    status = w->strand.web ? take_particles(w, &new, &a) : take_hold(&w->mesh, &new, &a);
-  if (status == SW_OK && !w->strand.web)
-    status = refine_gaps(s, h->wire, &new, &s->wires[h->wire].mesh);
+  if (status == SW_OK) status = take_places(s, &new, &a);
   h->alive = 1;
   if (status != SW_OK) {
     sw_free(new.s);
@@ -349,9 +212,7 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
   new.s = new.local = NULL;
   take_directions(m, &new, &a);
-  sw_status status = place_nodes(s, h->wire, &new, &a);
-  if (status == SW_OK) status = take_hold(m, &new, &a);
-  if (status == SW_OK) status = refine_gaps(s, h->wire, &new, m);
+  sw_status status = take_places(s, &new, &a);
   if (status != SW_OK) {
     sw_free(new.s);
     sw_free(new.local);
@@ -363,27 +224,6 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   sw_free(h->local);
   *h = new;
   return SW_OK;
-}
-
-/* Make s a node of the mesh, of exactly this arc length. */
-static sw_status place_exactly(sw_mesh *m, double s, const double *keep, size_t count) {
-  double placed;
-  SW_TRY(sw_mesh_place(m, s, keep, count, &placed));
-  m->s[sw_mesh_node(m, placed)] = s;
-  return SW_OK;
-}
-
-sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
-  double *keep = new_places(s, wire);
-  if (!keep) return SW_ENOMEM;
-  const size_t n = kept_places(s, wire, keep);
-  sw_status status = SW_OK;
-  for (size_t k = 0; k < n && status == SW_OK; k++) status = place_exactly(m, keep[k], keep, n);
-  sw_free(keep);
-  for (size_t k = 0; k < s->hold_count && status == SW_OK; k++)
-    if (s->holds[k].alive && s->holds[k].wire == wire)
-      status = refine_gaps(s, wire, &s->holds[k], m);
-  return status;
 }
 
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {

@@ -5,11 +5,13 @@
 #include <math.h>
 
 #include "link/hold.h"
+#include "scene/events.h"
 #include "scene/hold.h"
 #include "scene/jaws.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/obstacle.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 /* A held place may be so much deeper in an obstacle than where it was taken hold of, of the
  * distance from there to the surface [-]. Contact itself lets wires in by far less. */
@@ -22,7 +24,7 @@ static const double STRIDE = 0.5;
 enum { MOST_LOOKS = 32 };
 
 static double skin_of(const sw_scene *s, const sw_hold *h) {
-  return sw_plan_skin(s->system.bodies[h->wire].plan, h->particle ? h->particle[0] : 0);
+  return sw_plan_skin(sw_scene_system(s)->bodies[h->wire].plan, h->particle ? h->particle[0] : 0);
 }
 
 static double reach_of(const sw_hold *h) {
@@ -79,15 +81,15 @@ static double depth_on_way(const sw_hold *h, const sw_shape *shape, sw_pose from
 
 /* The obstacle that the hold is deepest in. */
 static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_error *err) {
-  const double skin = skin_of(s, h), before = h->watch.looking ? h->watch.looked : s->time;
+  const double skin = skin_of(s, h), before = h->watch.looking ? h->watch.looked : sw_scene_time(s);
   sw_motion_state to, from, there, was;
-  *out = (sw_crash){.time = s->time};
-  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &to, err));
+  *out = (sw_crash){.time = sw_scene_time(s)};
+  SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &to, err));
   SW_TRY(sw_drive_eval(s, &h->drive, before, &from, err));
-  for (size_t i = 0; i < s->obstacle_count; i++) {
-    const sw_scene_obstacle *o = &s->obstacles[i];
+  for (size_t i = 0; i < sw_scene_obstacle_slots(s); i++) {
+    const sw_scene_obstacle *o = sw_scene_obstacle_in(s, i);
     if (!o->alive || o->off || (o->drive.tool && o->drive.tool == h->drive.tool)) continue;
-    SW_TRY(sw_drive_eval(s, &o->drive, s->time, &there, err));
+    SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &there, err));
     SW_TRY(sw_drive_eval(s, &o->drive, before, &was, err));
     const double depth =
         depth_on_way(h, o->shape, pose_in(from.pose, was.pose), pose_in(to.pose, there.pose), skin);
@@ -100,23 +102,24 @@ static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_err
 static const double STRONGEST = 4e9;
 
 static void watch_force(sw_scene *s, const sw_hold *h, double arc) {
-  const sw_beam *b = &s->wires[h->wire].beam;
+  const sw_beam *b = &sw_scene_wire_in(s, h->wire)->beam;
   const double force = sw_norm(h->force);
   const double most = fmin(b->EA, STRONGEST * M_PI * b->radius * b->radius);
   if (!(most > 0) || force <= most) return;
   sw_scene_tell(s, "overload", h->name, arc, force,
                 "%s '%s' drives wire '%s' with %.4g N, more than any wire like it bears (%.3g N)",
-                h->cls->name, h->name, s->wires[h->wire].name, force, most);
+                h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, force, most);
 }
 
 sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   sw_crash now;
-  const double arc = 0.5 * (h->s1 + h->s2) - s->wires[h->wire].mesh.s[0];
+  const double arc = 0.5 * (h->s1 + h->s2) - sw_scene_wire_in(s, h->wire)->mesh.s[0];
   watch_force(s, h, arc);
-  if (!s->obstacle_count || h->cls->hold->rail) return SW_OK; /* rails lead where they lead */
+  if (!sw_scene_obstacle_slots(s) || h->cls->hold->rail)
+    return SW_OK; /* rails lead where they lead */
   SW_TRY(find_crash(s, h, &now, err));
   if (!h->watch.looking) h->watch.given = now.depth;
-  h->watch.looking = 1, h->watch.looked = s->time;
+  h->watch.looking = 1, h->watch.looked = sw_scene_time(s);
   const double most = h->watch.given + fmax(ALLOWED * skin_of(s, h), NOTICED);
   const int crashing = now.depth > most;
   if (crashing && !h->watch.crashing) h->watch.crash = now; /* a new one */
@@ -124,14 +127,15 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   if (!crashing) return SW_OK;
   sw_scene_tell(s, "crash", h->name, arc, now.depth,
                 "%s '%s' drives wire '%s' %.3g mm deep into '%s', which nothing stops",
-                h->cls->name, h->name, s->wires[h->wire].name, 1e3 * now.depth,
-                s->obstacles[now.obstacle].name);
+                h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * now.depth,
+                sw_scene_obstacle_in(s, now.obstacle)->name);
   return SW_OK;
 }
 
 int sw_hold_crashed(const sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].watch.crashing && s->holds[k].watch.crash.time == s->time)
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (sw_scene_hold_in(s, k)->alive && sw_scene_hold_in(s, k)->watch.crashing &&
+        sw_scene_hold_in(s, k)->watch.crash.time == sw_scene_time(s))
       return 1;
   return 0;
 }
@@ -143,6 +147,6 @@ sw_status sw_scene_hold_crash(const sw_scene *s, sw_handle hold, double *time, d
   const sw_crash *c = &h->watch.crash;
   *time = c->depth > 0 ? c->time : (double)NAN;
   *depth = c->depth;
-  *obstacle = c->depth > 0 ? s->obstacles[c->obstacle].name : "";
+  *obstacle = c->depth > 0 ? sw_scene_obstacle_in(s, c->obstacle)->name : "";
   return SW_OK;
 }

@@ -10,6 +10,7 @@
 #include "link/hold.h"
 #include "link/joint.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 #include "system/join.h"

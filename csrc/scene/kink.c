@@ -5,8 +5,9 @@
  * sqrt 3. Either way there is nothing to be found beyond but a tube that is folded at one place. */
 #include <math.h>
 
+#include "scene/events.h"
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
 /* A fold is far beyond both, where the tube has nowhere that width any more [-]. */
@@ -28,14 +29,15 @@ static double unit_curvature(const sw_beam *beam, double wall) {
 /* A tube that is pressed or bent flat: nothing keeps its walls from passing through each other, so
  * what it does beyond that is not right, and is told. */
 static void watch_walls(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
-  const sw_scene_wire *w = &s->wires[wire];
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  const sw_body *b = &system->bodies[wire];
   const sw_web *web = w->strand.web;
-  const double *x = s->system.x + 3 * b->first_node, at = now->ovalisation.s;
+  const double *x = system->x + 3 * b->first_node, at = now->ovalisation.s;
   const double apart = sw_strand_walls_apart(web, x, at);
   const double wall = web->wall > 0 ? thickness(&w->beam, web->wall) : 0.0;
   if (!(apart <= wall)) return;
-  sw_event *known = sw_events_go_on(&s->events, "walls", w->name, s->time);
+  sw_event *known = sw_events_go_on(sw_scene_events_of(s), "walls", w->name, sw_scene_time(s));
   if (known) known->count++;
   if (known) return;
   sw_scene_tell(
@@ -47,18 +49,18 @@ static void watch_walls(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
 }
 
 void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
-  const sw_scene_wire *w = &s->wires[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const sw_web *web = w->strand.web;
   if (!web || !web->per_ring || !(now->ovalisation.value > FLAT)) return;
   watch_walls(s, wire, now);
   if (!(web->wall > 0)) return;
   const double unit = unit_curvature(&w->beam, web->wall);
   if (!(now->curvature.value > BEYOND * LIMIT * unit)) return;
-  const sw_body *b = &s->system.bodies[wire];
-  const double moment =
-      sw_strand_moment(b->plan, s->system.x + 3 * b->first_node, now->curvature.s);
+  const sw_body *b = &system->bodies[wire];
+  const double moment = sw_strand_moment(b->plan, system->x + 3 * b->first_node, now->curvature.s);
   const double most = w->beam.EI_axis[0] * BUCKLES * unit * (1.0 - 1.5 * BUCKLES * BUCKLES);
-  sw_event *known = sw_events_go_on(&s->events, "kink", w->name, s->time);
+  sw_event *known = sw_events_go_on(sw_scene_events_of(s), "kink", w->name, sw_scene_time(s));
   if (known) known->count++;
   if (known) return;
   sw_scene_tell(s, "kink", w->name, now->curvature.s - w->mesh.s[0], now->curvature.value,

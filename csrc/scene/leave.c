@@ -22,6 +22,7 @@
 #include "scene/save.h"
 #include "scene/tool.h"
 #include "scene/touching.h"
+#include "scene/world.h"
 
 /* --- what leaves with a body ---------------------------------------------------------------- */
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The books of a run's energy, which belong to the scene. Steps write them. */
+#include "scene/ledger.h"
+
 #include "base/alloc.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 void sw_ledger_free(sw_books *b) {
   sw_free(b->holds);
@@ -12,13 +14,14 @@ void sw_ledger_free(sw_books *b) {
 
 sw_status sw_scene_ledger(sw_scene *s, sw_ledger *out, sw_error *err) {
   (void)err;
-  *out = s->books.sums;
+  *out = sw_scene_books(s)->sums;
   return SW_OK;
 }
 
 const double *sw_scene_energy_log(const sw_scene *s, size_t *rows) {
-  *rows = s->books.log.count / SW_LOG_ENERGY_SIZE;
-  return s->books.log.rows;
+  sw_books *books = sw_scene_books(s);
+  *rows = books->log.count / SW_LOG_ENERGY_SIZE;
+  return books->log.rows;
 }
 
 /* --- on tape ------------------------------------------------------------------------ */

@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/tape.h"
+#include "scene/account.h"
 #include "scene/scene.h"
 #include "system/energy.h"
 

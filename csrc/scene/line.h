@@ -5,11 +5,12 @@
 #define SW_SCENE_LINE_H
 
 #include "link/hold.h"
+#include "scene/reading.h"
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/strand.h"
 #include "scene/window.h"
-#include "scene/world.h"
+#include "scene/wires.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -151,10 +152,6 @@ sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body,
 /* SW_EINVAL for a speed that nothing has [m/s]. */
 sw_status sw_scene_check_speed(const sw_scene *scene, const sw_scene_wire *body, double speed,
                                sw_error *err);
-/* How many were made so far, those that are gone too: frames have a number for each. */
-static inline size_t sw_scene_bodies_made(const sw_scene *s) {
-  return s->wire_count + s->gone_count;
-}
 /* The body of a number in frames, or NULL when it is gone; then what is known of it. */
 const sw_scene_wire *sw_scene_numbered(const sw_scene *scene, size_t number, const sw_gone **gone);
 /* Free what these slots own. */

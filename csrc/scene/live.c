@@ -5,8 +5,10 @@
 
 #include "base/alloc.h"
 #include "contact/grains.h"
+#include "scene/body.h"
 #include "scene/line.h"
 #include "scene/save.h"
+#include "scene/world.h"
 
 sw_live sw_live_of(const sw_scene *s) {
   sw_live p = {.state = s->system.state, .state_size = s->system.state_size};
@@ -40,22 +42,18 @@ static sw_status copy_out(const sw_live *p, size_t from, size_t n, double **to) 
   return SW_OK;
 }
 
-static size_t particles_of(const sw_scene_wire *w) {
-  return w->strand.web ? w->strand.web->particles : w->mesh.n;
-}
-
 sw_status sw_live_place(sw_scene *s, const sw_live *p) {
   size_t freedoms = 0, node = 0, edge = 0;
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_scene_wire *wire = &s->wires[w];
-    freedoms += 3 * particles_of(wire) + (wire->beam.rolls ? wire->mesh.n - 1 : 0);
+    freedoms += 3 * sw_body_state_of(wire).points + (wire->beam.rolls ? wire->mesh.n - 1 : 0);
   }
   for (size_t k = 0; k < s->hold_count; k++)
     freedoms += s->holds[k].alive && s->holds[k].cls->hold->rail;
   for (size_t w = 0; w < s->wire_count; w++) {
     sw_strand *strand = &s->wires[w].strand;
     const sw_web *web = strand->web;
-    const size_t n = particles_of(&s->wires[w]), edges = web ? web->links : n - 1;
+    const size_t n = sw_body_state_of(&s->wires[w]).points, edges = web ? web->links : n - 1;
     if (web) {
       SW_TRY(copy_out(p, 3 * node, 3 * n, &strand->x));
       SW_TRY(copy_out(p, freedoms + 3 * node, 3 * n, &strand->v));

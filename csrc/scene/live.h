@@ -4,6 +4,7 @@
 #define SW_SCENE_LIVE_H
 
 #include "base/tape.h"
+#include "integrate/integrate.h"
 #include "scene/scene.h"
 
 /* What a built scene has besides its objects, where it lies: in the scene, to be put on a tape, or

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/body.h"
 #include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/observe.h"
@@ -29,7 +30,7 @@ sw_status sw_scene_wire_nodes(sw_scene *s, sw_handle h, size_t *nodes, sw_error 
 sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, sw_error *err) {
   const sw_scene_wire *w = sw_scene_find_body(s, h, err);
   if (!w) return SW_EDEAD;
-  *particles = w->strand.web ? w->strand.web->particles : w->mesh.n;
+  *particles = sw_body_state_of(w).points;
   return SW_OK;
 }
 

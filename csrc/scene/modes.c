@@ -12,6 +12,7 @@
 #include "scene/line.h"
 #include "scene/linear.h"
 #include "scene/world.h"
+#include "system/linear.h"
 
 static const sw_param rows[] = {
     {"modes", SW_PARAM_INTEGER, "-", 6, 1, 200, 0, NULL, offsetof(sw_modes_args, modes),

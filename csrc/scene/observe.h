@@ -3,6 +3,7 @@
 #ifndef SW_SCENE_OBSERVE_H
 #define SW_SCENE_OBSERVE_H
 
+#include "scene/reading.h"
 #include "scene/scene.h"
 #include "state/clamp.h"
 #include "state/field.h"

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "scene/jaws.h"
+#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 

@@ -3,7 +3,8 @@
  * positions and velocities: energy, node forces, and its stiffness times a
  * direction. For specs, and for anyone who wants to look inside. */
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/parts.h"
+#include "system/linear.h"
 
 /* Node forces out of what the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {
@@ -24,42 +25,44 @@ static sw_status add_terms(const sw_body *b, const sw_force_class *cls, sw_field
 }
 
 static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
+  sw_system *system = sw_scene_system(s);
   sw_field *f = &b->field;
   f->want = SW_WANT_FORCE | SW_WANT_ENERGY | (at->direction ? SW_WANT_STIFFNESS : 0);
-  f->time = s->time;
+  f->time = sw_scene_time(s);
   f->velocity_rate = at->rate;
   f->statics = at->statics;
-  f->x = at->positions ? at->positions : s->system.x + 3 * b->first_node;
-  f->v = at->velocities ? at->velocities : s->system.v + 3 * b->first_node;
+  f->x = at->positions ? at->positions : system->x + 3 * b->first_node;
+  f->v = at->velocities ? at->velocities : system->v + 3 * b->first_node;
   /* from positions and velocities, not the solver's own unknowns */
   f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
-  f->gravity = s->system.gravity;
-  f->hold_directors = s->system.directors_now;
-  f->hold_normals = s->system.normals_now;
-  f->hold_turns = s->system.directors_rate;
+  f->gravity = system->gravity;
+  f->hold_directors = system->directors_now;
+  f->hold_normals = system->normals_now;
+  f->hold_turns = system->directors_rate;
   f->cautious = 0;
   sw_body_begin(b);
   if (b->spin_block) {
-    sw_system_begin_step(&s->system);
-    sw_system_measure(&s->system, b);
+    sw_system_begin_step(system);
+    sw_system_measure(system, b);
   }
 }
 
 sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls, const sw_probe *at,
                          sw_probe_result *out, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_body(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
-  sw_body *b = &s->system.bodies[wire.slot];
+  SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));
+  sw_body *b = &system->bodies[wire.slot];
   aim(s, b, at);
-  s->running++; /* the force may be a user's function */
+  sw_scene_enter(s, 1); /* the force may be a user's function */
   const sw_status status = add_terms(b, cls, &b->field, out, err);
-  s->running--;
+  sw_scene_enter(s, -1);
   out->energy = b->field.energy;
   if (out->force) gather_force(&b->field, out->force);
   if (at->direction && out->product) sw_body_stiffness_times(b, at->direction, out->product);
-  sw_system_refresh(&s->system);
+  sw_system_refresh(system);
   return status;
 }

@@ -9,15 +9,16 @@
 #include <string.h>
 
 #include "scene/line.h"
+#include "scene/parts.h"
 #include "scene/readout.h"
-#include "scene/world.h"
 
 static double of_line(sw_scene *s, size_t body) {
+  sw_system *system = sw_scene_system(s);
   double sum = 0;
-  for (size_t k = 0; k < s->system.bodies[body].term_count; k++) {
-    const sw_force_class *cls = s->system.bodies[body].terms[k].cls;
+  for (size_t k = 0; k < system->bodies[body].term_count; k++) {
+    const sw_force_class *cls = system->bodies[body].terms[k].cls;
     double other;
-    const double energy = sw_system_term_energy(&s->system, body, k, &other);
+    const double energy = sw_system_term_energy(system, body, k, &other);
     if (cls->flags & SW_FORCE_BENDING) sum += energy - other;
     if (!cls->corrects || strcmp(cls->corrects, "bend") == 0) sum += other;
   }
@@ -57,14 +58,15 @@ static double of_mesh(const sw_plan *p, const double *x, double EI) {
 }
 
 static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   (void)place;
   SW_TRY(sw_scene_open_wire(s, h, &w, err));
-  const sw_body *b = &s->system.bodies[h.slot];
+  const sw_body *b = &system->bodies[h.slot];
   const sw_beam *beam = &w->beam;
   if (!b->plan->web) {
     SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
-    sw_system_show(&s->system, h.slot);
+    sw_system_show(system, h.slot);
     *out = of_line(s, h.slot);
     return SW_OK;
   }
@@ -73,7 +75,7 @@ static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_er
                    "wire '%s': bend_energy is not known of meshes with two values of EI; it is of "
                    "model = 'rod'",
                    w->name);
-  *out = of_mesh(b->plan, s->system.x + 3 * b->first_node, beam->EI_axis[0]);
+  *out = of_mesh(b->plan, system->x + 3 * b->first_node, beam->EI_axis[0]);
   return SW_OK;
 }
 

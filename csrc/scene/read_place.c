@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a wire has at a place, and the list of all read-outs. */
 #include "scene/line.h"
+#include "scene/parts.h"
 #include "scene/readout.h"
-#include "scene/world.h"
 
 const sw_readout *const *sw_readout_all(void) {
 #define ONE(name) &sw_readout_##name,
@@ -28,7 +28,7 @@ static sw_status tension(sw_scene *s, sw_handle h, double place, double *out, sw
 /* Strings bear no twist, nor do lines between the meshed parts of a wire. */
 static const char *without_twist(const sw_scene *s, const sw_scene_wire *w, sw_handle h,
                                  double place) {
-  const sw_plan *p = s->system.bodies[h.slot].plan;
+  const sw_plan *p = sw_scene_system(s)->bodies[h.slot].plan;
   sw_recipe recipe;
   double f;
   w->cls->recipe(&w->beam, &recipe);

@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "link/hold.h"
 #include "scene/line.h"
+#include "scene/parts.h"
 
 enum { BESIDE = 2 };              /* slices beside what clamps [-] */
 static const double NARROW = 4.0; /* parts nearer than this are one, of slices [-] */
@@ -30,8 +31,8 @@ static size_t find_parts(const sw_scene *s, size_t wire, const double region[2],
                          double length, part *out) {
   size_t n = 0, kept = 0;
   out[n++] = (part){region[0], region[1], (double)NAN};
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *hold = &s->holds[k];
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    const sw_hold *hold = sw_scene_hold_in(s, k);
     if (!hold->alive || hold->wire != wire || !hold->cls->hold->direction) continue;
     out[n++] = (part){hold->s1 - BESIDE * h, hold->s2 + BESIDE * h, hold->s1};
   }
@@ -97,9 +98,9 @@ static void lay_out(const part *parts, size_t count, double length, double line,
 
 sw_status sw_region_plan(const sw_scene *s, size_t wire, const double region[2], double spacing,
                          double line, sw_stations *out, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double length = w->mesh.s[w->mesh.n - 1];
-  part *parts = sw_alloc(s->hold_count + 1, sizeof *parts);
+  part *parts = sw_alloc(sw_scene_hold_slots(s) + 1, sizeof *parts);
   *out = (sw_stations){.spacing = spacing};
   if (!parts) return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
   const size_t count = find_parts(s, wire, region, spacing, length, parts);

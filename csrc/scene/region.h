@@ -3,7 +3,7 @@
 #ifndef SW_SCENE_REGION_H
 #define SW_SCENE_REGION_H
 
-#include "scene/world.h"
+#include "scene/scene.h"
 
 typedef struct sw_stations {
   size_t n;

@@ -14,6 +14,7 @@
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/remodel_inner.h"
+#include "scene/world.h"
 #include "state/plan.h"
 
 static const sw_param rows[] = {

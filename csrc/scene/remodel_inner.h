@@ -3,6 +3,7 @@
 #ifndef SW_SCENE_REMODEL_INNER_H
 #define SW_SCENE_REMODEL_INNER_H
 
+#include "scene/parts.h"
 #include "scene/region.h"
 #include "state/mesh.h"
 

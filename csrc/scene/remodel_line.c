@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "scene/line.h"
+#include "scene/parts.h"
 #include "scene/remodel_inner.h"
 #include "state/hinge.h"
 
@@ -27,7 +28,7 @@ static double rod_rate(const sw_scene *s, const sw_body *b, double at) {
   for (size_t k = 0; b->has_twist && k < p->span_count; k++) {
     const sw_span *span = &p->spans[k];
     if (at >= p->s[span->first] && at <= p->s[span->last + 1])
-      return s->system.twist[b->first_span + k] / span->length;
+      return sw_scene_system(s)->twist[b->first_span + k] / span->length;
   }
   return p->beam.rest_twist;
 }
@@ -54,7 +55,7 @@ static double turn_between(sw_vec t0, sw_vec u0, sw_vec t1, sw_vec u1) {
 }
 
 static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[h.slot];
+  const sw_scene_wire *w = sw_scene_wire_in(s, h.slot);
   SW_TRY(sw_scene_wire_length(s, h, &out->length, err));
   out->start = w->mesh.s[0];
   for (size_t i = 0; i < out->n; i++) {
@@ -75,10 +76,11 @@ static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out
 
 /* Directions across the line: those of the mesh, or carried along with the rod's twist. */
 static void sample_frames(const sw_scene *s, size_t wire, sw_line *out) {
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
   const sw_web *web = b->plan->web;
-  const double *x = s->system.x + 3 * b->first_node;
-  const sw_vec normal = s->wires[wire].drawing.normal;
+  const double *x = system->x + 3 * b->first_node;
+  const sw_vec normal = sw_scene_wire_in(s, wire)->drawing.normal;
   sw_vec t = sw_load(out->frame), u = sw_perpendicular(t);
   if (!web && isfinite(normal.x)) u = sw_unit_or(sw_madd(normal, t, -sw_dot(normal, t)), u);
   for (size_t i = 0; i < out->n; i++) {
@@ -127,7 +129,7 @@ sw_status sw_line_read(sw_scene *s, sw_handle h, size_t n, const double *at, sw_
   if (new_line(n, out) != SW_OK) return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
   SW_TRY(sample(s, h, at, out, err));
   sample_frames(s, h.slot, out);
-  find_strains(&s->wires[h.slot].beam, out);
+  find_strains(&sw_scene_wire_in(s, h.slot)->beam, out);
   return SW_OK;
 }
 

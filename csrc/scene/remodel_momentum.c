@@ -4,8 +4,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/parts.h"
+#include "scene/reading.h"
 #include "scene/remodel_inner.h"
 #include "solve/dense.h"
+#include "system/system.h"
 
 /* Momentum of velocities v and its moment about a point: out, 6 numbers [N s], [N m s]. */
 static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec about,
@@ -40,9 +43,10 @@ static void rigid(const sw_plan *p, const double *x, sw_vec about, double distan
 
 /* Give the built wire the momentum wanted. */
 sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double wanted[6]) {
-  const sw_body *b = &s->system.bodies[wire];
-  const double *x = s->system.x + 3 * b->first_node, size = b->plan->length;
-  double *v = s->system.v + 3 * b->first_node, A[6][6], y[6], now[6], column[6];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const double *x = system->x + 3 * b->first_node, size = b->plan->length;
+  double *v = system->v + 3 * b->first_node, A[6][6], y[6], now[6], column[6];
   double *field = sw_alloc(3 * b->plan->nodes, sizeof *field);
   if (!field) return SW_ENOMEM;
   momentum(b->plan, x, v, about, now);
@@ -62,8 +66,9 @@ sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double
 }
 
 void sw_momentum_of(const sw_scene *s, size_t wire, sw_vec *about, double out[6]) {
-  const sw_body *b = &s->system.bodies[wire];
-  const double *x = s->system.x + 3 * b->first_node;
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const double *x = system->x + 3 * b->first_node;
   double mass = 0;
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t i = 0; i < b->plan->nodes; i++) {
@@ -71,13 +76,14 @@ void sw_momentum_of(const sw_scene *s, size_t wire, sw_vec *about, double out[6]
     mass += b->plan->lumped[i];
   }
   *about = sw_scale(sum, 1.0 / mass);
-  momentum(b->plan, x, s->system.v + 3 * b->first_node, *about, out);
+  momentum(b->plan, x, system->v + 3 * b->first_node, *about, out);
 }
 
 void sw_momentum_about(const sw_scene *s, size_t wire, sw_vec about, double out[6]) {
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
   const size_t at = 3 * b->first_node;
-  momentum(b->plan, s->system.x + at, s->system.v + at, about, out);
+  momentum(b->plan, system->x + at, system->v + at, about, out);
 }
 
 void sw_inertia_of(const sw_system *s, const double *a, double *out) {

@@ -15,6 +15,7 @@
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
+#include "scene/world.h"
 
 typedef struct head {
   char magic[16];

@@ -6,8 +6,9 @@
 #include "base/tape.h"
 #include "scene/jaws.h"
 #include "scene/live.h"
+#include "scene/parts.h"
+#include "scene/reading.h"
 #include "scene/strand.h"
-#include "scene/world.h"
 #include "system/system.h"
 
 /* The whole scene. Reading fills an empty one, or, from a tape at home, one whose system is that of

@@ -11,6 +11,7 @@
 #include "scene/obstacle.h"
 #include "scene/save.h"
 #include "scene/touching.h"
+#include "scene/world.h"
 
 static int is_node(const sw_mesh *m, double s) { return m->s[sw_mesh_node(m, s)] == s; }
 

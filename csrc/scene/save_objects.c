@@ -10,6 +10,7 @@
 #include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/parts.h"
 #include "scene/save.h"
 #include "scene/touching.h"
 #include "state/state_tape.h"
@@ -34,7 +35,7 @@ static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   sw_motion_state at;
   SW_TAPE_STRUCT(t, sw_drive, 104);
   if (!sw_tape_reads(t) && !t->home && x->motion && sw_motion_is_function(x->motion)) {
-    const sw_status status = sw_drive_eval(s, x, s->time, &at, t->err);
+    const sw_status status = sw_drive_eval(s, x, sw_scene_time(s), &at, t->err);
     if (status != SW_OK) sw_tape_fail(t, status);
     now = (sw_drive){.pose = at.pose};
   }
@@ -345,8 +346,9 @@ void sw_tape_frame(sw_tape *t, const sw_scene *s, sw_frame *x) {
   SW_TAPE_ARRAY(t, x->data, x->size);
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
   sw_tape_expect(t,
-                 x->wires <= sw_scene_bodies_made(s) && x->obstacles <= s->obstacle_count &&
-                     x->holds <= s->hold_count && x->tools <= s->tool_count &&
+                 x->wires <= sw_scene_bodies_made(s) &&
+                     x->obstacles <= sw_scene_obstacle_slots(s) &&
+                     x->holds <= sw_scene_hold_slots(s) && x->tools <= sw_scene_tool_slots(s) &&
                      sw_scene_frame_walk(x, x->size, &size) && size == x->size,
                  "a frame");
 }

@@ -11,6 +11,7 @@
 #include "scene/obstacle.h"
 #include "scene/save.h"
 #include "scene/touching.h"
+#include "scene/world.h"
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */
 

@@ -6,13 +6,13 @@
 #include "contact/contact.h"
 #include "force/solid.h"
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_body **body,
                            sw_error *err) {
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
-  *body = &s->system.bodies[h.slot];
+  *body = &sw_scene_system(s)->bodies[h.slot];
   if (wire->strand.web && wire->strand.web->per_ring) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire:%s: wire '%s' is a %s, which has no surface of its own; it is known of "
@@ -23,12 +23,13 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_
 /* --- contact ------------------------------------------------------------------------- */
 
 void sw_strand_pressed(const sw_scene *s, const sw_body *b, double *normal, double *force) {
-  const size_t n = b->plan->nodes, count = s->contact ? sw_contact_touches(s->contact) : 0;
+  const size_t n = b->plan->nodes,
+               count = sw_scene_contact(s) ? sw_contact_touches(sw_scene_contact(s)) : 0;
   memset(normal, 0, n * sizeof *normal);
   if (force) memset(force, 0, 3 * n * sizeof *force);
   for (size_t k = 0; k < count; k++) {
     sw_contact_push push;
-    if (!sw_contact_push_at(s->contact, &s->system, k, &push)) continue;
+    if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &push)) continue;
     if (push.node < b->first_node || push.node >= b->first_node + n) continue;
     const size_t ends[2] = {push.node - b->first_node, push.other - b->first_node};
     const double share[2] = {1.0 - push.at, push.at};
@@ -67,7 +68,7 @@ sw_status sw_scene_wire_pressed(sw_scene *s, sw_handle h, double *force, double 
   double outline[3 * SW_OUTLINE];
   SW_TRY(open_mesh(s, h, "contact_pressure", &b, err));
   const sw_web *w = b->plan->web;
-  const double *x = s->system.x + 3 * b->first_node;
+  const double *x = sw_scene_system(s)->x + 3 * b->first_node;
   sw_strand_pressed(s, b, normal, force);
   memset(area, 0, w->particles * sizeof *area);
   for (size_t p = 0; p < w->particles; p++) arc[p] = w->s[p] - w->s[0];
@@ -106,7 +107,7 @@ sw_status sw_scene_wire_mises(sw_scene *s, sw_handle h, double *mises, double *m
     double at[3 * SW_SOLID_NODES];
     sw_vec sum = sw_v(0, 0, 0);
     for (uint32_t i = 0; i < e->count; i++) {
-      const sw_vec p = sw_vec_at(s->system.x + 3 * b->first_node, e->node[i]);
+      const sw_vec p = sw_vec_at(sw_scene_system(s)->x + 3 * b->first_node, e->node[i]);
       sw_store(at + 3 * i, p);
       sum = sw_add(sum, p);
     }

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "state/hinge.h"
 
 void sw_strand_outline(const sw_web *w, const double *x, size_t ring, double *out) {
@@ -38,8 +38,8 @@ typedef struct spot {
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out, sw_error *err) {
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
-  const sw_body *b = &s->system.bodies[h.slot];
-  *out = (spot){.wire = wire, .web = b->plan->web, .x = s->system.x + 3 * b->first_node};
+  const sw_body *b = &sw_scene_system(s)->bodies[h.slot];
+  *out = (spot){.wire = wire, .web = b->plan->web, .x = sw_scene_system(s)->x + 3 * b->first_node};
   if (out->web && out->web->per_ring) return SW_OK;
   sw_fail(err, SW_EINVAL,
           "wire:%s: wire '%s' is a %s, whose section does not change; it is known of meshes of "
@@ -53,7 +53,8 @@ static double ring_s(const sw_web *w, size_t ring) { return w->s[w->first[ring]]
 static sw_status open_place(sw_scene *s, sw_handle h, double place, spot *p, sw_error *err) {
   SW_TRY(open_mesh(s, h, "section", p, err));
   SW_TRY(sw_scene_check_place(p->wire, place, err));
-  p->ring = sw_plan_locate(s->system.bodies[h.slot].plan, place + p->wire->mesh.s[0], &p->f);
+  p->ring =
+      sw_plan_locate(sw_scene_system(s)->bodies[h.slot].plan, place + p->wire->mesh.s[0], &p->f);
   const size_t slices = p->web->rings - 1;
   if (!sw_web_is_ring(p->web, p->ring) || !sw_web_is_ring(p->web, p->ring + 1))
     return sw_fail(err, SW_EINVAL,

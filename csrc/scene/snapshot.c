@@ -12,6 +12,7 @@
 #include "scene/obstacle.h"
 #include "scene/save.h"
 #include "scene/scene.h"
+#include "scene/world.h"
 
 struct sw_snapshot {
   sw_scene *scene; /* NULL once it is gone */

@@ -7,7 +7,7 @@
 
 #include "link/hold.h"
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 
@@ -18,8 +18,8 @@ static sw_edge_frame edge_frame(const double *nodes, const double *normals, size
 
 /* The scene's hold with this number among the living. */
 static const sw_hold *hold_number(const sw_scene *s, int number) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && number-- == 0) return &s->holds[k];
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (sw_scene_hold_in(s, k)->alive && number-- == 0) return sw_scene_hold_in(s, k);
   return NULL;
 }
 
@@ -30,7 +30,7 @@ static void set_rest(sw_plan *p, size_t number, const sw_edge_frame *a, const sw
 
 /* Of hinges at nodes from .. to and of all clamps. */
 static void unloaded_between(const sw_scene *s, size_t wire, sw_plan *p, size_t from, size_t to) {
-  const sw_mesh *m = &s->wires[wire].mesh;
+  const sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
   for (size_t i = from; i <= to && i + 1 < p->nodes; i++) {
     const sw_edge_frame a = edge_frame(m->rest, m->rest_normal, i - 1);
     const sw_edge_frame b = edge_frame(m->rest, m->rest_normal, i);
@@ -84,10 +84,11 @@ double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) 
 static const double AS_DRAWN = 1e-9; /* what rounding does to normals and twists [-], [rad] */
 
 void sw_scene_frame_out(sw_scene *s, size_t wire) {
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
   const sw_plan *p = b->plan;
-  const double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
-  sw_mesh *m = &s->wires[wire].mesh;
+  const double *state = system->frames + b->first_frame, *twist = state + 3 * p->edges;
+  sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
   for (size_t e = 0; e < p->edges; e++) {
     const sw_vec now = sw_v(state[e], state[p->edges + e], state[2 * p->edges + e]);
     if (sw_dist(now, sw_vec_at(m->normal, e)) > AS_DRAWN) m->drawn = 0;
@@ -100,9 +101,9 @@ void sw_scene_frame_out(sw_scene *s, size_t wire) {
   for (size_t i = 0; i < p->nodes; i++)
     if (fabs(m->twist[i]) > AS_DRAWN) m->drawn = 0; /* it is drawn without twist */
   if (!b->roll_block) return;
-  const size_t at = 3 * s->system.nodes + b->first_roll;
-  memcpy(m->turn, s->system.x + at, p->edges * sizeof *m->turn);
-  memcpy(m->spin, s->system.v + at, p->edges * sizeof *m->spin);
+  const size_t at = 3 * system->nodes + b->first_roll;
+  memcpy(m->turn, system->x + at, p->edges * sizeof *m->turn);
+  memcpy(m->spin, system->v + at, p->edges * sizeof *m->spin);
 }
 
 /* The mesh's twist of a node: a clamp hinge has half of it where both its sides
@@ -114,21 +115,22 @@ static double twist_before(const sw_plan *p, const sw_mesh *m, size_t clamp) {
 }
 
 void sw_scene_frame_in(sw_scene *s) {
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
+  sw_system *system = sw_scene_system(s);
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
+    const sw_body *b = &system->bodies[w];
     const sw_plan *p = b->plan;
-    const sw_mesh *m = &s->wires[w].mesh;
+    const sw_mesh *m = &sw_scene_wire_in(s, w)->mesh;
     if (!b->spin_block) continue;
-    double *state = s->system.frames + b->first_frame, *twist = state + 3 * p->edges;
+    double *state = system->frames + b->first_frame, *twist = state + 3 * p->edges;
     for (size_t e = 0; e < p->edges; e++)
       for (size_t k = 0; k < 3; k++) state[k * p->edges + e] = m->normal[3 * e + k];
     memcpy(twist, m->twist, p->nodes * sizeof *twist);
     for (size_t c = 0; c < p->clamp_count; c++) twist[p->nodes + c] = twist_before(p, m, c);
     if (b->roll_block) {
-      const size_t at = 3 * s->system.nodes + b->first_roll;
-      memcpy(s->system.x + at, m->turn, p->edges * sizeof *m->turn);
-      memcpy(s->system.v + at, m->spin, p->edges * sizeof *m->spin);
+      const size_t at = 3 * system->nodes + b->first_roll;
+      memcpy(system->x + at, m->turn, p->edges * sizeof *m->turn);
+      memcpy(system->v + at, m->spin, p->edges * sizeof *m->spin);
     }
-    sw_system_measure_frames(&s->system, w);
+    sw_system_measure_frames(system, w);
   }
 }

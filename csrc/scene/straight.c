@@ -4,10 +4,11 @@
 #include <math.h>
 
 #include "modal/modal.h"
+#include "scene/events.h"
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/linear.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "system/system.h"
 
 /* Tangents that differ by less than this are those of a straight wire [-]. */
@@ -45,38 +46,42 @@ static int cannot_be_said(sw_status status) {
 
 /* With the system linearised. */
 static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge) {
-  const sw_body *b = &s->system.bodies[w];
-  const double g = fmax(sw_norm(s->gravity), 1.0), rate = SLOWEST * sqrt(g / b->plan->length);
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
+  const double g = fmax(sw_norm(sw_scene_gravity(s)), 1.0),
+               rate = SLOWEST * sqrt(g / b->plan->length);
   size_t count = 0;
-  const sw_status status = sw_modal_unstable(&s->system, w, rate * rate, &count);
+  const sw_status status = sw_modal_unstable(system, w, rate * rate, &count);
   if (cannot_be_said(status)) return SW_OK;
   if (status != SW_OK || count == 0) return status;
-  s->system.bodies[w].pushed = HUGE_VAL;
-  sw_scene_tell(s, "buckling", s->wires[w].name, b->plan->s[edge] - b->plan->s[0], push,
+  system->bodies[w].pushed = HUGE_VAL;
+  sw_scene_tell(s, "buckling", sw_scene_wire_in(s, w)->name, b->plan->s[edge] - b->plan->s[0], push,
                 "wire '%s' stays straight under a push of %.3g N, though it is unstable in %zu "
                 "directions: it would buckle, but nothing bends it to a side; draw it bent by a "
                 "thousandth of its length, or add a small force across",
-                s->wires[w].name, push, count);
+                sw_scene_wire_in(s, w)->name, push, count);
   return SW_OK;
 }
 
 /* Is the wire straight, and pushed by enough more than when it was looked at last? */
 static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge) {
-  const sw_body *b = &s->system.bodies[w];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
   if (b->plan->web || sw_scene_joined(s, w)) return 0;
-  *push = largest_push(&s->system, b, edge);
+  *push = largest_push(system, b, edge);
   if (!(*push * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) return 0;
-  return *push > GROWN * b->pushed && is_straight(&s->system, b);
+  return *push > GROWN * b->pushed && is_straight(system, b);
 }
 
 /* The system is linearised once for all wires. */
 static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   sw_status made = SW_OK;
-  for (size_t w = 0; w < s->system.body_count; w++) {
+  for (size_t w = 0; w < system->body_count; w++) {
     size_t edge = 0;
     double push;
     if (!is_new_push(s, w, &push, &edge)) continue;
-    s->system.bodies[w].pushed = push;
+    system->bodies[w].pushed = push;
     if (!*linear) made = sw_scene_linearise(s, NULL, 0, err);
     *linear = 1;
     if (cannot_be_said(made)) continue;
@@ -88,9 +93,9 @@ static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
 
 sw_status sw_scene_look_for_buckling(sw_scene *s, sw_error *err) {
   int linear = 0;
-  s->running++; /* a force may be a user's function */
+  sw_scene_enter(s, 1); /* a force may be a user's function */
   const sw_status status = look_at_all(s, &linear, err);
-  s->running--;
-  if (linear) sw_system_refresh(&s->system);
+  sw_scene_enter(s, -1);
+  if (linear) sw_system_refresh(sw_scene_system(s));
   return status;
 }

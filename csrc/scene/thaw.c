@@ -6,8 +6,11 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
+#include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
+#include "scene/links.h"
+#include "scene/parts.h"
 #include "state/hinge.h"
 
 /* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds
@@ -103,11 +106,11 @@ static sw_status become_mesh(sw_scene *s, const sw_frozen *f, const sw_motion_st
 static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_line *line,
                                 const double *a, size_t count, sw_balance *balance,
                                 sw_freeze_report *out, sw_error *err) {
-  const sw_tool *t = &s->tools[tool.slot];
+  const sw_tool *t = sw_scene_tool_in(s, tool.slot);
   size_t pads[SW_TOOL_PADS];
   sw_motion_state now;
   sw_vec about;
-  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &now, err));
   SW_TRY(sw_line_read(s, f->wire, f->stations.n, f->stations.s, line, err));
   align(f, &now.pose, line);
   sw_momentum_of(s, f->wire.slot, &about, out->before);
@@ -117,9 +120,9 @@ static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f,
   SW_TRY(sw_scene_tool_pads_on(s, tool, 1, err));
   SW_TRY(sw_scene_build(s, err));
   for (size_t k = 0; k < t->pads; k++) pads[k] = t->pad[k].obstacle;
-  const size_t first = s->system.bodies[f->wire.slot].first_node;
-  SW_TRY(sw_contact_add_memory(s->contact, f->memory, f->bytes, f->node, f->node + f->nodes, first,
-                               pads, t->pads));
+  const size_t first = sw_scene_system(s)->bodies[f->wire.slot].first_node;
+  SW_TRY(sw_contact_add_memory(sw_scene_contact(s), f->memory, f->bytes, f->node,
+                               f->node + f->nodes, first, pads, t->pads));
   SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, balance));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
@@ -140,9 +143,9 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);
   f->wire = sw_scene_body_now(s, f->wire); /* others may have left */
-  if (s->wires[f->wire.slot].strand.web)
+  if (sw_scene_wire_in(s, f->wire.slot)->strand.web)
     return sw_fail(err, SW_EINVAL, "gripper '%s': wire '%s' was remodelled while it was held",
-                   t->name, s->wires[f->wire.slot].name);
+                   t->name, sw_scene_wire_in(s, f->wire.slot)->name);
   SW_TRY(sw_scene_build(s, err));
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
@@ -153,11 +156,11 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
   sw_free(a);
   sw_line_free(&line);
   if (status == SW_OK) {
-    sw_tool *thawed = &s->tools[tool.slot];
+    sw_tool *thawed = sw_scene_tool_in(s, tool.slot);
     thawed->jaw = f->jaw;
-    thawed->jaw.since = s->time, thawed->jaw.speed = 0;
+    thawed->jaw.since = sw_scene_time(s), thawed->jaw.speed = 0;
     thawed->frozen = NULL;
-    sw_course_go_on(&s->course);
+    sw_course_go_on(sw_scene_course(s));
     thawed->now.lost_time = NAN;
     sw_frozen_release(f);
   } else if (before) {

@@ -8,6 +8,7 @@
 #include "scene/hold.h"
 #include "scene/join.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/world.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own

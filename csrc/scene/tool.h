@@ -4,6 +4,8 @@
 #ifndef SW_SCENE_TOOL_H
 #define SW_SCENE_TOOL_H
 
+#include "motion/motion.h"
+#include "scene/reading.h"
 #include "scene/scene.h"
 
 enum { SW_TOOL_PADS = 16 }; /* most obstacles of a tool [-] */

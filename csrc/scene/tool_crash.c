@@ -5,9 +5,10 @@
 #include <math.h>
 
 #include "link/hold.h"
+#include "scene/events.h"
 #include "scene/jaws.h"
 #include "scene/obstacle.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 static const double NOTICED = 1e-5; /* overlap of less than this is none [m] */
 
@@ -64,34 +65,36 @@ static int far_apart(const sw_shape *part, sw_pose at, const sw_shape *other, sw
 
 /* The obstacle that a part of the tool is deepest in; depth 0: none. */
 static sw_status find_crash(sw_scene *s, size_t slot, sw_crash *out, sw_error *err) {
-  const sw_tool *t = &s->tools[slot];
+  const sw_tool *t = sw_scene_tool_in(s, slot);
   sw_motion_state at[SW_TOOL_PADS], there;
   out->depth = 0;
   for (size_t k = 0; k < t->pads; k++)
-    SW_TRY(sw_drive_eval(s, &s->obstacles[t->pad[k].obstacle].drive, s->time, &at[k], err));
-  for (size_t i = 0; i < s->obstacle_count; i++) {
-    const sw_scene_obstacle *o = &s->obstacles[i];
+    SW_TRY(sw_drive_eval(s, &sw_scene_obstacle_in(s, t->pad[k].obstacle)->drive, sw_scene_time(s),
+                         &at[k], err));
+  for (size_t i = 0; i < sw_scene_obstacle_slots(s); i++) {
+    const sw_scene_obstacle *o = sw_scene_obstacle_in(s, i);
     if (!t->pads || !o->alive || o->drive.tool == 1 + slot) continue;
-    SW_TRY(sw_drive_eval(s, &o->drive, s->time, &there, err));
+    SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &there, err));
     for (size_t k = 0; k < t->pads; k++) {
-      const sw_shape *part = s->obstacles[t->pad[k].obstacle].shape;
+      const sw_shape *part = sw_scene_obstacle_in(s, t->pad[k].obstacle)->shape;
       if (far_apart(part, at[k].pose, o->shape, there.pose)) continue;
       const double depth = overlap_of(part, at[k].pose, o->shape, there.pose);
       if (depth <= NOTICED || depth <= out->depth) continue;
-      *out = (sw_crash){s->time, depth, t->pad[k].obstacle, i};
+      *out = (sw_crash){sw_scene_time(s), depth, t->pad[k].obstacle, i};
     }
   }
   return SW_OK;
 }
 
 sw_status sw_tool_look_out(sw_scene *s, size_t slot, sw_error *err) {
-  sw_tool *t = &s->tools[slot];
+  sw_tool *t = sw_scene_tool_in(s, slot);
   sw_crash now = {0};
   SW_TRY(find_crash(s, slot, &now, err));
   if (now.depth > 0 && !t->crashing) t->crash = now; /* a new one */
   t->crashing = now.depth > 0;
   if (t->crashing)
     sw_scene_tell(s, "crash", t->name, NAN, now.depth, "'%s' runs %.3g mm deep into '%s'",
-                  s->obstacles[now.part].name, 1e3 * now.depth, s->obstacles[now.obstacle].name);
+                  sw_scene_obstacle_in(s, now.part)->name, 1e3 * now.depth,
+                  sw_scene_obstacle_in(s, now.obstacle)->name);
   return SW_OK;
 }

@@ -4,6 +4,7 @@
 #define SW_SCENE_WATCH_H
 
 #include "base/tape.h"
+#include "scene/reading.h"
 #include "scene/scene.h"
 
 typedef struct sw_watch sw_watch; /* the rows of one object */

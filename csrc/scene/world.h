@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene's inside: the lists of its objects, the system that they are made into, and what it
- * remembers. Of this room and of steps. */
+ * remembers. Of those that change it as a whole; others take what they need from parts.h. */
 #ifndef SW_SCENE_WORLD_H
 #define SW_SCENE_WORLD_H
 
@@ -8,25 +8,9 @@
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
-#include "scene/scene.h"
+#include "scene/parts.h"
 #include "scene/watch.h"
 #include "system/system.h"
-
-/* What it has, each in a header of its own. */
-typedef struct sw_scene_wire sw_scene_wire;         /* line.h */
-typedef struct sw_gone sw_gone;                     /* line.h */
-typedef struct sw_hold sw_hold;                     /* hold.h */
-typedef struct sw_scene_obstacle sw_scene_obstacle; /* obstacle.h */
-typedef struct sw_tool sw_tool;                     /* jaws.h */
-typedef struct sw_scene_force sw_scene_force;       /* forces.h */
-typedef struct sw_joint sw_joint;                   /* join.h */
-typedef struct sw_frame sw_frame;                   /* kept_frames.h */
-typedef struct sw_kept_history sw_kept_history;     /* history.h */
-typedef struct sw_scene_rule sw_scene_rule;         /* touching.h */
-typedef struct sw_contact sw_contact;
-typedef struct sw_pairs sw_pairs;
-typedef struct sw_grains sw_grains;
-typedef struct sw_crowd sw_crowd;
 
 struct sw_scene {
   char name[SW_NAME_SIZE];
@@ -99,14 +83,6 @@ struct sw_scene {
   sw_watches watches;
   sw_books books; /* of the energy in it */
 };
-
-/* Leave the built state: the meshes become authoritative again. */
-sw_status sw_scene_thaw(sw_scene *scene);
-/* Make the system from the meshes and holds, if it is not. */
-sw_status sw_scene_build(sw_scene *scene, sw_error *err);
-
-/* The given name, or kind and a number. */
-void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
 
 /* The scene goes away: its snapshots live on, good for nothing. */
 void sw_scene_orphan_snapshots(sw_scene *scene);

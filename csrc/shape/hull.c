@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "shape/ccd_adapter.h"
 #include "shape/hull_qhull.h"
-#include "shape/trimesh.h"
+#include "shape/meshed.h"
 
 enum {
   FEWEST_POINTS = 4,
@@ -14,8 +14,7 @@ enum {
 };
 
 typedef struct hull {
-  sw_shape base;
-  sw_trimesh mesh;
+  sw_meshed as;
   double *corners; /* corner_count x 3: only the points on the hull [m] */
   size_t corner_count;
   sw_vec centre; /* [m] */
@@ -45,7 +44,7 @@ static sw_status check_points(const sw_shape_source *source, sw_error *err) {
 }
 
 static sw_status keep_corners(hull *self) {
-  const sw_trimesh *mesh = &self->mesh;
+  const sw_trimesh *mesh = &self->as.mesh;
   self->corners = sw_alloc(3 * mesh->vertex_count, sizeof *self->corners);
   if (!self->corners) return SW_ENOMEM;
   for (size_t v = 0; v < mesh->vertex_count; v++)
@@ -62,7 +61,7 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   (void)args;
   SW_TRY(check_points(source, err));
   SW_TRY(sw_hull_triangles(object, source->points, source->point_count, &indices, &triangles, err));
-  sw_status status = sw_trimesh_build(&self->mesh, object, source->points, source->point_count,
+  sw_status status = sw_trimesh_build(&self->as.mesh, object, source->points, source->point_count,
                                       indices, triangles, err);
   sw_free(indices);
   SW_TRY(status);
@@ -70,18 +69,14 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   for (size_t i = 0; i < self->corner_count; i++)
     self->centre =
         sw_madd(self->centre, sw_load(self->corners + 3 * i), 1.0 / (double)self->corner_count);
-  shape->bounds = self->mesh.bounds;
+  shape->bounds = self->as.mesh.bounds;
   return SW_OK;
 }
 
 static void destroy(sw_shape *shape) {
   hull *self = (hull *)shape;
-  sw_trimesh_free(&self->mesh);
+  sw_trimesh_free(&self->as.mesh);
   sw_free(self->corners);
-}
-
-static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
-  return sw_trimesh_distance(&((const hull *)shape)->mesh, p, reach, out);
 }
 
 static sw_vec support(const sw_shape *shape, sw_vec n) {
@@ -96,7 +91,7 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
 }
 
 static int apart(const hull *self, const sw_vec *corners, int count, double reach) {
-  return sw_ccd_apart(self->corners, self->corner_count, self->centre, self->mesh.size, corners,
+  return sw_ccd_apart(self->corners, self->corner_count, self->centre, self->as.mesh.size, corners,
                       count, reach);
 }
 
@@ -106,7 +101,7 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   const hull *self = (const hull *)shape;
   const sw_vec ends[2] = {a, b};
   if (apart(self, ends, 2, fmax(reach, 0))) return 0;
-  const int count = sw_trimesh_segment(&self->mesh, a, b, reach, out);
+  const int count = sw_trimesh_segment(&self->as.mesh, a, b, reach, out);
   return count > 0 ? count : sw_convex_segment(shape, a, b, reach, out);
 }
 
@@ -116,32 +111,6 @@ static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, d
   const sw_vec ends[4] = {path->a0, path->b0, path->a1, path->b1};
   if (apart(self, ends, 4, path->margin)) return 0;
   return sw_convex_sweep(shape, path, out, when);
-}
-
-static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
-  (void)around;
-  return sw_trimesh_triangles(&((const hull *)shape)->mesh, out);
-}
-
-static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
-  sw_trimesh_bones(&((const hull *)shape)->mesh, visit, user);
-}
-
-static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
-  return sw_trimesh_sharp(&((const hull *)shape)->mesh, feature, along);
-}
-
-static int faceted(const sw_shape *shape) {
-  return sw_trimesh_faceted(&((const hull *)shape)->mesh);
-}
-
-static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
-                   void *user) {
-  sw_trimesh_ridges(&((const hull *)shape)->mesh, a, b, reach, visit, user);
-}
-
-static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
-  return sw_trimesh_points_out(&((const hull *)shape)->mesh, ridge, n, share);
 }
 
 static const sw_param rows[] = {
@@ -167,13 +136,13 @@ const sw_shape_class sw_shape_class_hull = {
     .size = sizeof(hull),
     .create = create,
     .destroy = destroy,
-    .distance = distance,
+    .distance = sw_meshed_distance,
     .support = support,
     .segment = segment,
     .sweep = sweep,
-    .triangles = triangles,
-    .bones = bones,
-    .sharp = sharp,
-    .faceted = faceted,
-    .ridges = ridges,
-    .points_out = points_out};
+    .triangles = sw_meshed_triangles,
+    .bones = sw_meshed_bones,
+    .sharp = sw_meshed_sharp,
+    .faceted = sw_meshed_faceted,
+    .ridges = sw_meshed_ridges,
+    .points_out = sw_meshed_points_out};

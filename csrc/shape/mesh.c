@@ -4,12 +4,7 @@
  * and within its bounds or within reach. */
 #include "base/alloc.h"
 #include "shape/mesh_read.h"
-#include "shape/trimesh.h"
-
-typedef struct mesh {
-  sw_shape base;
-  sw_trimesh mesh;
-} mesh;
+#include "shape/meshed.h"
 
 typedef struct mesh_args {
   int format;   /* index into formats */
@@ -21,7 +16,7 @@ static const char *const formats[] = {"stl", "obj", "ply", "off", "glb", "gltf",
 
 static sw_status create(sw_shape *shape, const void *args, const sw_shape_source *source,
                         sw_error *err) {
-  mesh *self = (mesh *)shape;
+  sw_meshed *self = (sw_meshed *)shape;
   const mesh_args *given = args;
   sw_mesh_data data;
   if (!source->bytes || source->byte_count == 0)
@@ -37,44 +32,14 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   return status;
 }
 
-static void destroy(sw_shape *shape) { sw_trimesh_free(&((mesh *)shape)->mesh); }
-
-static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
-  return sw_trimesh_distance(&((const mesh *)shape)->mesh, p, reach, out);
-}
+static void destroy(sw_shape *shape) { sw_trimesh_free(&((sw_meshed *)shape)->mesh); }
 
 static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
-  return sw_trimesh_segment(&((const mesh *)shape)->mesh, a, b, reach, out);
+  return sw_trimesh_segment(&((const sw_meshed *)shape)->mesh, a, b, reach, out);
 }
 
 static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
-  return sw_trimesh_sweep(&((const mesh *)shape)->mesh, path, out, when);
-}
-
-static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
-  (void)around;
-  return sw_trimesh_triangles(&((const mesh *)shape)->mesh, out);
-}
-
-static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
-  sw_trimesh_bones(&((const mesh *)shape)->mesh, visit, user);
-}
-
-static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
-  return sw_trimesh_sharp(&((const mesh *)shape)->mesh, feature, along);
-}
-
-static int faceted(const sw_shape *shape) {
-  return sw_trimesh_faceted(&((const mesh *)shape)->mesh);
-}
-
-static void ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
-                   void *user) {
-  sw_trimesh_ridges(&((const mesh *)shape)->mesh, a, b, reach, visit, user);
-}
-
-static int points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share) {
-  return sw_trimesh_points_out(&((const mesh *)shape)->mesh, ridge, n, share);
+  return sw_trimesh_sweep(&((const sw_meshed *)shape)->mesh, path, out, when);
 }
 
 static const sw_param rows[] = {
@@ -101,15 +66,15 @@ const sw_shape_class sw_shape_class_mesh = {
 
     .params = SW_PARAMS(object, rows),
     .args_size = sizeof(mesh_args),
-    .size = sizeof(mesh),
+    .size = sizeof(sw_meshed),
     .create = create,
     .destroy = destroy,
-    .distance = distance,
+    .distance = sw_meshed_distance,
     .segment = segment,
     .sweep = sweep,
-    .triangles = triangles,
-    .bones = bones,
-    .sharp = sharp,
-    .faceted = faceted,
-    .ridges = ridges,
-    .points_out = points_out};
+    .triangles = sw_meshed_triangles,
+    .bones = sw_meshed_bones,
+    .sharp = sw_meshed_sharp,
+    .faceted = sw_meshed_faceted,
+    .ridges = sw_meshed_ridges,
+    .points_out = sw_meshed_points_out};

@@ -2,14 +2,16 @@
 /* A step whose size follows its error. */
 #include <math.h>
 
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "step/restart.h"
 
 /* An adaptive step of at most `left`; refuses steps whose error is too large. */
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
+  sw_course *course = sw_scene_course(s);
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
-  double h = s->course.next_dt > 0 ? fmin(s->course.next_dt, most) : 0.1 * most;
+  double h = course->next_dt > 0 ? fmin(course->next_dt, most) : 0.1 * most;
   SW_TRY(sw_ladder_make_room(p, &h, err));
   sw_restart_at_jerk(s);
   p->changed = sw_restart_changed(s);
@@ -18,17 +20,18 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
-    const int fine = status == SW_OK && s->course.stepper.error <= tolerance;
-    double next = status == SW_OK ? sw_stepper_next_h(&s->course.stepper, h, tolerance) : 0.25 * h;
+    const int fine = status == SW_OK && course->stepper.error <= tolerance;
+    double next = status == SW_OK ? sw_stepper_next_h(&course->stepper, h, tolerance) : 0.25 * h;
     if (fine) {
-      const int unknown = !(s->course.stepper.error > 0); /* a starting step gives no estimate */
-      const double before = s->time;
+      const int unknown = !(course->stepper.error > 0); /* a starting step gives no estimate */
+      const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);
-      if (!(s->time > before)) return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
-      s->course.next_dt = uncut > 0          ? uncut
-                          : unknown          ? h
-                          : last && next > h ? fmax(next, s->course.next_dt)
-                                             : next;
+      if (!(sw_scene_time(s) > before))
+        return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
+      course->next_dt = uncut > 0          ? uncut
+                        : unknown          ? h
+                        : last && next > h ? fmax(next, course->next_dt)
+                                           : next;
       return sw_ladder_record(p, h, err);
     }
     if (status == SW_OK) sw_ladder_undo(p);

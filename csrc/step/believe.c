@@ -8,8 +8,10 @@
 
 #include "base/simd.h"
 #include "force/solid.h"
+#include "scene/course.h"
+#include "scene/events.h"
 #include "scene/line.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 static const double LARGEST_STRAIN = 10.0; /* beyond it a run has diverged [-] */
 
@@ -33,9 +35,9 @@ static double sum_of_squares(size_t n, const double *x) {
 
 static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *what,
                          sw_error *err) {
-  const sw_body *body = &s->system.bodies[b];
-  const char *name = s->wires[b].name;
-  if (sw_scene_is_loose(&s->wires[b]))
+  const sw_body *body = &sw_scene_system(s)->bodies[b];
+  const char *name = sw_scene_wire_in(s, b)->name;
+  if (sw_scene_is_loose(sw_scene_wire_in(s, b)))
     return sw_fail(err, SW_EDIVERGED, "%s of particle %zu of '%s' is no finite number", what,
                    node + 1, name);
   const double at = body->plan->web ? body->plan->web->s[node] : body->plan->s[node];
@@ -46,8 +48,9 @@ static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *w
 /* Which node it is whose place or velocity is out of the numbers. */
 static sw_status find_infinite(const sw_scene *s, const double *x, const char *what,
                                sw_error *err) {
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_body *body = &s->system.bodies[b];
+  sw_system *system = sw_scene_system(s);
+  for (size_t b = 0; b < system->body_count; b++) {
+    const sw_body *body = &system->bodies[b];
     for (size_t i = 0; i < body->plan->nodes; i++)
       if (!isfinite(sw_norm2(sw_vec_at(x, body->first_node + i))))
         return fail_at(s, b, i, what, err);
@@ -57,24 +60,25 @@ static sw_status find_infinite(const sw_scene *s, const double *x, const char *w
 
 static sw_status check_finite(const sw_scene *s, const double *values, const char *what,
                               sw_error *err) {
-  if (isfinite(sum_of_squares(s->system.freedoms, values))) return SW_OK;
+  if (isfinite(sum_of_squares(sw_scene_system(s)->freedoms, values))) return SW_OK;
   return find_infinite(s, values, what, err);
 }
 
 /* Edges between places that are no numbers have no length: nothing else needs to look at these. */
 static int has_edges_alone(const sw_scene *s) {
-  for (size_t b = 0; b < s->system.body_count; b++)
-    if (s->system.bodies[b].plan->web || s->system.bodies[b].roll_block) return 0;
+  sw_system *system = sw_scene_system(s);
+  for (size_t b = 0; b < system->body_count; b++)
+    if (system->bodies[b].plan->web || system->bodies[b].roll_block) return 0;
   return 1;
 }
 
 static sw_status torn(const sw_scene *s, size_t wire, uint32_t a, uint32_t b, sw_error *err) {
-  const sw_web *web = s->system.bodies[wire].plan->web;
+  const sw_web *web = sw_scene_system(s)->bodies[wire].plan->web;
   if (!web->per_ring)
     return sw_fail(err, SW_EDIVERGED, "'%s' is torn apart between particles %u and %u",
-                   s->wires[wire].name, a + 1, b + 1);
-  return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m", s->wires[wire].name,
-                 web->s[a]);
+                   sw_scene_wire_in(s, wire)->name, a + 1, b + 1);
+  return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
+                 sw_scene_wire_in(s, wire)->name, web->s[a]);
 }
 
 /* Corners may be this many largest sides apart, times the largest stretch [-]. */
@@ -103,7 +107,7 @@ static int is_torn(const sw_solid *shape, const sw_web_solid *e, const double *x
 
 /* Squeezed sections may bring two particles close to each other. */
 static sw_status check_web(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
-  const sw_plan *plan = s->system.bodies[wire].plan;
+  const sw_plan *plan = sw_scene_system(s)->bodies[wire].plan;
   const sw_web *web = plan->web;
   for (size_t e = 0; e < web->links; e++) {
     const sw_web_link *link = &web->link[e];
@@ -135,31 +139,33 @@ static long bad_edges(size_t m, const double *restrict rest, const double *restr
 }
 
 static sw_status check_edges(const sw_scene *s, size_t b, const double *x, sw_error *err) {
-  const sw_plan *plan = s->system.bodies[b].plan;
+  const sw_plan *plan = sw_scene_system(s)->bodies[b].plan;
   if (!bad_edges(plan->edges, plan->rest, x)) return SW_OK;
-  SW_TRY(check_finite(s, s->course.stepper.trial_x, "the place", err));
+  SW_TRY(check_finite(s, sw_scene_course(s)->stepper.trial_x, "the place", err));
   for (size_t e = 0; e < plan->edges; e++) {
     const double l2 = sw_norm2(sw_sub(sw_load(x + 3 * e + 3), sw_load(x + 3 * e)));
     const double most = (1.0 + LARGEST_STRAIN) * plan->rest[e];
     const double least = LEAST_SHARE * plan->rest[e];
     if (l2 < least * least)
-      return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m", s->wires[b].name,
-                     plan->s[e] - plan->s[0]);
+      return sw_fail(err, SW_ENOCONV, "wire '%s' is crushed near s = %.4g m",
+                     sw_scene_wire_in(s, b)->name, plan->s[e] - plan->s[0]);
     if (!(l2 <= most * most))
-      return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m", s->wires[b].name,
-                     plan->s[e] - plan->s[0]);
+      return sw_fail(err, SW_EDIVERGED, "wire '%s' is torn apart near s = %.4g m",
+                     sw_scene_wire_in(s, b)->name, plan->s[e] - plan->s[0]);
   }
   return SW_OK;
 }
 
 sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
-  if (!has_edges_alone(s)) SW_TRY(check_finite(s, s->course.stepper.trial_x, "the place", err));
-  SW_TRY(check_finite(s, s->course.stepper.trial_v, "the velocity", err));
-  if (s->course.stepper.trial_a) /* the next step starts from them */
-    SW_TRY(check_finite(s, s->course.stepper.trial_a, "the acceleration", err));
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_body *body = &s->system.bodies[b];
-    const double *x = s->course.stepper.trial_x + 3 * body->first_node;
+  sw_course *course = sw_scene_course(s);
+  sw_system *system = sw_scene_system(s);
+  if (!has_edges_alone(s)) SW_TRY(check_finite(s, course->stepper.trial_x, "the place", err));
+  SW_TRY(check_finite(s, course->stepper.trial_v, "the velocity", err));
+  if (course->stepper.trial_a) /* the next step starts from them */
+    SW_TRY(check_finite(s, course->stepper.trial_a, "the acceleration", err));
+  for (size_t b = 0; b < system->body_count; b++) {
+    const sw_body *body = &system->bodies[b];
+    const double *x = course->stepper.trial_x + 3 * body->first_node;
     if (body->plan->web) SW_TRY(check_web(s, b, x, err));
     SW_TRY(check_edges(s, b, x, err));
   }
@@ -171,7 +177,7 @@ void sw_scene_remark_contact(sw_scene *s) {
   if (!sw_scene_touches(s)) return;
   for (size_t k = 0; (e = sw_scene_event(s, k)) != NULL; k++)
     if (strcmp(e->kind, "integrator") == 0) return;
-  sw_scene_tell(s, "integrator", s->course.method->name, NAN, NAN,
+  sw_scene_tell(s, "integrator", sw_scene_course(s)->method->name, NAN, NAN,
                 "integrator '%s' gains energy where wires touch something; take 'tr-bdf2' there",
-                s->course.method->name);
+                sw_scene_course(s)->method->name);
 }

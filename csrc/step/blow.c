@@ -6,7 +6,8 @@
 
 #include "contact/contact.h"
 #include "link/hold.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 
 /* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
  * step, and a wire that is pushed on buckles at once instead of bearing the push for a while.
@@ -19,7 +20,9 @@ static const double LONGEST_BLOW = 0.03;
 static const double BETWEEN_BLOWS = 0.1;
 
 double sw_blow_part(const sw_scene *s, double h) {
-  return s->time < s->course.blow_until ? fmin(h, fmax(s->course.blow_part, SHORTEST_PART)) : h;
+  return sw_scene_time(s) < sw_scene_course(s)->blow_until
+             ? fmin(h, fmax(sw_scene_course(s)->blow_part, SHORTEST_PART))
+             : h;
 }
 
 /* Every part that is refused, or makes energy, takes this share off the time that a blow is
@@ -31,16 +34,17 @@ static const double REFUSED = 1.0 / 16;
 static const double SMALLEST_FOLLOWED = 1.0 / 16;
 
 void sw_blow_refused(sw_scene *s, double part) {
-  if (!(s->time < s->course.blow_until)) return;
-  if (part < SMALLEST_FOLLOWED * s->course.blow_part) s->course.blow_until = s->time;
-  s->course.blow_since -= REFUSED * LONGEST_BLOW;
-  s->course.blow_until = fmin(s->course.blow_until, s->course.blow_since + LONGEST_BLOW);
+  sw_course *course = sw_scene_course(s);
+  if (!(sw_scene_time(s) < course->blow_until)) return;
+  if (part < SMALLEST_FOLLOWED * course->blow_part) course->blow_until = sw_scene_time(s);
+  course->blow_since -= REFUSED * LONGEST_BLOW;
+  course->blow_until = fmin(course->blow_until, course->blow_since + LONGEST_BLOW);
 }
 
 /* Nodes that go into a guide press on what is beside it by no blow. */
 static int any_feed(const sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && sw_hold_passes(&s->holds[k])) return 1;
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (sw_scene_hold_in(s, k)->alive && sw_hold_passes(sw_scene_hold_in(s, k))) return 1;
   return 0;
 }
 
@@ -54,17 +58,18 @@ static double parts_for(double jolt) {
 }
 
 int sw_blow_begins(sw_scene *s, double h) {
-  const int followed = s->time < s->course.blow_until;
-  if (s->wire_count > MOST_WIRES || !s->contact || s->pairs || s->grains ||
-      (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
+  sw_course *course = sw_scene_course(s);
+  const int followed = sw_scene_time(s) < course->blow_until;
+  if (sw_scene_wire_slots(s) > MOST_WIRES || !sw_scene_contact(s) || sw_scene_pairs(s) ||
+      sw_scene_grains(s) || (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
-  if (!followed && s->course.blow_until > 0 && s->time < s->course.blow_since + BETWEEN_BLOWS)
+  if (!followed && course->blow_until > 0 && sw_scene_time(s) < course->blow_since + BETWEEN_BLOWS)
     return 0;
-  const double jolt = sw_contact_jolt(s->contact, &s->system, followed);
+  const double jolt = sw_contact_jolt(sw_scene_contact(s), sw_scene_system(s), followed);
   if (!(jolt > 0)) return 0;
-  if (!followed) s->course.blow_since = s->time;
-  s->course.blow_until =
-      fmin(s->time + fmax(BLOW, h), s->course.blow_since + fmax(LONGEST_BLOW, h));
-  if (!followed) s->course.blow_part = fmax(SHORTEST_PART, h / parts_for(jolt));
+  if (!followed) course->blow_since = sw_scene_time(s);
+  course->blow_until =
+      fmin(sw_scene_time(s) + fmax(BLOW, h), course->blow_since + fmax(LONGEST_BLOW, h));
+  if (!followed) course->blow_part = fmax(SHORTEST_PART, h / parts_for(jolt));
   return !followed;
 }

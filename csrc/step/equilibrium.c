@@ -9,6 +9,7 @@
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/live.h"
+#include "scene/parts.h"
 #include "scene/touching.h"
 #include "state/mesh.h"
 #include "step/statics.h"
@@ -25,8 +26,8 @@ enum { MOST_NUDGES = 2 };
 
 double sw_rest_longest(const sw_scene *s) {
   double length = 0;
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_mesh *m = &s->wires[w].mesh;
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
+    const sw_mesh *m = &sw_scene_wire_in(s, w)->mesh;
     length = fmax(length, m->s[m->n - 1] - m->s[0]);
   }
   return length;
@@ -34,7 +35,7 @@ double sw_rest_longest(const sw_scene *s) {
 
 /* sqrt(length/g); weightless scenes: any scale will do. */
 static double time_scale(const sw_scene *s) {
-  return sqrt(sw_rest_longest(s) / fmax(sw_norm(s->gravity), 1.0));
+  return sqrt(sw_rest_longest(s) / fmax(sw_norm(sw_scene_gravity(s)), 1.0));
 }
 
 static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_scale(s); }
@@ -42,7 +43,7 @@ static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_sc
 /* A loose mesh that an obstacle touches on one side is pushed on for as long as the pseudo step
  * is. Is it further than its own size away from where it was? */
 static int thrown(const sw_statics *p) {
-  const sw_system *s = &p->s->system;
+  const sw_system *s = sw_scene_system(p->s);
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
     const double size = body->plan->length + 2.0 * body->plan->beam.radius;
@@ -59,17 +60,22 @@ static int thrown(const sw_statics *p) {
 
 static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newton, sw_error *err) {
   sw_scene *s = p->s;
+  sw_system *system = sw_scene_system(s);
   sw_stage_report r = {0};
-  const sw_stage stage = {
-      .time = s->time, .hbar = hbar, .xhat = p->from, .vhat = p->zero, .y = p->y, .v = p->v};
-  memcpy(p->from, s->system.x, s->system.freedoms * sizeof(double));
-  memcpy(p->tension, s->system.tension, s->system.edges * sizeof(double));
-  sw_system_begin_step(&s->system);
+  const sw_stage stage = {.time = sw_scene_time(s),
+                          .hbar = hbar,
+                          .xhat = p->from,
+                          .vhat = p->zero,
+                          .y = p->y,
+                          .v = p->v};
+  memcpy(p->from, system->x, system->freedoms * sizeof(double));
+  memcpy(p->tension, system->tension, system->edges * sizeof(double));
+  sw_system_begin_step(system);
   sw_status status = SW_OK;
   const double h = isfinite(hbar) ? hbar : 0.0;
   status = sw_scene_begin_contact(s, SW_CONTACT_STATIC, p->touched, h, first_step(s), err);
   for (int redo = 0; status == SW_OK; redo++) {
-    status = sw_system_stage(&s->system, &stage, newton, &r, err);
+    status = sw_system_stage(system, &stage, newton, &r, err);
     p->report->iterations += (size_t)r.iterations;
     if (status != SW_OK || !sw_scene_review_static(s, p->y)) break;
     if (newton->statics || redo == MOST_REDOS)
@@ -79,7 +85,7 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
       thrown(p))
     status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
   p->report->negative = r.negative;
-  if (status != SW_OK) memcpy(s->system.tension, p->tension, s->system.edges * sizeof(double));
+  if (status != SW_OK) memcpy(system->tension, p->tension, system->edges * sizeof(double));
   return status;
 }
 
@@ -87,30 +93,32 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
  * shift [m]. */
 static double take(sw_statics *p, int trial) {
   sw_scene *s = p->s;
+  sw_system *system = sw_scene_system(s);
   double shift = 0;
-  for (size_t i = 0; i < 3 * s->system.nodes; i++)
-    shift = fmax(shift, fabs(p->y[i] - s->system.x[i]));
-  sw_system_follow(&s->system, p->y);
-  memcpy(s->system.x, p->y, s->system.freedoms * sizeof(double));
-  memset(s->system.v, 0, s->system.freedoms * sizeof(double));
-  memset(s->system.a, 0, s->system.freedoms * sizeof(double));
-  sw_system_strain_from_state(&s->system);
+  for (size_t i = 0; i < 3 * system->nodes; i++) shift = fmax(shift, fabs(p->y[i] - system->x[i]));
+  sw_system_follow(system, p->y);
+  memcpy(system->x, p->y, system->freedoms * sizeof(double));
+  memset(system->v, 0, system->freedoms * sizeof(double));
+  memset(system->a, 0, system->freedoms * sizeof(double));
+  sw_system_strain_from_state(system);
   if (trial) return shift;
   sw_scene_commit_contact(s);
-  p->touched = s->time;
+  p->touched = sw_scene_time(s);
   return shift;
 }
 
 /* Have obstacles moved since contact knew them? Then friction drags the wires. */
 static int dragged(const sw_statics *p) {
-  return p->s->contact && p->touched != p->s->time && sw_contact_moves(p->s->contact);
+  return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
+         sw_contact_moves(sw_scene_contact(p->s));
 }
 
 /* A wire that nothing holds may lie where it can be shifted without effort, on a smooth table: a
  * direction in which rounding alone would carry it far. Meshes have touches enough to keep them. */
 static int loose(const sw_scene *s) {
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_plan *plan = s->system.bodies[b].plan;
+  sw_system *system = sw_scene_system(s);
+  for (size_t b = 0; b < system->body_count; b++) {
+    const sw_plan *plan = system->bodies[b].plan;
     size_t i = 0;
     while (i < plan->nodes && plan->held[i] == SW_FREE) i++;
     if (!plan->web && i == plan->nodes && !sw_scene_joined(s, b)) return 1;
@@ -133,7 +141,7 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
   SW_TRY(sw_rest_solve(p, massive ? slowest : HUGE_VAL, &newton, err));
   p->report->residual = p->args->tolerance;
   const double shift = take(p, p->report->negative > 0);
-  const double far = LITTLE * fmax(sw_norm(p->s->gravity), 1.0) * slowest * slowest;
+  const double far = LITTLE * fmax(sw_norm(sw_scene_gravity(p->s)), 1.0) * slowest * slowest;
   if (p->report->negative == 0 && !(massive && shift > far)) return SW_OK;
   /* once more with a little mass: rounding in neutral directions drops out */
   SW_TRY(sw_rest_solve(p, slowest, &newton, err));
@@ -145,7 +153,7 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
 /* A smooth push to the sides, the same in every run, that no symmetry of a
  * scene shares. */
 static void nudge(sw_statics *p, int number) {
-  sw_system *s = &p->s->system;
+  sw_system *s = sw_scene_system(p->s);
   const double size = NUDGE * sw_rest_longest(p->s);
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
@@ -223,7 +231,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (status == SW_ENOCONV && dragged(p)) { /* touches may begin to slide one by one */
     sw_rest_take_back(p->s, p->kept);
-    const double most = SW_REST_ITERATIONS + SLIDES * (double)p->s->system.nodes;
+    const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
     status = sw_rest_newton(p, (int)fmin(most, (double)p->args->max_iterations), err);
   }
   if ((status == SW_OK && p->report->negative == 0) || sw_rest_stops(status)) return status;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The energy referee's rung: a step that makes energy is redone. */
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "step/energy.h"
 #include "step/ladder.h"
 
 static sw_status judge(sw_ladder *p, double h, double *excess, sw_error *err) {
   sw_scene *s = p->s;
-  const sw_status status = sw_ledger_judge(s, s->time + h, h, p->changed, err);
+  const sw_status status = sw_ledger_judge(s, sw_scene_time(s) + h, h, p->changed, err);
   *excess = p->changed || status != SW_OK ? 0.0 : sw_ledger_excess(s, h, p->args->dt);
   if (status != SW_OK) sw_ladder_undo(p);
   return status;
@@ -15,8 +16,8 @@ static sw_status judge(sw_ladder *p, double h, double *excess, sw_error *err) {
 /* What to try after a step that made energy, tried as it is now. Where nothing touches only a
  * smaller one helps, and what is known at its start stays so. */
 static int next_redo(sw_ladder *p) {
-  const sw_stepper *stepper = &p->s->course.stepper;
-  p->smooth = !p->s->books.step.touching;
+  const sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
+  p->smooth = !sw_scene_books(p->s)->step.touching;
   if (p->smooth) return SW_GIVE_UP;
   if (p->redo == SW_AS_IS && stepper->start != stepper->method && !stepper->restart)
     return SW_BY_START;
@@ -27,7 +28,7 @@ static int next_redo(sw_ladder *p) {
  * some all the same. p->smallest: it is then taken as it is, and counted. */
 sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
-  sw_ledger *l = &s->books.sums;
+  sw_ledger *l = &sw_scene_books(s)->sums;
   double excess;
   p->smooth = 0;
   SW_TRY(sw_ledger_open(s, err));
@@ -42,11 +43,11 @@ sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *
     if (!(excess > 0)) return SW_OK;
     const int next = next_redo(p);
     if (next == SW_GIVE_UP && p->smallest) {
-      sw_ledger_retry(s, &l->accepted, s->time, excess);
+      sw_ledger_retry(s, &l->accepted, sw_scene_time(s), excess);
       return SW_OK;
     }
-    if (p->redo == SW_AS_IS) sw_ledger_retry(s, &l->redone, s->time, excess);
-    if (next == SW_GIVE_UP) sw_ledger_retry(s, &l->halved, s->time, excess);
+    if (p->redo == SW_AS_IS) sw_ledger_retry(s, &l->redone, sw_scene_time(s), excess);
+    if (next == SW_GIVE_UP) sw_ledger_retry(s, &l->halved, sw_scene_time(s), excess);
     sw_ladder_undo(p);
     if (next == SW_GIVE_UP) return sw_fail(err, SW_ENOCONV, "the step makes energy from nowhere");
     p->redo = next;

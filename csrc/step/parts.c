@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step of fixed size, halved where it has to be: where nothing else helps, and where blows and
  * what wires pass ask for it. */
+#include "scene/parts.h"
+
 #include <math.h>
 
+#include "scene/course.h"
 #include "scene/feed.h"
-#include "scene/world.h"
 #include "step/blow.h"
 #include "step/passing.h"
 #include "step/restart.h"
@@ -44,7 +46,7 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
  * forces allow [-]. */
 static int is_too_long(const sw_ladder *p, parts *k, double *over) {
   if (sw_blow_begins(p->s, k->part)) return 1;
-  *over = sw_passing_of(p->s, p->s->course.stepper.trial_x);
+  *over = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
   const double shorter = sw_passing_part(k->part, *over);
   if (!(shorter < k->part)) return 0;
   k->part = shorter;
@@ -79,17 +81,17 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
  * costs as much as several that go well: the next step begins in parts that went, or once went
  * twice as long. */
 static void remember(sw_scene *s, const parts *k) {
-  sw_course *c = &s->course;
-  const int shorter = c->blow_until > s->time - 0.5 * k->h; /* so was this step */
-  if (!s->pairs || !(k->refused || shorter)) return;
+  sw_course *c = sw_scene_course(s);
+  const int shorter = c->blow_until > sw_scene_time(s) - 0.5 * k->h; /* so was this step */
+  if (!sw_scene_pairs(s) || !(k->refused || shorter)) return;
   const double part = k->refused > 1 ? k->longest : 2 * (k->refused ? k->longest : c->blow_part);
   c->blow_part = part;
-  c->blow_until = part < k->h ? s->time + 0.5 * k->h : 0.0;
+  c->blow_until = part < k->h ? sw_scene_time(s) + 0.5 * k->h : 0.0;
 }
 
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
-  parts k = {.h = h, .t0 = p->s->time, .t1 = t1, .part = h};
-  k.starts = p->s->course.next && sw_slip_any(p->s);
+  parts k = {.h = h, .t0 = sw_scene_time(p->s), .t1 = t1, .part = h};
+  k.starts = sw_scene_course(p->s)->next && sw_slip_any(p->s);
   if (k.starts) k.part = FIRST_SLIP * h;
   p->cuts = 0;
   p->changed = sw_restart_changed(p->s);

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-#include "scene/world.h"
+#include "scene/parts.h"
+#include "system/system.h"
 
 /* A part that goes too far by less than this is taken all the same: parts are halves [-]. */
 static const double WELL_ENOUGH = 1.25;
@@ -11,14 +12,15 @@ static const double WELL_ENOUGH = 1.25;
 static const double SHORTEST = 1e-5;
 
 double sw_passing_of(const sw_scene *s, const double *x) {
+  sw_system *system = sw_scene_system(s);
   double most = 0;
-  for (size_t w = 0; s->force_count && w < s->system.body_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
+  for (size_t w = 0; sw_scene_force_slots(s) && w < system->body_count; w++) {
+    const sw_body *b = &system->bodies[w];
     for (size_t k = 0; k < b->term_count; k++) {
       const sw_term *term = &b->terms[k];
       if (!term->cls->oversteps) continue;
       sw_field now = b->field; /* its own places may be those of a trial that is gone */
-      now.x = s->system.x + 3 * b->first_node;
+      now.x = system->x + 3 * b->first_node;
       most =
           fmax(most, term->cls->oversteps(term->args, &now, term->history, x + 3 * b->first_node));
     }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step of slow handling: from one equilibrium to the next. */
 #include "base/quota.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "step/energy.h"
 #include "step/ladder.h"
 #include "step/rest.h"
@@ -10,17 +11,18 @@
 /* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed. */
 static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   sw_scene *s = p->s;
-  while (s->time < t) {
-    double h = t - s->time;
+  while (sw_scene_time(s) < t) {
+    double h = t - sw_scene_time(s);
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     SW_TRY(sw_quota_take(err));
     SW_TRY(sw_ladder_make_room(p, &h, err));
-    const double part = h < (t - s->time) * (1 - 1e-9) ? s->time + h : t;
-    if (!(part > s->time)) return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
+    const double part = h < (t - sw_scene_time(s)) * (1 - 1e-9) ? sw_scene_time(s) + h : t;
+    if (!(part > sw_scene_time(s)))
+      return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
     const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt};
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
-    s->course.span = 0;
+    sw_scene_course(s)->span = 0;
     SW_TRY(sw_step_observe(s, err));
   }
   return SW_OK;
@@ -30,8 +32,8 @@ static const double MOST_TURN_PARTS = 1e4;
 
 /* And in parts in which holds turn by less than half a turn. */
 sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err) {
-  sw_system *system = &p->s->system;
-  const double t0 = p->s->time;
+  sw_system *system = sw_scene_system(p->s);
+  const double t0 = sw_scene_time(p->s);
   system->fastest_turn = 0;
   SW_TRY(sw_system_place_holds(system, 0.5 * (t0 + t1), NULL, NULL, NULL, err));
   SW_TRY(sw_system_place_holds(system, t1, NULL, NULL, NULL, err));

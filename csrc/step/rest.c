@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "scene/live.h"
 #include "scene/obstacle.h"
+#include "scene/world.h"
 #include "step/statics.h"
 
 /* Wires that rub follow their holds to the next pose without going far, or they jump: which

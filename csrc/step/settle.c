@@ -2,8 +2,9 @@
 /* scene:settle: the equilibrium where the scene is. */
 #include <string.h>
 
+#include "scene/course.h"
 #include "scene/observe.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/jaw.h"
 #include "step/rest.h"
 #include "step/run.h"
@@ -21,7 +22,7 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, co
   report->ok = status == SW_OK;
   if (status != SW_OK)
     sw_fail(&report->reason, status, "%.400s", why->text[0] ? why->text : sw_status_text(status));
-  sw_course_jump(&s->course);
+  sw_course_jump(sw_scene_course(s));
 }
 
 enum { MOST_ROUNDS = 100 };
@@ -29,10 +30,11 @@ enum { MOST_ROUNDS = 100 };
 /* Jaws that hold with a force go on holding with it. */
 static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                              sw_settle_report *report, sw_error *err) {
-  if (!sw_jaw_begin_rest(s)) return sw_scene_rest(s, s->time, NULL, args, interrupted, report, err);
+  if (!sw_jaw_begin_rest(s))
+    return sw_scene_rest(s, sw_scene_time(s), NULL, args, interrupted, report, err);
   for (int round = 1;; round++) {
     const sw_status status =
-        sw_scene_squeezed_rest(s, s->time, NULL, args, interrupted, report, err);
+        sw_scene_squeezed_rest(s, sw_scene_time(s), NULL, args, interrupted, report, err);
     const int more = sw_jaw_end_rest(s, status == SW_OK);
     if (status != SW_OK || !more || round == MOST_ROUNDS) return status;
     sw_jaw_follow(s);
@@ -46,13 +48,14 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
   *report = (sw_settle_report){0};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
+  if (!sw_scene_wire_slots(s))
+    return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", sw_scene_name(s));
   SW_TRY(sw_scene_build(s, err));
-  s->running++;
+  sw_scene_enter(s, 1);
   sw_status status = settle_held(s, args, interrupted, report, &why);
-  s->running--;
+  sw_scene_enter(s, -1);
   sw_scene_reset_extremes(s);
-  s->course.span = 0;
+  sw_scene_course(s)->span = 0;
   if (status == SW_OK) status = sw_step_observe(s, &why);
   conclude(s, status, report, &why);
   return status == SW_ECALLBACK || status == SW_ENOMEM ? sw_fail(err, status, "%s", why.text)

@@ -9,9 +9,10 @@
 #include <math.h>
 
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/feed.h"
 #include "scene/hold.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "state/field.h"
 #include "step/obey.h"
 
@@ -24,17 +25,17 @@ static int yields(const sw_hold *h) {
 }
 
 int sw_slip_any(const sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (yields(&s->holds[k])) return 1;
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (yields(sw_scene_hold_in(s, k))) return 1;
   return 0;
 }
 
 static int begin(sw_scene *s, double h) {
   int any = 0;
   (void)h;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_feed *f = &s->holds[k].feed;
-    if (!yields(&s->holds[k])) continue;
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    sw_feed *f = &sw_scene_hold_in(s, k)->feed;
+    if (!yields(sw_scene_hold_in(s, k))) continue;
     any = 1;
     f->slip_before = f->slip_growth;
     f->way_before = f->slip_way;
@@ -44,9 +45,9 @@ static int begin(sw_scene *s, double h) {
 }
 
 static void give_up(sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_feed *f = &s->holds[k].feed;
-    if (!yields(&s->holds[k])) continue;
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    sw_feed *f = &sw_scene_hold_in(s, k)->feed;
+    if (!yields(sw_scene_hold_in(s, k))) continue;
     f->slip_growth = f->slip_before;
     f->slip_way = f->way_before;
   }
@@ -88,11 +89,12 @@ static int stops(sw_feed *f, double h) {
 
 static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
   sw_feed *f = &h->feed;
-  const sw_plan *p = s->system.bodies[h->wire].plan;
+  const sw_plan *p = sw_scene_system(s)->bodies[h->wire].plan;
   const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-  const double drive = h->cls->hold->passes(h, &w, s->time, s->course.stepper.trial_x).force;
+  const double drive =
+      h->cls->hold->passes(h, &w, sw_scene_time(s), sw_scene_course(s)->stepper.trial_x).force;
   const double L = p->length;
-  const double weight = p->beam.mass * L * sw_norm(s->gravity);
+  const double weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
   if (!isfinite(f->push) && f->slip_way == 0) {
     if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* stopped, or holds */
     f->slip_way = copysign(1.0, drive);
@@ -105,8 +107,8 @@ static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
 
 static int correct(sw_scene *s, double h, int first) {
   int good = 1;
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (yields(&s->holds[k])) good &= correct_feed(s, &s->holds[k], h, first);
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (yields(sw_scene_hold_in(s, k))) good &= correct_feed(s, sw_scene_hold_in(s, k), h, first);
   return good;
 }
 

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "scene/jaws.h"
 #include "scene/live.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/jaw.h"
 #include "step/rest.h"
 
@@ -33,14 +33,16 @@ static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   const double off = sw_jaw_off(p->s);
   if (off > p->nearest) return SW_OK;
   p->nearest = off;
-  for (size_t k = 0; k < p->s->tool_count; k++) p->speed[k] = p->s->tools[k].jaw.speed;
+  for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
+    p->speed[k] = sw_scene_tool_in(p->s, k)->jaw.speed;
   return SW_OK;
 }
 
 /* The nearest trial again, for the last one did not come to rest. */
 static sw_status fall_back(poser *p, double since, sw_error *err) {
   SW_TRY(sw_live_back(p->s, &p->start, err));
-  for (size_t k = 0; k < p->s->tool_count; k++) p->s->tools[k].jaw.speed = p->speed[k];
+  for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
+    sw_scene_tool_in(p->s, k)->jaw.speed = p->speed[k];
   return try(p, since, NULL, err);
 }
 
@@ -67,7 +69,7 @@ static sw_status search_on(poser *p, sw_error *err) {
   for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
     sw_tape_free(&p->start);
     SW_TRY(sw_live_take(p->s, &p->start));
-    const sw_status status = search(p, p->s->time, NULL, err);
+    const sw_status status = search(p, sw_scene_time(p->s), NULL, err);
     if (status == SW_ENOCONV || status == SW_EINTR) {
       sw_jaw_end_rest(p->s, 0);
       break;
@@ -78,11 +80,11 @@ static sw_status search_on(poser *p, sw_error *err) {
 }
 
 static sw_status prepare(poser *p) {
-  const size_t n = p->s->tool_count;
+  const size_t n = sw_scene_tool_slots(p->s);
   p->before = sw_alloc(n, sizeof *p->before);
   p->speed = sw_alloc(n, sizeof *p->speed);
   if (!p->before || !p->speed) return SW_ENOMEM;
-  for (size_t k = 0; k < n; k++) p->before[k] = p->s->tools[k].jaw;
+  for (size_t k = 0; k < n; k++) p->before[k] = sw_scene_tool_in(p->s, k)->jaw;
   return sw_live_take(p->s, &p->start);
 }
 
@@ -91,11 +93,11 @@ sw_status sw_scene_squeezed_rest(sw_scene *s, double since, int *too_far,
                                  sw_settle_report *report, sw_error *err) {
   poser p = {.s = s, .args = args, .interrupted = interrupted, .report = report};
   sw_status status = prepare(&p);
-  if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", s->name);
+  if (status != SW_OK) sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
   if (status == SW_OK) status = search(&p, since, too_far, err);
   if (status == SW_OK) status = search_on(&p, err);
-  for (size_t k = 0; status != SW_OK && p.before && k < s->tool_count; k++)
-    s->tools[k].jaw = p.before[k];
+  for (size_t k = 0; status != SW_OK && p.before && k < sw_scene_tool_slots(s); k++)
+    sw_scene_tool_in(s, k)->jaw = p.before[k];
   sw_tape_free(&p.start);
   sw_free(p.before);
   sw_free(p.speed);

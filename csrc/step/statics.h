@@ -5,8 +5,9 @@
 
 #include <string.h>
 
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/step.h"
+#include "system/system.h"
 
 typedef struct sw_statics {
   sw_scene *s;
@@ -26,11 +27,11 @@ typedef struct sw_statics {
 
 /* Where the state is on its way through a solve: put aside, and back. */
 static inline void sw_rest_put_aside(const sw_scene *s, double *kept) {
-  memcpy(kept, s->system.state, s->system.state_size * sizeof(double));
+  memcpy(kept, sw_scene_system(s)->state, sw_scene_system(s)->state_size * sizeof(double));
 }
 
 static inline void sw_rest_take_back(sw_scene *s, const double *kept) {
-  memcpy(s->system.state, kept, s->system.state_size * sizeof(double));
+  memcpy(sw_scene_system(s)->state, kept, sw_scene_system(s)->state_size * sizeof(double));
 }
 
 enum { SW_REST_ITERATIONS = 60 }; /* of Newton, usually [-] */

@@ -5,6 +5,8 @@
  * The product with K goes by edges, not by matrix rows: a row adds blocks that
  * are larger than what a smooth motion feels by up to the fourth power of the
  * number of segments, and that rounding would drown it. */
+#include "system/linear.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -195,7 +197,7 @@ static inline void edge_gradient(const sw_field *f, size_t e, const double *rest
   }
 }
 
-void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
+static void field_stiffness_times(const sw_field *f, const double *d, double *out) {
   sw_band3_multiply(f->rows, f->plan->nodes, d, out);
   for (size_t e = 0; e < f->plan->edges; e++) {
     double g[3];
@@ -209,7 +211,7 @@ void sw_field_stiffness_times(const sw_field *f, const double *d, double *out) {
 
 void sw_body_stiffness_times(sw_body *b, const double *d, double *out) {
   if (!b->plan->web) {
-    sw_field_stiffness_times(&b->field, d, out);
+    field_stiffness_times(&b->field, d, out);
     return;
   }
   sw_web_gather(b);
@@ -233,7 +235,7 @@ static void framed_stiffness_times(const sw_body *b, const double *motion, doubl
   const size_t n = b->plan->nodes;
   double *nodes = b->spin_delta, *pushes = b->spin_rows;
   take_nodes(n, motion, nodes);
-  sw_field_stiffness_times(&b->field, nodes, pushes);
+  field_stiffness_times(&b->field, nodes, pushes);
   put_nodes(n, pushes, out);
   sw_spin_stiffness_times(b, motion, out);
 }
@@ -243,7 +245,7 @@ void sw_system_stiffness_times(const sw_system *s, size_t body, const double *mo
   if (b->spin_block)
     framed_stiffness_times(b, motion, out);
   else
-    sw_field_stiffness_times(&b->field, motion, out);
+    field_stiffness_times(&b->field, motion, out);
   for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
     const sw_span *span = &b->plan->spans[k];
     const double torque = b->field.twist_stiffness[k] * sw_twist_dot(b, span, motion);

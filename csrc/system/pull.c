@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "system/pull.h"
+#include "system/axial.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "system/strain.h"
+#include "system/arrays.h"
 
 /* Changes in a step of more than this are blows, which do not go on [-]. */
 static const double SMOOTH = 0.1;
@@ -35,8 +35,8 @@ void sw_system_sum_pull(const sw_system *s, const double *tension, const double 
   }
 }
 
-void sw_system_add_pull(const sw_system *s, const double *tension, const double *rate,
-                        double share, double *sum) {
+void sw_system_add_pull(const sw_system *s, const double *tension, const double *rate, double share,
+                        double *sum) {
   for (size_t i = 0; i < s->body_count; i++) {
     const sw_body *b = &s->bodies[i];
     if (b->plan->web) continue;

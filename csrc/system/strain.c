@@ -5,8 +5,9 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
+#include "system/arrays.h"
+#include "system/axial.h"
 #include "system/part.h"
-#include "system/pull.h"
 
 sw_status sw_system_add_strains(sw_system *s) {
   int any = 0;

@@ -8,9 +8,6 @@
 
 #include "system/system.h"
 
-/* Make the state longer by zeros. SW_ENOMEM. */
-sw_status sw_system_grow_state(sw_system *system, size_t more, double **added);
-
 /* After the last term: room for strains in the state and beside it, if any body needs them.
  * SW_ENOMEM. */
 sw_status sw_system_add_strains(sw_system *system);

@@ -7,28 +7,17 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "base/spread.h"
+#include "system/arrays.h"
+#include "system/axial.h"
 #include "system/bridge.h"
 #include "system/factors.h"
 #include "system/join.h"
-#include "system/pull.h"
 #include "system/rail.h"
 #include "system/roll.h"
 #include "system/spin.h"
 #include "system/strain.h"
 #include "system/twist.h"
 #include "system/web.h"
-
-size_t sw_system_body_of(const sw_system *s, size_t node) {
-  size_t low = 0, high = s->body_count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->bodies[middle].first_node <= node)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
 
 void sw_system_free(sw_system *system) {
   for (size_t b = 0; system->bodies && b < system->body_count; b++) {
@@ -78,16 +67,6 @@ static sw_status new_bodies(sw_system *s, sw_plan *const *plans, size_t count) {
   return SW_OK;
 }
 
-static void lay_out(sw_system *s) {
-  s->x = s->state;
-  s->v = s->x + s->freedoms;
-  s->a = s->v + s->freedoms;
-  s->tension = s->a + s->freedoms;
-  s->twist = s->tension + s->edges;
-  s->turn = s->twist + s->span_count;
-  s->frames = s->turn + 4 * s->hold_count;
-}
-
 static sw_status new_arrays(sw_system *s, size_t hold_count) {
   size_t held = 0;
   for (size_t b = 0; b < s->body_count; b++)
@@ -114,7 +93,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->directors_rate = s->directors + 12 * hold_count;
   s->normals = s->directors + 18 * hold_count;
   s->normals_now = s->directors + 24 * hold_count;
-  lay_out(s);
+  sw_system_lay_out(s);
   s->yhat = w;
   s->delta = s->yhat + s->freedoms;
   s->velocity = s->delta + s->freedoms;
@@ -155,23 +134,6 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
 }
 
 /* --- histories -------------------------------------------------------------- */
-
-sw_status sw_system_grow_state(sw_system *s, size_t more, double **added) {
-  double *state = sw_alloc(s->state_size + more, sizeof *state); /* zeros */
-  if (!state) return SW_ENOMEM;
-  memcpy(state, s->state, s->state_size * sizeof *state);
-  if (s->strain) s->strain = state + (s->strain - s->state), s->strain_rate = s->strain + s->edges;
-  if (s->even) {
-    s->even = state + (s->even - s->state);
-    s->between = s->even + s->edges, s->turning = s->between + s->edges;
-  }
-  sw_free(s->state);
-  s->state = state;
-  *added = state + s->state_size;
-  s->state_size += more;
-  lay_out(s);
-  return SW_OK;
-}
 
 sw_status sw_system_add_histories(sw_system *s) {
   double *next;

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies that are lines: a wire's nodes are those of its mesh. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/body.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/spin.h"
+#include "state/mesh.h"
+
+static int is_on(const sw_hold *h, size_t wire) { return h->alive && h->wire == wire; }
+
+/* Arc lengths that holds and joins need as nodes; their number. */
+static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
+  size_t n = 0;
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    const sw_hold *h = sw_scene_hold_in(s, k);
+    if (is_on(h, wire)) out[n++] = h->s1, out[n++] = h->s2;
+  }
+  return n + sw_scene_join_places(s, wire, out + n);
+}
+
+/* Room for them and one more, to be freed; NULL: out of memory. */
+static double *new_places(const sw_scene *s, size_t wire) {
+  return sw_alloc(2 * sw_scene_hold_slots(s) + sw_scene_join_places(s, wire, NULL) + 2,
+                  sizeof(double));
+}
+
+/* --- place ---------------------------------------------------------------------- */
+
+static sw_body_state state(const sw_scene_wire *w) {
+  const sw_mesh *m = &w->mesh;
+  return (sw_body_state){m->n, m->x, m->v, m->a, m->tension, m->rate};
+}
+
+/* Place of arc length s in the hold's frame. */
+static sw_vec local_of(const sw_hold *h, double s) {
+  size_t i = 0;
+  while (i + 2 < h->count && h->s[i + 1] <= s) i++;
+  if (h->count == 1) return sw_load(h->local);
+  const double f = (s - h->s[i]) / (h->s[i + 1] - h->s[i]);
+  return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
+}
+
+/* What a hold has formed is as long as it lies there. */
+static void form(const sw_scene *s, size_t w, sw_plan *plan) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    const sw_hold *h = sw_scene_hold_in(s, k);
+    if (!is_on(h, w) || !h->formed) continue;
+    for (size_t e = sw_plan_first(plan, h->s1); e < plan->edges && plan->s[e + 1] <= h->s2; e++)
+      plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
+  }
+}
+
+static sw_status plan(const sw_scene *s, size_t w, const sw_hold_place *places, size_t count,
+                      sw_plan **out) {
+  const sw_scene_wire *wire = sw_scene_wire_in(s, w);
+  SW_TRY(sw_plan_new(&wire->beam, wire->mesh.s, wire->mesh.n, places, count, out));
+  form(s, w, *out);
+  return SW_OK;
+}
+
+static sw_status take(sw_scene *scene, size_t w) {
+  const sw_system *s = sw_scene_system(scene);
+  const sw_body *b = &s->bodies[w];
+  sw_mesh *m = &sw_scene_wire_in(scene, w)->mesh;
+  m->drawn = m->drawn && memcmp(m->x, s->x + 3 * b->first_node, 3 * m->n * sizeof *m->x) == 0 &&
+             memcmp(m->v, s->v + 3 * b->first_node, 3 * m->n * sizeof *m->v) == 0;
+  memcpy(m->x, s->x + 3 * b->first_node, 3 * m->n * sizeof *m->x);
+  memcpy(m->v, s->v + 3 * b->first_node, 3 * m->n * sizeof *m->v);
+  memcpy(m->a, s->a + 3 * b->first_node, 3 * m->n * sizeof *m->a);
+  memcpy(m->tension, s->tension + b->first_edge, (m->n - 1) * sizeof *m->tension);
+  if (b->axial_time > 0)
+    memcpy(m->rate, s->strain_rate + b->first_edge, (m->n - 1) * sizeof *m->rate);
+  else
+    memset(m->rate, 0, m->n * sizeof *m->rate);
+  if (b->spin_block) sw_scene_frame_out(scene, w);
+  return SW_OK;
+}
+
+/* --- hold ----------------------------------------------------------------------- */
+
+static void widen(const sw_mesh *m, double *s1, double *s2) { (void)m, (void)s1, (void)s2; }
+
+/* Fewest edges between two holds: with four the bending stiffness between two
+ * clamps is 2 to 5 % low, with three 5 to 10 %, and one edge would be rigid. No
+ * more than needed, because a bent wire's energy grows when edges are halved. */
+enum { LEAST_EDGES = 4 };
+
+/* Halve every edge between the nodes at arc lengths low and high. */
+static sw_status halve_edges(sw_mesh *m, double low, double high) {
+  const size_t first = sw_mesh_node(m, low), count = sw_mesh_node(m, high) - first + 1;
+  double placed, *nodes = sw_alloc(count, sizeof *nodes);
+  if (!nodes) return SW_ENOMEM;
+  memcpy(nodes, m->s + first, count * sizeof *nodes);
+  sw_status status = SW_OK;
+  for (size_t i = 0; i + 1 < count && status == SW_OK; i++)
+    status = sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed);
+  sw_free(nodes);
+  return status;
+}
+
+/* Enough edges between h and the holds beside it. */
+static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    const sw_hold *o = sw_scene_hold_in(s, k);
+    if (!o->alive || o->wire != h->wire || o == h) continue;
+    const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
+    for (size_t before = 0; low < high && before < m->n;) { /* ends when nothing is halved */
+      before = m->n;
+      if (sw_mesh_node(m, high) - sw_mesh_node(m, low) < LEAST_EDGES)
+        SW_TRY(halve_edges(m, low, high));
+    }
+  }
+  return SW_OK;
+}
+
+/* How far arc length s is from the nearest node [m]. */
+static double off_nodes(const sw_mesh *m, double s) {
+  const size_t i = sw_mesh_node(m, s);
+  return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
+}
+
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  double ends[2], placed[2], *keep = new_places(s, h->wire);
+  if (!keep) return SW_ENOMEM;
+  size_t n = kept_places(s, h->wire, keep);
+  sw_body_interval(m, a, &ends[0], &ends[1]);
+  /* an end that is nearer to a node takes it first, from whichever end arc length counts */
+  const int order = off_nodes(m, ends[1]) < off_nodes(m, ends[0]);
+  sw_status status = sw_mesh_place(m, ends[order], keep, n, &placed[order]);
+  placed[!order] = placed[order];
+  if (status == SW_OK && a->width > 0) {
+    keep[n++] = placed[order];
+    status = sw_mesh_place(m, ends[!order], keep, n, &placed[!order]);
+  }
+  h->s1 = placed[0], h->s2 = placed[1];
+  sw_free(keep);
+  return status;
+}
+
+/* Where the held places are in the hold's frame, whose origin is the point at
+ * s and whose axes are the world's at this moment. */
+static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a) {
+  const sw_mesh *m = &w->mesh;
+  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
+  h->count = last - first + 1;
+  h->s = sw_alloc(h->count, sizeof *h->s);
+  h->local = sw_alloc(3 * h->count, sizeof *h->local);
+  if (!h->s || !h->local) return SW_ENOMEM;
+  sw_vec origin = sw_vec_at(m->x, first);
+  for (size_t i = first; i < last; i++)
+    if (m->s[i + 1] >= a->s && m->s[i] <= a->s)
+      origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1),
+                       (a->s - m->s[i]) / (m->s[i + 1] - m->s[i]));
+  for (size_t i = first; i <= last; i++) {
+    h->s[i - first] = m->s[i];
+    sw_store(h->local + 3 * (i - first), sw_sub(sw_vec_at(m->x, i), origin));
+  }
+  h->drive.pose = (sw_pose){origin, sw_quat_identity()};
+  h->last_pose = h->drive.pose;
+  h->turn = h->drive.pose.q;
+  return SW_OK;
+}
+
+/* Make s a node of the mesh, of exactly this arc length. */
+static sw_status place_exactly(sw_mesh *m, double s, const double *keep, size_t count) {
+  double placed;
+  SW_TRY(sw_mesh_place(m, s, keep, count, &placed));
+  m->s[sw_mesh_node(m, placed)] = s;
+  return SW_OK;
+}
+
+sw_status sw_scene_make_places(const sw_scene *s, size_t wire, sw_mesh *m) {
+  double *keep = new_places(s, wire);
+  if (!keep) return SW_ENOMEM;
+  const size_t n = kept_places(s, wire, keep);
+  sw_status status = SW_OK;
+  for (size_t k = 0; k < n && status == SW_OK; k++) status = place_exactly(m, keep[k], keep, n);
+  sw_free(keep);
+  for (size_t k = 0; k < sw_scene_hold_slots(s) && status == SW_OK; k++)
+    if (is_on(sw_scene_hold_in(s, k), wire)) status = refine_gaps(s, sw_scene_hold_in(s, k), m);
+  return status;
+}
+
+static void add_held(const sw_body *b, const sw_hold *h, sw_held_node node, sw_system *s) {
+  for (size_t i = sw_plan_first(b->plan, h->s1); i < b->plan->nodes && b->plan->s[i] <= h->s2;
+       i++) {
+    node.node = b->first_node + i, node.local = local_of(h, b->plan->s[i]);
+    s->held[s->held_count++] = node;
+  }
+}
+
+static sw_status check_holds(const sw_scene *s, size_t wire, sw_error *err) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    const sw_hold *h = sw_scene_hold_in(s, k);
+    for (size_t i = 0; is_on(h, wire) && i < k; i++) {
+      const sw_hold *o = sw_scene_hold_in(s, i);
+      if (is_on(o, wire) && o->s1 <= h->s2 && h->s1 <= o->s2)
+        return sw_scene_held_twice(s, o, h, err);
+    }
+  }
+  return SW_OK;
+}
+
+/* --- carry over ----------------------------------------------------------------- */
+
+/* A node is the same when its arc length is, one that was moved for a clamp starts anew; a segment
+ * is when both of its ends are. */
+static void carry_over(const sw_body *b, const double *s, size_t count, size_t *new_node,
+                       size_t *new_edge) {
+  size_t i = 0;
+  for (size_t k = 0; k < count; k++) {
+    while (i < b->plan->nodes && b->plan->s[i] < s[k]) i++;
+    if (i == b->plan->nodes || b->plan->s[i] != s[k]) continue;
+    new_node[k] = b->first_node + i;
+    if (k > 0 && new_node[k - 1] != SIZE_MAX && new_node[k - 1] + 1 == new_node[k])
+      new_edge[k - 1] = new_node[k - 1];
+  }
+}
+
+/* Apart: edges between two holds, a quarter as long, must be told from nothing. */
+const sw_body_class sw_body_line = {.held = "node",
+                                    .apart = 1e-6,
+                                    .state = state,
+                                    .plan = plan,
+                                    .take = take,
+                                    .widen = widen,
+                                    .place = place,
+                                    .grasp = grasp,
+                                    .refine = refine_gaps,
+                                    .add_held = add_held,
+                                    .check_holds = check_holds,
+                                    .carry_over = carry_over};

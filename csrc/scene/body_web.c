@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies that are webs: meshes of particles ring by ring along a wire, and objects of particles. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "link/hold.h"
+#include "scene/body.h"
+#include "state/mesh.h"
+#include "state/web.h"
+
+/* --- place ---------------------------------------------------------------------- */
+
+static sw_body_state state(const sw_scene_wire *w) {
+  const sw_strand *p = &w->strand;
+  return (sw_body_state){p->web->particles, p->x, p->v, p->a, p->axial, p->rate};
+}
+
+static sw_status plan(const sw_scene *s, size_t w, const sw_hold_place *places, size_t count,
+                      sw_plan **out) {
+  (void)places, (void)count; /* its holds know their particles */
+  sw_web *web = sw_scene_wire_in(s, w)->strand.web;
+  int *held = sw_alloc(web->particles, sizeof *held);
+  if (!held) return SW_ENOMEM;
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    const sw_hold *h = sw_scene_hold_in(s, k);
+    if (!h->alive || h->wire != w) continue;
+    for (size_t i = 0; i < h->count; i++) held[h->particle[i]] = SW_HELD;
+  }
+  const sw_status status = sw_plan_of_web(&sw_scene_wire_in(s, w)->beam, web, held, out);
+  sw_free(held);
+  return status;
+}
+
+static sw_status take(sw_scene *scene, size_t w) {
+  const sw_system *s = sw_scene_system(scene);
+  return sw_strand_take(sw_scene_wire_in(scene, w), s, &s->bodies[w]);
+}
+
+/* --- hold ----------------------------------------------------------------------- */
+
+static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+  const sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
+  sw_body_interval(m, a, &h->s1, &h->s2);
+  sw_strand_rings(m, &h->s1, &h->s2);
+  return SW_OK;
+}
+
+/* The particles held, in the hold's frame. With a direction given the hold's pose is turned to it,
+ * while the wire is not yet. */
+static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a) {
+  const sw_web *web = w->strand.web;
+  const sw_mesh *m = &w->mesh;
+  const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
+  const size_t room = web->first[last + 1] - web->first[first];
+  h->s = sw_alloc(room, sizeof *h->s);
+  h->local = sw_alloc(3 * room, sizeof *h->local);
+  h->particle = sw_alloc(room, sizeof *h->particle);
+  if (!h->s || !h->local || !h->particle) return SW_ENOMEM;
+  size_t i = first < last ? first : first + 1 < m->n ? first : first - 1;
+  while (i + 2 < m->n && m->s[i + 1] < a->s) i++;
+  const double f = fmin(1.0, fmax(0.0, (a->s - m->s[i]) / (m->s[i + 1] - m->s[i])));
+  const sw_vec origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1), f);
+  const sw_quat turn = sw_quat_between(sw_mesh_tangent_at(m, a->s), h->director[1]);
+  for (size_t p = web->first[first]; p < web->first[last + 1]; p++) {
+    if (!sw_strand_holds(web, h->cls, p)) continue;
+    h->s[h->count] = web->s[p];
+    h->particle[h->count] = (uint32_t)p;
+    sw_store(h->local + 3 * h->count++, sw_sub(sw_vec_at(w->strand.x, p), origin));
+  }
+  h->drive.pose = (sw_pose){origin, turn};
+  h->last_pose = h->drive.pose;
+  h->turn = sw_quat_identity();
+  return SW_OK;
+}
+
+static sw_status refine(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
+  (void)s, (void)h, (void)m;
+  return SW_OK;
+}
+
+static void add_held(const sw_body *b, const sw_hold *h, sw_held_node node, sw_system *s) {
+  for (size_t i = 0; i < h->count; i++) {
+    node.node = b->first_node + h->particle[i], node.local = sw_vec_at(h->local, i);
+    s->held[s->held_count++] = node;
+  }
+}
+
+/* taken (particles) has 1 + the slot of what holds a particle. */
+static sw_status mark(const sw_scene *s, size_t k, size_t *taken, sw_error *err) {
+  const sw_hold *h = sw_scene_hold_in(s, k);
+  const size_t particles = sw_scene_wire_in(s, h->wire)->strand.web->particles;
+  for (size_t i = 0; i < h->count; i++) {
+    const size_t p = h->particle ? h->particle[i] : particles;
+    if (p >= particles)
+      return sw_fail(err, SW_EINVAL, "wire '%s': '%s' holds a particle that is not there",
+                     sw_scene_wire_in(s, h->wire)->name, h->name);
+    if (taken[p]) return sw_scene_held_twice(s, sw_scene_hold_in(s, taken[p] - 1), h, err);
+    taken[p] = k + 1;
+  }
+  return SW_OK;
+}
+
+static sw_status check_holds(const sw_scene *s, size_t wire, sw_error *err) {
+  size_t *taken = NULL;
+  sw_status status = SW_OK;
+  for (size_t k = 0; k < sw_scene_hold_slots(s) && status == SW_OK; k++) {
+    if (!sw_scene_hold_in(s, k)->alive || sw_scene_hold_in(s, k)->wire != wire) continue;
+    if (!taken) taken = sw_alloc(sw_scene_wire_in(s, wire)->strand.web->particles, sizeof *taken);
+    if (!taken) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
+    status = mark(s, k, taken, err);
+  }
+  sw_free(taken);
+  return status;
+}
+
+/* --- carry over ----------------------------------------------------------------- */
+
+/* Particles stay as they are. */
+static void carry_over(const sw_body *b, const double *s, size_t count, size_t *new_node,
+                       size_t *new_edge) {
+  (void)s;
+  for (size_t k = 0; k < count; k++) new_node[k] = new_edge[k] = b->first_node + k;
+}
+
+const sw_body_class sw_body_web = {.held = "particles",
+                                   .apart = 0.0,
+                                   .state = state,
+                                   .plan = plan,
+                                   .take = take,
+                                   .widen = sw_strand_rings,
+                                   .place = place,
+                                   .grasp = grasp,
+                                   .refine = refine,
+                                   .add_held = add_held,
+                                   .check_holds = check_holds,
+                                   .carry_over = carry_over};

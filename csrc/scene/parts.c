@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/parts.h"
+
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/jaws.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/world.h"
+
+#define LIST(kind, type)                                                        \
+  size_t sw_scene_##kind##_slots(const sw_scene *s) { return s->kind##_count; } \
+  type *sw_scene_##kind##_in(const sw_scene *s, size_t slot) { return &s->kind##s[slot]; }
+LIST(wire, sw_scene_wire)
+LIST(hold, sw_hold)
+LIST(tool, sw_tool)
+LIST(obstacle, sw_scene_obstacle)
+LIST(force, sw_scene_force)
+LIST(join, sw_joint)
+#undef LIST
+size_t sw_scene_bodies_made(const sw_scene *s) { return s->wire_count + s->gone_count; }
+
+sw_contact *sw_scene_contact(const sw_scene *s) { return s->contact; }
+sw_pairs *sw_scene_pairs(const sw_scene *s) { return s->pairs; }
+sw_grains *sw_scene_grains(const sw_scene *s) { return s->grains; }
+sw_crowd *sw_scene_crowd(const sw_scene *s) { return s->crowd; }
+sw_hold *sw_scene_hold_of(const sw_scene *s, size_t k) { return &s->holds[s->hold_slot[k]]; }
+
+/* What hangs on a scene may be changed by those that only look at the scene, as the lists may. */
+sw_system *sw_scene_system(const sw_scene *s) { return (sw_system *)&s->system; }
+sw_course *sw_scene_course(const sw_scene *s) { return (sw_course *)&s->course; }
+sw_books *sw_scene_books(const sw_scene *s) { return (sw_books *)&s->books; }
+sw_events *sw_scene_events_of(const sw_scene *s) { return (sw_events *)&s->events; }
+
+void sw_scene_enter(sw_scene *s, int more) { s->running += more; }

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene has inside, one by one, for those that need not know it all (world.h). Of this room
+ * and of steps. */
+#ifndef SW_SCENE_PARTS_H
+#define SW_SCENE_PARTS_H
+
+#include "scene/scene.h"
+
+/* Each in a header of its own. */
+typedef struct sw_scene_wire sw_scene_wire;         /* line.h */
+typedef struct sw_hold sw_hold;                     /* hold.h */
+typedef struct sw_scene_obstacle sw_scene_obstacle; /* obstacle.h */
+typedef struct sw_tool sw_tool;                     /* jaws.h */
+typedef struct sw_gone sw_gone;                     /* line.h */
+typedef struct sw_scene_force sw_scene_force;       /* forces.h */
+typedef struct sw_joint sw_joint;                   /* join.h */
+typedef struct sw_frame sw_frame;                   /* kept_frames.h */
+typedef struct sw_kept_history sw_kept_history;     /* history.h */
+typedef struct sw_scene_rule sw_scene_rule;         /* touching.h */
+typedef struct sw_course sw_course;                 /* course.h */
+typedef struct sw_books sw_books;                   /* ledger.h */
+typedef struct sw_events sw_events;                 /* events.h */
+typedef struct sw_system sw_system;
+typedef struct sw_contact sw_contact;
+typedef struct sw_pairs sw_pairs;
+typedef struct sw_grains sw_grains;
+typedef struct sw_crowd sw_crowd;
+
+/* Slots of each kind [-], and what is in one; some may be empty. */
+size_t sw_scene_wire_slots(const sw_scene *scene);
+sw_scene_wire *sw_scene_wire_in(const sw_scene *scene, size_t slot);
+size_t sw_scene_hold_slots(const sw_scene *scene);
+sw_hold *sw_scene_hold_in(const sw_scene *scene, size_t slot);
+size_t sw_scene_tool_slots(const sw_scene *scene);
+sw_tool *sw_scene_tool_in(const sw_scene *scene, size_t slot);
+size_t sw_scene_obstacle_slots(const sw_scene *scene);
+sw_scene_obstacle *sw_scene_obstacle_in(const sw_scene *scene, size_t slot);
+size_t sw_scene_force_slots(const sw_scene *scene);
+sw_scene_force *sw_scene_force_in(const sw_scene *scene, size_t slot);
+size_t sw_scene_join_slots(const sw_scene *scene);
+sw_joint *sw_scene_join_in(const sw_scene *scene, size_t slot);
+/* How many bodies were made so far, those that are gone too: frames have a number for each. */
+size_t sw_scene_bodies_made(const sw_scene *scene);
+
+/* What they are made into; each kind of contact may be NULL. */
+sw_system *sw_scene_system(const sw_scene *scene);
+sw_contact *sw_scene_contact(const sw_scene *scene);
+sw_pairs *sw_scene_pairs(const sw_scene *scene);
+sw_grains *sw_scene_grains(const sw_scene *scene);
+sw_crowd *sw_scene_crowd(const sw_scene *scene);
+/* The hold that is number k of the system. */
+sw_hold *sw_scene_hold_of(const sw_scene *scene, size_t k);
+
+/* What it remembers of its steps, of their energy, and of what happened. */
+sw_course *sw_scene_course(const sw_scene *scene);
+sw_books *sw_scene_books(const sw_scene *scene);
+sw_events *sw_scene_events_of(const sw_scene *scene);
+
+/* Leave the built state: the meshes become authoritative again. */
+sw_status sw_scene_thaw(sw_scene *scene);
+/* Make the system from the meshes and holds, if it is not. */
+sw_status sw_scene_build(sw_scene *scene, sw_error *err);
+
+/* The given name, or kind and a number. */
+void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
+
+/* Inside a step or a user's function, until the same with -1: edits are refused. */
+void sw_scene_enter(sw_scene *scene, int more);
+
+#endif

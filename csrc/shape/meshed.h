@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shapes whose surface is a mesh of triangles: what shape_class.h asks of them, by trimesh.h. */
+#ifndef SW_SHAPE_MESHED_H
+#define SW_SHAPE_MESHED_H
+
+#include "shape/trimesh.h"
+
+/* Such a shape begins with it. */
+typedef struct sw_meshed {
+  sw_shape base;
+  sw_trimesh mesh;
+} sw_meshed;
+
+int sw_meshed_distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out);
+sw_status sw_meshed_triangles(const sw_shape *shape, int around, sw_triangles *out);
+void sw_meshed_bones(const sw_shape *shape, sw_bone_visit visit, void *user);
+sw_sharp sw_meshed_sharp(const sw_shape *shape, int feature, sw_vec *along);
+int sw_meshed_faceted(const sw_shape *shape);
+void sw_meshed_ridges(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
+                      void *user);
+int sw_meshed_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);
+
+#endif
