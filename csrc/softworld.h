@@ -31,6 +31,7 @@
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/tool.h"
+#include "scene/worn.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"
 #include "step/step.h"

@@ -38,6 +38,7 @@ static void blank_scene(sw_scene *s) {
 static void blank_wire(sw_scene_wire *w) {
   w->window.room = NULL, w->window.edges = 0;
   if (!w->window.marks) memset(&w->window, 0, sizeof w->window);
+  w->wear.places = NULL, w->wear.cycles = NULL;
   w->strand.rate = NULL, w->twisted = NULL;
 }
 

@@ -35,7 +35,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_numbers(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3136);
+  SW_TAPE_STRUCT(t, sw_scene, 3144);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -51,6 +51,7 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
                  "a blow");
   sw_tape_int(t, &s->course.next);
   sw_tape_extreme(t, &s->deepest);
+  sw_tape_int(t, &s->wears);
 }
 
 /* What a scene that is not built remembers of its last system. */

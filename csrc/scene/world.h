@@ -89,6 +89,7 @@ struct sw_scene {
   int diverged;
   sw_error why;
   sw_extreme deepest; /* penetration */
+  int wears;          /* 1: what wears wires in the run is kept */
   sw_frame *frames;
   size_t frame_count, frame_capacity;
   double next_frame;   /* [s] */

@@ -51,6 +51,14 @@ for index, force in ipairs(samples.registry.forces) do
   end
 end
 
+case("what wears a wire", function(s)
+  s:obstacle{ shape = "plane", friction = 0.3 }
+  local w = rod(s)
+  s:clamp(w, { s = 0 })
+  s:clamp(w, { s = 0.4 }):follow{ points = { { 0, 0, 0 }, { -0.02, 0, 0.01 }, { 0, 0, 0 } }, relative = true,
+    duration = 0.1 }
+end, run(0.08, { wear = true }), run(0.02, { wear = true }))
+
 case("a force that is a function", function(s)
   local w = rod(s)
   s:clamp(w, { s = 0 })

@@ -1,0 +1,80 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What scripts give to run:check besides limits: tables of parameters, and what is wrong with them.
+-- @module softworld.check.wanted
+local cable = require "softworld.cable"
+local checks = require "softworld.checks"
+local rows = require "softworld.rows"
+
+local wanted = {}
+
+wanted.landing = rows.list{
+  { "path", "list", "m", "points {x, y, z} of the wanted path", required = true },
+  { "wire", "text", "-", "name of the wire that is to lie there", usual = "every wire" },
+  { "from", "number", "m", "arc length from which it is to lie there", min = 0, usual = 0 },
+  { "to", "number", "m", "arc length up to which", min = 0, usual = "its end" },
+}
+
+wanted.fatigue = rows.list{
+  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising" },
+  { "bending", "list", "1/m", "points { range of curvature, cycles endured }, ranges rising" },
+  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
+  { "mean", "choice", "-", "goodman: a range of tension counts as range / (1 - mean / strength)",
+    choices = { "none", "goodman" }, default = "none" },
+  { "strength", "number", "N", "of Goodman's rule", min = 0, above = true,
+    usual = "the least breaking load" },
+  { "source", "text", "-", "where the curves are from" },
+  { "flag", "choice", "-", "how well they are known", choices = cable.flags },
+}
+
+-- Ranges rise and cycles fall along the curve.
+local function read_curve(name, curve, unit)
+  local copy = {}
+  for i, point in ipairs(curve) do
+    local what = ("run:check: fatigue.%s[%d]"):format(name, i)
+    if type(point) ~= "table" then
+      error(("%s must be { range [%s], cycles }, got %s"):format(what, unit, checks.got(point)), 0)
+    end
+    copy[i] = { checks.number(what .. "[1]", point[1], 0, " " .. unit, 0, nil, true),
+      checks.number(what .. "[2]", point[2], 0, "", 0, nil, true) }
+    local before = copy[i - 1]
+    if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
+      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(what), 0)
+    end
+  end
+  if #copy < 2 then
+    error(("run:check: fatigue.%s has fewer than 2 points { range [%s], cycles }"):format(name, unit), 0)
+  end
+  return copy
+end
+
+local read = {}
+
+function read.fatigue(given)
+  if not (given.curve or given.bending) then
+    error("run:check: fatigue: a curve is missing: curve = { { range [N], cycles } } or bending = { { range "
+      .. "[1/m], cycles } }", 0)
+  end
+  given.curve = given.curve and read_curve("curve", given.curve, "N")
+  given.bending = given.bending and read_curve("bending", given.bending, "1/m")
+end
+
+function read.landing(given)
+  local path = {}
+  for i, point in ipairs(given.path) do
+    path[i] = checks.vector(("run:check: landing.path[%d]"):format(i), point, "m", 0)
+  end
+  given.path = path
+  if #path == 0 then error("run:check: landing.path has no points", 0) end
+  if given.from and given.to and given.from > given.to then
+    error(("run:check: landing: from = %g m is beyond to = %g m"):format(given.from, given.to), 0)
+  end
+end
+
+--- Raise where one of these tables of run:check's arguments makes no sense; what they hold becomes copies.
+function wanted.read(args)
+  for name, one in pairs(read) do
+    if args[name] then one(args[name]) end
+  end
+end
+
+return wanted
