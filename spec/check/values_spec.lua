@@ -41,8 +41,9 @@ local function twisted()
   return scene:run{ duration = 1, dt = 0.02, frame = 0.02 }
 end
 
--- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves.
-local function capstan()
+-- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves. duration: of
+-- the last run, at 0.02 m/s.
+local function capstan(duration)
   local Rw, mu, path = R + RADIUS, 0.3, {}
   for i = 10, 1, -1 do path[#path + 1] = { -Rw, 0, -0.01 * i } end
   for i = 0, 100 do
@@ -57,9 +58,18 @@ local function capstan()
   scene:force{ kind = "damping", mass = 20, on = wire }
   local pin = scene:pin(wire, { s = wire.length })
   scene:run{ duration = 0.2, dt = 0.002 }
-  pin:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.02 } }, relative = true, speed = 0.02, law = "linear" }
+  pin:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, speed = 0.02, law = "linear" }
   scene:run{ duration = 0.6, dt = 0.002 }
-  return scene:run{ duration = 0.2, dt = 0.002, frame = 0.002 }, math.exp(mu * math.pi) / Rw
+  return scene:run{ duration = duration, dt = 0.002, frame = 0.002, wear = true }, math.exp(mu * math.pi) / Rw
+end
+
+-- What comes off the cylinder at the end has gone round a part of it in the run, under T_in exp(mu angle):
+-- normal force T per angle, so that its sum over the way is that of exp(mu angle) [N].
+local drawn
+local function slid()
+  drawn = drawn or capstan(0.4)
+  local part, mu = 0.02 * 0.4 / (R + RADIUS), 0.3
+  return drawn, (math.exp(mu * math.pi) - math.exp(mu * (math.pi - part))) / mu
 end
 
 -- A gripper holds a stiff wire still, by its middle or at s: its weight.
@@ -120,7 +130,7 @@ local cases = {
   max_strain = function() return pulled(), {}, 0.01, 1e-3 end,
   max_stress = function() return pulled(), {}, 1e4 * 0.01 / (math.pi * RADIUS ^ 2), 1e-3 end,
   max_sidewall = function()
-    local run, value = capstan()
+    local run, value = capstan(0.2)
     return run, {}, value, 0.01
   end,
   max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,
@@ -128,6 +138,15 @@ local cases = {
   fatigue = function()
     local curve = { { 10, 5e5 }, { 100, 500 } }
     return pulled(), { fatigue = { curve = curve, repeats = 20 } }, 20 * 0.5 / 500, 0.01
+  end,
+  friction_work = function()
+    local run, value = slid()
+    return run, { abrasion = { coefficient = 1, width = 1e-3 } }, 0.3 * value / 1e-3, 0.01
+  end,
+  wear_depth = function()
+    local run, value = slid()
+    return run, { abrasion = { coefficient = 1e-12, width = 1e-3, repeats = 50 } }, 50 * 1e-12 * value / 1e-3,
+      0.01
   end,
   landing_error = function()
     return lying(), { landing = { path = { { -1, 0, RADIUS }, { 1, 0, RADIUS } } } }, 0.003, 1e-3

@@ -29,6 +29,7 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
   { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = wanted.landing },
   { "fatigue", "table", "-", "the curves by which cycles of tension and bending wear the wire",
     rows = wanted.fatigue },
+  { "abrasion", "table", "-", "by what sliding wears the wire's surface", rows = wanted.abrasion },
   { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
 })
 
@@ -56,7 +57,7 @@ rows.calls{
 local function context_of(run, args)
   local data = build.data(run.scene)
   local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, fatigue = args.fatigue,
-    wires = {}, grippers = {} }
+    abrasion = args.abrasion, wires = {}, grippers = {} }
   for i, w in ipairs(data.wires) do
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end

@@ -13,6 +13,7 @@
 local registry = {}
 
 local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "fatigue",
+  "friction_work", "wear_depth",
   "landing",
   "peak_force", "peak_moment", "mean_force", "slip", "penetration", "kinks", "spoilt", "cycle_time" }
 

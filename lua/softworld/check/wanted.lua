@@ -26,6 +26,16 @@ wanted.fatigue = rows.list{
   { "flag", "choice", "-", "how well they are known", choices = cable.flags },
 }
 
+wanted.abrasion = rows.list{
+  { "coefficient", "number", "1/Pa", "Archard's: volume worn off over force and way", min = 0, above = true,
+    required = true },
+  { "width", "number", "m", "across the wire, on which it rubs", min = 0, above = true,
+    usual = "its radius" },
+  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
+  { "source", "text", "-", "where the coefficient is from" },
+  { "flag", "choice", "-", "how well it is known", choices = cable.flags },
+}
+
 -- Ranges rise and cycles fall along the curve.
 local function read_curve(name, curve, unit)
   local copy = {}
