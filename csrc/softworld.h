@@ -32,6 +32,7 @@
 #include "scene/section.h"
 #include "scene/tool.h"
 #include "scene/worn.h"
+#include "scene/zone.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"
 #include "step/step.h"

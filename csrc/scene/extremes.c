@@ -273,6 +273,7 @@ void sw_scene_reset_extremes(sw_scene *s) {
     s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
     sw_window_forget(&s->wires[w].window);
     sw_wear_free(&s->wires[w].wear);
+    sw_zones_forget(&s->wires[w].zones);
     if (s->built) s->system.bodies[w].pushed = 0;
   }
   s->deepest = (sw_extreme){0};

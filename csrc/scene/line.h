@@ -45,6 +45,7 @@ typedef struct sw_scene_wire {
   sw_wire_extremes extremes;
   sw_window window; /* of the tension */
   sw_wear wear;     /* while the scene keeps it */
+  sw_zone_watch zones;
   sw_twisted *twisted;
   size_t twisted_count;
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */

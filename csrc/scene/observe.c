@@ -22,13 +22,16 @@ static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   sw_scene_watch_kink(s, w, &now);
   sw_scene_watch_breaking(s, w, &now);
   if (s->wears) SW_TRY(sw_wear_note(s, w, 1, err));
+  SW_TRY(sw_zones_note(s, w, err));
   return sw_watch_wire(s, w, &now, err);
 }
 
-sw_status sw_scene_begin_wear(sw_scene *s, sw_error *err) {
+sw_status sw_scene_begin_watching(sw_scene *s, sw_error *err) {
   sw_system_refresh(&s->system);
-  for (size_t w = 0; w < s->wire_count; w++)
-    if (!s->wires[w].wear.count) SW_TRY(sw_wear_note(s, w, 0, err));
+  for (size_t w = 0; w < s->wire_count; w++) {
+    if (s->wears && !s->wires[w].wear.count) SW_TRY(sw_wear_note(s, w, 0, err));
+    SW_TRY(sw_zones_note(s, w, err));
+  }
   return SW_OK;
 }
 

@@ -18,9 +18,9 @@ void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extr
 /* Keep the larger ones, but for the tension. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 void sw_scene_reset_extremes(sw_scene *scene);
-/* Steps are to begin at the state, whose holds are placed: the wear of wires goes on from it.
- * SW_ENOMEM. */
-sw_status sw_scene_begin_wear(sw_scene *scene, sw_error *err);
+/* Steps are to begin at the state, whose holds are placed: the wear of wires goes on from it, and
+ * zones see it. SW_ENOMEM. */
+sw_status sw_scene_begin_watching(sw_scene *scene, sw_error *err);
 /* Axial forces of the edges of a line in the step that led here (edges) [N]. */
 const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
 /* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */

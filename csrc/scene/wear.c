@@ -291,7 +291,7 @@ static void tape_place(sw_tape *t, sw_wear_place *x) {
 void sw_tape_wear(sw_tape *t, sw_wear *w) {
   size_t count = w->count, nodes = w->nodes;
   SW_TAPE_STRUCT(t, sw_wear, 48);
-  sw_tape_count(t, &count, 8), sw_tape_size(t, &nodes);
+  sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
   sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
   if (!sw_tape_good(t)) return;
   if (sw_tape_reads(t) && count != w->count) {

@@ -118,7 +118,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
     status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame * (double)s->frame_stride;
   }
-  if (status == SW_OK && s->wears) status = sw_scene_begin_wear(s, &why);
+  if (status == SW_OK && (s->wears || s->zone_count)) status = sw_scene_begin_watching(s, &why);
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;
   s->system.judged = NULL;

@@ -112,6 +112,18 @@ local function lying()
   return scene:run{ duration = 0.25, dt = 0.01 }
 end
 
+-- Lies 3 mm beside y = 0; zones beside it, and one that it lies in.
+local function between_zones()
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS, segments = 20,
+    from = { 0, 0.003, 0 }, to = { 0.3, 0.003, 0 } }
+  scene:zone{ shape = "sphere", radius = 0.02, at = { 0.101, 0.063, 0 } }
+  scene:zone{ name = "hot", shape = "box", size = { 0.02, 0.1, 0.1 }, at = { 0.2, 0, 0 }, temperature = 90 }
+  scene:zone{ name = "cold", shape = "sphere", radius = 0.05, temperature = -30 }
+  scene:zone{ name = "far", shape = "sphere", radius = 0.05, at = { 1, 0, 0 }, temperature = 500 }
+  return scene:run{ duration = 0.02, dt = 0.01 }
+end
+
 -- A tube that sags between clamps.
 local function squeezed()
   local scene = sw.scene{}
@@ -151,6 +163,9 @@ local cases = {
   landing_error = function()
     return lying(), { landing = { path = { { -1, 0, RADIUS }, { 1, 0, RADIUS } } } }, 0.003, 1e-3
   end,
+  clearance = function() return between_zones(), {}, 0.06 - 0.02 - RADIUS, 1e-9 end,
+  max_temperature = function() return between_zones(), {}, 90, 0 end,
+  min_temperature = function() return between_zones(), {}, -30, 0 end,
   peak_force = function() return held(), {}, weight, 0.01 end,
   peak_moment = function() return held(0.03), {}, weight * 0.02, 0.01 end,
   mean_force = function() return held(), {}, weight, 0.01 end,

@@ -51,7 +51,9 @@ for index, force in ipairs(samples.registry.forces) do
   end
 end
 
-case("what wears a wire", function(s)
+case("what wears a wire, and zones", function(s)
+  s:zone{ name = "cold", shape = "box", size = { 0.1, 0.1, 0.01 }, at = { 0.2, 0, 0.02 }, temperature = -20 }
+  s:zone{ shape = "sphere", radius = 0.02, at = { 0.1, 0.05, 0 } }
   s:obstacle{ shape = "plane", friction = 0.3 }
   local w = rod(s)
   s:clamp(w, { s = 0 })

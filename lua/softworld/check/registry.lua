@@ -14,7 +14,7 @@ local registry = {}
 
 local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "fatigue",
   "friction_work", "wear_depth",
-  "landing",
+  "landing", "clearance", "max_temperature", "min_temperature",
   "peak_force", "peak_moment", "mean_force", "slip", "penetration", "kinks", "spoilt", "cycle_time" }
 
 registry.list, registry.by_name = {}, {}
