@@ -124,6 +124,26 @@ local function between_zones()
   return scene:run{ duration = 0.02, dt = 0.01 }
 end
 
+-- A stiff wire is pressed by a hold into a clip and pulled there by less than that holds.
+local clipped
+local function in_clip()
+  if clipped then return clipped end
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.05, radius = 0.004,
+    segments = 20, from = { -0.05, 0, 0.03 }, to = { 0.05, 0, 0.03 } }
+  scene:force{ kind = "damping", mass = 20, on = wire }
+  scene:clip{ name = "clip", at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 20 }
+  local ends = { scene:clamp(wire, { s = 0.02 }), scene:clamp(wire, { s = 0.08 }) }
+  for _, hold in ipairs(ends) do
+    hold:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, duration = 1, law = "linear" }
+  end
+  scene:run{ duration = 1.2, dt = 0.001 }
+  for _, hold in ipairs(ends) do hold:release() end
+  scene:force{ kind = "point", on = wire, s = 0.05, force = { 0, 0, 5 } }
+  clipped = scene
+  return scene
+end
+
 -- A tube that sags between clamps.
 local function squeezed()
   local scene = sw.scene{}
@@ -170,6 +190,23 @@ local cases = {
   peak_moment = function() return held(0.03), {}, weight * 0.02, 0.01 end,
   mean_force = function() return held(), {}, weight, 0.01 end,
   peak_margin = function() return lifted(0.1), {}, weight / (0.5 * 2 * 0.1), 0.02 end,
+  insertion_force = function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.05, radius = 0.004,
+      segments = 20, from = { -0.05, 0, 0.01 }, to = { 0.05, 0, 0.01 } }
+    scene:force{ kind = "damping", mass = 20, on = wire }
+    scene:clip{ name = "clip", at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 20 }
+    for _, s in ipairs{ 0.02, 0.08 } do
+      scene:clamp(wire, { s = s }):follow{ points = { { 0, 0, 0 }, { 0, 0, -0.01 } }, relative = true,
+        duration = 1, law = "linear" }
+    end
+    return scene:run{ duration = 1.1, dt = 0.001 }, {}, 8, 0.01
+  end,
+  -- 5 N of 20 N
+  retention_used = function()
+    return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 0.25, 0.01
+  end,
+  seated = function() return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 1, 0 end,
   penetration = function()
     local run = lying()
     return run, {}, run.scene:penetration(), 0

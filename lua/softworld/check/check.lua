@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local bendrule = require "softworld.wire.bendrule"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local fixing = require "softworld.link.fixing"
 local judge = require "softworld.check.judge"
 local limits = require "softworld.check.limits"
 local own = require "softworld.check.own"
@@ -62,7 +63,11 @@ local function context_of(run, args)
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end
   for i, g in ipairs(data.grippers) do c.grippers[i] = { name = g.name, object = g } end
-  c.objects = { wire = c.wires, gripper = c.grippers, run = { { object = run } } }
+  local clips = {}
+  for _, f in ipairs(fixing.all(run.scene)) do
+    if checks.kind(f) == "clip" then clips[#clips + 1] = { name = f.name, object = f } end
+  end
+  c.objects = { wire = c.wires, gripper = c.grippers, clip = clips, run = { { object = run } } }
   return c
 end
 
