@@ -144,6 +144,17 @@ local function in_clip()
   return scene
 end
 
+-- Clamped at both ends, at rest: 1 m, and its frequencies.
+local function beam()
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 0.01, mass_per_length = 0.03, radius = 0.002,
+    segments = 50, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  scene:clamp(wire, { s = 0 })
+  scene:clamp(wire, { s = 1 })
+  -- reference case 04: lambda = 22.373285 of the lowest
+  return scene:run{ duration = 0.02, dt = 0.01 }, 22.373285 / (2 * math.pi) * math.sqrt(0.01 / 0.03)
+end
+
 -- A tube that sags between clamps.
 local function squeezed()
   local scene = sw.scene{}
@@ -186,6 +197,18 @@ local cases = {
   clearance = function() return between_zones(), {}, 0.06 - 0.02 - RADIUS, 1e-9 end,
   max_temperature = function() return between_zones(), {}, 90, 0 end,
   min_temperature = function() return between_zones(), {}, -30, 0 end,
+  -- from half of the lowest below: the share of a half that is between
+  frequency_gap = function()
+    local run, f = beam()
+    return run, { vibration = { bands = { { 1e-3, f / 2 } } } }, 1, 0.01
+  end,
+  -- Miles, of the lowest mode: shape times participation in the middle is 1.588146 x 0.830862
+  vibration_amplitude = function()
+    local run, f = beam()
+    local sigma = math.sqrt(2 / (2 * 0.02) / (32 * math.pi ^ 3 * f ^ 3)) * 1.588146 * 0.830862
+    return run, { vibration = { spectrum = { { 0.1, 2 }, { 10, 2 } }, damping = 0.02, modes = 2,
+      direction = { 0, 0, 3 } } }, 3 * sigma, 0.01
+  end,
   peak_force = function() return held(), {}, weight, 0.01 end,
   peak_moment = function() return held(0.03), {}, weight * 0.02, 0.01 end,
   mean_force = function() return held(), {}, weight, 0.01 end,

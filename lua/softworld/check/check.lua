@@ -31,6 +31,7 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
   { "fatigue", "table", "-", "the curves by which cycles of tension and bending wear the wire",
     rows = wanted.fatigue },
   { "abrasion", "table", "-", "by what sliding wears the wire's surface", rows = wanted.abrasion },
+  { "vibration", "table", "-", "what shakes the holds once wires lie there", rows = wanted.vibration },
   { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
 })
 
@@ -58,7 +59,7 @@ rows.calls{
 local function context_of(run, args)
   local data = build.data(run.scene)
   local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, fatigue = args.fatigue,
-    abrasion = args.abrasion, wires = {}, grippers = {} }
+    abrasion = args.abrasion, vibration = args.vibration, wires = {}, grippers = {} }
   for i, w in ipairs(data.wires) do
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end

@@ -4,6 +4,7 @@
 local cable = require "softworld.cable"
 local checks = require "softworld.checks"
 local rows = require "softworld.rows"
+local vec = require "softworld.vec"
 
 local wanted = {}
 
@@ -36,6 +37,17 @@ wanted.abrasion = rows.list{
   { "flag", "choice", "-", "how well it is known", choices = cable.flags },
 }
 
+wanted.vibration = rows.list{
+  { "bands", "list", "Hz", "bands of excitation { from, to }" },
+  { "spectrum", "list", "(m/s2)2/Hz", "of the holds' acceleration, points { f [Hz], W }, f rising" },
+  { "damping", "number", "-", "ratio of each mode, for the spectrum", min = 0, above = true, max = 1 },
+  { "direction", "vector", "-", "of the acceleration", usual = "the worst of each mode" },
+  { "modes", "integer", "-", "so many of the lowest are looked at", min = 1, max = 200,
+    usual = "all up to the highest frequency" },
+  { "tolerance", "number", "-", "how far from rest the wire may be, as a share of its length", min = 0,
+    above = true, usual = 1e-4 },
+}
+
 -- Ranges rise and cycles fall along the curve.
 local function read_curve(name, curve, unit)
   local copy = {}
@@ -66,6 +78,55 @@ function read.fatigue(given)
   end
   given.curve = given.curve and read_curve("curve", given.curve, "N")
   given.bending = given.bending and read_curve("bending", given.bending, "1/m")
+end
+
+-- A pair of numbers.
+local function pair(what, point, units)
+  if type(point) ~= "table" then
+    error(("%s must be a pair of numbers, got %s"):format(what, checks.got(point)), 0)
+  end
+  return { checks.number(what .. "[1]", point[1], 0, units[1], 0), checks.number(what .. "[2]", point[2], 0,
+    units[2], 0, nil, true) }
+end
+
+local function read_bands(given)
+  local copy = {}
+  for i, band in ipairs(given) do
+    local what = ("run:check: vibration.bands[%d]"):format(i)
+    copy[i] = pair(what, band, { " Hz", " Hz" })
+    if copy[i][1] >= copy[i][2] then
+      error(("%s: from = %g Hz is not below to = %g Hz"):format(what, copy[i][1], copy[i][2]), 0)
+    end
+  end
+  if #copy == 0 then error("run:check: vibration.bands has no band { from, to } [Hz]", 0) end
+  return copy
+end
+
+local function read_spectrum(given)
+  local copy = {}
+  for i, point in ipairs(given) do
+    local what = ("run:check: vibration.spectrum[%d]"):format(i)
+    copy[i] = pair(what, point, { " Hz", " (m/s2)2/Hz" })
+    if copy[i][1] <= (i > 1 and copy[i - 1][1] or 0) then
+      error(what .. ": a higher frequency than before is wanted, above 0 Hz", 0)
+    end
+  end
+  if #copy < 2 then error("run:check: vibration.spectrum has fewer than 2 points { f [Hz], W }", 0) end
+  return copy
+end
+
+function read.vibration(given)
+  if not (given.bands or given.spectrum) then
+    error("run:check: vibration: bands = { { from, to } } [Hz] or spectrum = { { f, W } } is missing", 0)
+  end
+  given.bands = given.bands and read_bands(given.bands)
+  given.spectrum = given.spectrum and read_spectrum(given.spectrum)
+  if given.spectrum and not given.damping then
+    error("run:check: vibration: damping, the ratio of each mode, is required with a spectrum", 0)
+  end
+  if given.direction and not vec.unit(given.direction) then
+    error("run:check: vibration.direction must not be the zero vector", 0)
+  end
 end
 
 function read.landing(given)
