@@ -230,6 +230,8 @@ local cases = {
     return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 0.25, 0.01
   end,
   seated = function() return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 1, 0 end,
+  pad_load = function() return lifted(0.1), {}, 0.1 / 0.02, 0.01 end,
+  opening = function() return lifted(0.1), {}, 2 * RADIUS, 0.01 end, -- they are closed on it
   penetration = function()
     local run = lying()
     return run, {}, run.scene:penetration(), 0
