@@ -53,6 +53,12 @@ describe("run:check", function()
     assert.is_near(5 * 2 * wire.radius, bend.limit, 1e-12) -- IEC 62440: 5 D moving, below 8 mm
     assert.is_near(4 * 2 * wire.radius, run:check{ use = "fixed" }:row "min_bend_radius".limit, 1e-12)
     assert.equal(bend.value - bend.limit, bend.margin)
+    -- where it lies at the end it is laid once: 4 D
+    local last = check:row "end_bend_radius"
+    assert.is_near(wire:min_bend_radius{ now = true } - wire.radius, last.value, 1e-12)
+    assert.is_near(4 * 2 * wire.radius, last.limit, 1e-12)
+    assert.same({ "standard", run.time }, { last.from, last.time })
+    assert.has_error(function() run:check{ use = "fixed" }:row "end_bend_radius" end)
     assert.truthy(bend.step == "lift" or bend.step == "lay", bend.step)
     local pull, load = check:row "max_tension", wire:cable().breaking_load
     assert.same({ "catalogue", load.value, load.low, load.high, "N" },

@@ -169,6 +169,7 @@ local weight = 0.02 * 0.1 * g
 -- Name of the check -> a run, arguments of run:check, the value by formula, the share that it may be off.
 local cases = {
   min_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
+  end_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
   max_tension = function() return pulled(), {}, 1e4 * 0.01, 1e-3 end,
   max_strain = function() return pulled(), {}, 0.01, 1e-3 end,
   max_stress = function() return pulled(), {}, 1e4 * 0.01 / (math.pi * RADIUS ^ 2), 1e-3 end,

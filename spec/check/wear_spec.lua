@@ -269,6 +269,72 @@ describe("run:check of torsion", function()
   end)
 end)
 
+describe("what a run keeps of wear", function()
+  local given = { fatigue = { bending = curve, curve = { { 1, 1e9 }, { 10, 1e3 } } } }
+  local path = os.tmpname()
+  teardown(function() os.remove(path) end)
+
+  local function scene_of()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
+      segments = 16 }
+    scene:clamp(wire, { s = 0 })
+    scene:zone{ shape = "sphere", radius = 0.02, at = { 0.1, 0, 0.08 } }
+    local hand = scene:gripper{ name = "hand" }
+    scene:process(function(p)
+      p:step("up", function()
+        hand:grasp(wire, { s = 0.19 })
+        hand:move{ by = { -0.02, 0, 0.05 }, duration = 0.1 }
+      end)
+      p:step("down", function() hand:move{ by = { 0, 0, -0.1 }, duration = 0.1 } end)
+      p:step("let go", function()
+        hand:release()
+        p:wait(0.05)
+      end)
+    end)
+    return scene
+  end
+
+  it("goes on with a run from its file, to the last bit", function()
+    local whole = scene_of():run{ dt = 0.005, wear = true }:check(given)
+    os.remove(path)
+    local cut = scene_of()
+    cut:observe{ every = 0.05, call = function(o) if cut.time > 0.14 then o:stop "enough" end end }
+    cut:run{ dt = 0.005, wear = true, save = path }
+    local rest = scene_of():run{ dt = 0.005, wear = true, resume = path }:check(given)
+    for _, name in ipairs{ "fatigue", "clearance", "max_tension" } do
+      assert.equal(whole:row(name).value, rest:row(name).value, name)
+    end
+    assert.is_true(whole:row "fatigue".value > 0)
+  end)
+
+  it("costs the run when memory is out, and nothing else", function()
+    local failed = 0
+    for n = 1, 600, 7 do
+      local scene = scene_of()
+      core.fail_allocation(n)
+      local fine, why = pcall(scene.run, scene, { dt = 0.005, duration = 0.02, wear = true, frames = false })
+      core.fail_allocation(0)
+      if not fine then
+        failed = failed + 1
+        assert.truthy(tostring(why):find("memory", 1, true), why)
+      end
+    end
+    assert.is_true(failed > 0)
+  end)
+
+  it("is there with error bars and with steps by tolerance", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 },
+      segments = 16 }
+    scene:clamp(wire, { s = 0 })
+    local bars = scene:run{ duration = 0.1, dt = 0.01, wear = true, tolerance = { max_tension = 0.5 } }
+    assert.is_true(share(bars).value > 0)
+    local run = scene:run{ duration = 0.1, tolerance = 1e-5, wear = true }
+    assert.is_true(share(run).value > 0)
+  end)
+end)
+
 describe("work of friction", function()
   -- Drawn over a third of a cylinder at a constant speed: T_in (exp(mu angle) - 1) v in all, and none where
   -- nothing touches. Nothing of it is in a frame.

@@ -12,9 +12,9 @@
 -- @module softworld.check.registry
 local registry = {}
 
-local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "fatigue",
-  "friction_work", "wear_depth", "landing", "clearance", "max_temperature", "min_temperature",
-  "frequency_gap", "vibration_amplitude",
+local files = { "bend_radius", "end_bend_radius", "tension", "strain", "stress", "sidewall", "torsion",
+  "ovalisation", "fatigue", "friction_work", "wear_depth", "landing", "clearance", "max_temperature",
+  "min_temperature", "frequency_gap", "vibration_amplitude",
   "peak_force", "peak_moment", "mean_force", "slip", "pad_load", "opening",
   "insertion_force", "retention_used", "seated",
   "penetration", "kinks", "spoilt", "cycle_time" }

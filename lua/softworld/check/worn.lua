@@ -16,9 +16,8 @@ end
 
 --- A row's value where nothing was kept: it is not known.
 function worn.missing(entry)
-  local _, partial = core.worn(entry.object)
-  local note = not worn.LINE[entry.object.model] and not partial
-    and "it is not kept of a mesh of particles" or "it was not kept: " .. worn.HOW
+  local note = worn.LINE[entry.object.model] and "it was not kept: " .. worn.HOW
+    or "it is not kept of a mesh of particles"
   return { value = 0, low = 0, high = math.huge, note = note }
 end
 
