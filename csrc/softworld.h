@@ -36,6 +36,8 @@
 #include "scene/section.h"
 #include "scene/tool.h"
 #include "scene/wires.h"
+#include "scene/worn.h"
+#include "scene/zone.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"
 #include "step/step.h"

@@ -137,10 +137,10 @@ static int mod_check_settle(lua_State *L) {
   return 0;
 }
 
-/* core.begin_run(scene): extremes start anew. */
+/* core.begin_run(scene[, wear]): extremes start anew; is the wear of wires to be kept? */
 static int mod_begin_run(lua_State *L) {
   sw_error err = {""};
-  lsw_must(L, sw_scene_begin_run(check(L), &err), &err);
+  lsw_must(L, sw_scene_begin_run(check(L), lua_toboolean(L, 2), &err), &err);
   return 0;
 }
 

@@ -300,6 +300,19 @@ static int meth_max_stress(lua_State *L) {
   return push_extreme(L, x.value * modulus(L), &x);
 }
 
+/* Largest torsion M_t / GJ of a line [rad/m], where [m], when [s]. */
+static int meth_max_torsion(lua_State *L) {
+  sw_scene *scene;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const sw_extreme x = read_extremes(L).torsion;
+  if (!sw_scene_wire_calibration(scene, w->id)) return push_extreme(L, x.value, &x);
+  return luaL_error(
+      L,
+      "wire:max_torsion: wire '%s' is a %s; the torsion of a mesh of particles is not "
+      "kept, frames have its twist_moment",
+      sw_scene_wire_name(scene, w->id), sw_scene_wire_model(scene, w->id));
+}
+
 /* Largest ovalisation of a section of a mesh [-], where [m], when [s]. */
 static int meth_max_ovalisation(lua_State *L) {
   sw_scene *scene;
@@ -431,6 +444,7 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"stress", meth_stress},
                                    {"max_strain", meth_max_strain},
                                    {"max_stress", meth_max_stress},
+                                   {"max_torsion", meth_max_torsion},
                                    {"max_ovalisation", meth_max_ovalisation},
                                    {"folded", meth_folded},
                                    {"log", meth_log},

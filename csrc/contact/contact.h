@@ -169,6 +169,8 @@ typedef struct sw_contact_push {
   double at;           /* between both [-] */
   double normal_force; /* [N] */
   sw_vec force;        /* on the wire, with friction [N] */
+  sw_vec normal;       /* the obstacle's, outward [-] */
+  sw_vec slip;         /* way that it slid in the last step [m] */
   sw_vec point;        /* on the obstacle [m] */
   double place;        /* arc length [m] */
   double slid;         /* way that it slid since it began to press [m] */

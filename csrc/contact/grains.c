@@ -244,6 +244,7 @@ sw_pair_place sw_grains_place(const sw_grains *g, size_t number) {
                          .normal = t->press.normal,
                          .normal_force = t->press.normal_force,
                          .friction = t->press.tangential,
+                         .slip = t->press.slip,
                          .gap = t->press.gap_after - t->forgiven};
 }
 

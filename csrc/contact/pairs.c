@@ -240,6 +240,7 @@ sw_pair_place sw_pairs_place(const sw_pairs *p, size_t number) {
                          .normal = t->press.normal,
                          .normal_force = t->press.normal_force,
                          .friction = t->press.tangential,
+                         .slip = t->press.slip,
                          .gap = t->press.gap_after - t->forgiven};
 }
 

@@ -65,6 +65,7 @@ typedef struct sw_pair_place {
   sw_vec normal;           /* towards the first wire [-] */
   double normal_force;     /* [N] */
   sw_vec friction;         /* on the first wire [N] */
+  sw_vec slip;             /* way that it slid in the last step [m] */
   double gap;              /* [m] */
 } sw_pair_place;
 

@@ -141,6 +141,7 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
     sw_strand_extremes(s, w, tension, now);
     now->curvature.time = now->tension.time = now->strain.time = s->time;
     now->ovalisation.time = now->folding.time = s->time;
+    now->torsion = (sw_extreme){.value = -HUGE_VAL};
     return;
   }
   curvature_extreme(&s->system, &s->system.bodies[w], &now->curvature);
@@ -148,7 +149,8 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
   largest_tension(b, sw_system_pull(&s->system, b), &now->tension);
   strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
-  now->curvature.time = now->tension.time = now->strain.time = s->time;
+  sw_scene_torsion(&s->system, b, &now->torsion);
+  now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = s->time;
 }
 
 void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }
@@ -198,13 +200,16 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
 /* Was the step that led here one that smears blows? */
 static int is_coarse(const sw_scene *s) { return s->course.span >= (1 - 1e-9) * SW_WINDOW; }
 
-/* Axial forces of the step that led here. A coarse one counts with its mean over time: that at its
- * end, of a blow, says nothing of how long it lasts. NULL: of a mesh, or at rest, there are only
- * those of the state. */
-static const double *step_tension(const sw_scene *s, const sw_body *b) {
-  if (b->plan->web || !(s->course.span > 0)) return NULL;
-  const double *mean = is_coarse(s) ? s->course.stepper.mean : NULL;
+/* A coarse step counts with its mean over time: that at its end, of a blow, says nothing of how
+ * long it lasts. */
+const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
+  const double *mean = s->course.span > 0 && is_coarse(s) ? s->course.stepper.mean : NULL;
   return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
+}
+
+/* NULL: of a mesh, or at rest, there are only those of the state. */
+static const double *step_tension(const sw_scene *s, const sw_body *b) {
+  return b->plan->web || !(s->course.span > 0) ? NULL : sw_scene_step_tension(s, b);
 }
 
 static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
@@ -246,6 +251,7 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
   keep_largest(&kept->curvature, &now->curvature);
   keep_largest(&kept->strain, &now->strain);
   keep_largest(&kept->ovalisation, &now->ovalisation);
+  keep_largest(&kept->torsion, &now->torsion);
   if (!(kept->folding.value > 0)) keep_largest(&kept->folding, &now->folding); /* the first fold */
 }
 
@@ -264,9 +270,12 @@ sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, s
 void sw_scene_reset_extremes(sw_scene *s) {
   for (size_t w = 0; w < s->wire_count; w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
-    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, 0};
+    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
     sw_window_forget(&s->wires[w].window);
+    sw_wear_free(&s->wires[w].wear);
+    sw_zones_forget(&s->wires[w].zones);
     if (s->built) s->system.bodies[w].pushed = 0;
   }
   s->deepest = (sw_extreme){0};
+  s->wears = 0;
 }

@@ -39,6 +39,8 @@ static void blank_scene(sw_scene *s) {
 static void blank_wire(sw_scene_wire *w) {
   w->window.room = NULL, w->window.edges = 0;
   if (!w->window.marks) memset(&w->window, 0, sizeof w->window);
+  w->zones.past = NULL, w->zones.gaps = w->zones.x = NULL;
+  w->wear.places = NULL, w->wear.cycles = NULL;
   w->strand.rate = NULL, w->twisted = NULL;
 }
 
@@ -77,6 +79,7 @@ sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) 
     join.spring = 0;
     sw_tape_raw(&t, &join, sizeof join);
   }
+  put_list(&t, s->zones, s->zone_count, sizeof *s->zones);
   put_list(&t, s->rules, s->rule_count, sizeof *s->rules);
   put_list(&t, s->events.list, s->events.count, sizeof *s->events.list);
   if (!sw_tape_good(&t)) sw_tape_free(&t);

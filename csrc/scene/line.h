@@ -9,8 +9,10 @@
 #include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/strand.h"
+#include "scene/wear.h"
 #include "scene/window.h"
 #include "scene/wires.h"
+#include "scene/zone.h"
 #include "state/mesh.h"
 #include "system/system.h"
 
@@ -44,6 +46,8 @@ typedef struct sw_scene_wire {
   sw_drawing drawing;
   sw_wire_extremes extremes;
   sw_window window; /* of the tension */
+  sw_wear wear;     /* while the scene keeps it */
+  sw_zone_watch zones;
   sw_twisted *twisted;
   size_t twisted_count;
   int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */

@@ -259,6 +259,7 @@ static void measure_from_start(sw_wire_extremes *e, double start) {
   e->raw.s -= start;
   e->strain.s -= start;
   e->ovalisation.s -= start;
+  e->torsion.s -= start;
   e->folding.s -= start;
 }
 

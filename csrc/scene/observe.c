@@ -21,7 +21,18 @@ static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   SW_TRY(sw_scene_note_extremes(s, w, &now, err));
   sw_scene_watch_kink(s, w, &now);
   sw_scene_watch_breaking(s, w, &now);
+  if (s->wears) SW_TRY(sw_wear_note(s, w, 1, err));
+  SW_TRY(sw_zones_note(s, w, err));
   return sw_watch_wire(s, w, &now, err);
+}
+
+sw_status sw_scene_begin_watching(sw_scene *s, sw_error *err) {
+  sw_system_refresh(&s->system);
+  for (size_t w = 0; w < s->wire_count; w++) {
+    if (s->wears && !s->wires[w].wear.count) SW_TRY(sw_wear_note(s, w, 0, err));
+    SW_TRY(sw_zones_note(s, w, err));
+  }
+  return SW_OK;
 }
 
 static sw_status log_holds(sw_scene *s, sw_error *err) {

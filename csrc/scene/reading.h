@@ -41,6 +41,7 @@ typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
   sw_extreme folding;     /* of a section of springs; above 0: it has folded through itself [-] */
   sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
+  sw_extreme torsion;     /* of a line, M_t / GJ [rad/m] */
   sw_extreme raw;         /* tension of a single step; tension is of means over the window [N] */
   double raw_span;        /* how long that step was; 0: it was an equilibrium [s] */
 } sw_wire_extremes;

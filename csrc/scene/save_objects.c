@@ -53,10 +53,11 @@ static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
 /* --- wires ------------------------------------------------------------------------- */
 
 static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
-  SW_TAPE_STRUCT(t, sw_wire_extremes, 152);
+  SW_TAPE_STRUCT(t, sw_wire_extremes, 176);
   sw_tape_extreme(t, &x->curvature), sw_tape_extreme(t, &x->tension);
   sw_tape_extreme(t, &x->strain), sw_tape_extreme(t, &x->folding);
   sw_tape_extreme(t, &x->ovalisation), sw_tape_extreme(t, &x->raw), DOUBLE(raw_span);
+  sw_tape_extreme(t, &x->torsion);
   sw_tape_expect(t, x->raw_span >= 0 && x->raw_span <= 1e9, "the length of a step");
 }
 
@@ -125,7 +126,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_wire, 832);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 944);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
@@ -138,6 +139,8 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   sw_tape_strand(t, &x->strand, placed);
   tape_extremes(t, &x->extremes);
   sw_tape_window(t, &x->window);
+  sw_tape_wear(t, &x->wear);
+  sw_tape_zone_watch(t, &x->zones);
   INT(untwisted);
   sw_tape_list(t, &x->twisted, &x->twisted_count, sizeof *x->twisted);
 }

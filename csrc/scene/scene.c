@@ -43,6 +43,7 @@ void sw_scene_free(sw_scene *s) {
   for (size_t i = 0; i < s->hold_count; i++) sw_hold_clear(&s->holds[i]);
   for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
   for (size_t i = 0; i < s->tool_count; i++) sw_scene_clear_tool(&s->tools[i]);
+  for (size_t i = 0; i < s->zone_count; i++) sw_scene_clear_zone(&s->zones[i]);
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->course.stepper);
   sw_contact_free(s->contact);
@@ -68,6 +69,7 @@ void sw_scene_free(sw_scene *s) {
   sw_free(s->obstacles);
   sw_free(s->tools);
   sw_free(s->forces);
+  sw_free(s->zones);
   sw_free(s->joins);
   sw_free(s);
 }

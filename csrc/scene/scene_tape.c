@@ -36,7 +36,7 @@ static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *c
   } while (0)
 
 static void tape_numbers(sw_tape *t, sw_scene *s) {
-  SW_TAPE_STRUCT(t, sw_scene, 3136);
+  SW_TAPE_STRUCT(t, sw_scene, 3168);
   sw_tape_name(t, s->name);
   sw_tape_uint32(t, &s->serial);
   sw_tape_vec(t, &s->gravity);
@@ -52,6 +52,7 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
                  "a blow");
   sw_tape_int(t, &s->course.next);
   sw_tape_extreme(t, &s->deepest);
+  sw_tape_int(t, &s->wears);
 }
 
 /* What a scene that is not built remembers of its last system. */
@@ -84,6 +85,7 @@ static void tape_objects(sw_tape *t, sw_scene *s, int built) {
   LIST(obstacles, obstacle_count, obstacle_capacity, sw_tape_obstacle(t, s, &s->obstacles[k]));
   LIST(tools, tool_count, tool_capacity, sw_tape_tool(t, s, &s->tools[k]));
   LIST(forces, force_count, force_capacity, sw_tape_force(t, &s->forces[k]));
+  LIST(zones, zone_count, zone_capacity, sw_tape_zone(t, &s->zones[k]));
   LIST(joins, join_count, join_capacity, sw_tape_join(t, &s->joins[k]));
   if (!t->home) tape_frames(t, s);
   if (sw_tape_reads(t)) s->events.count = 0; /* they own nothing */

@@ -119,7 +119,7 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
   const sw_web *w = b->plan->web;
   const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
-  *now = (sw_wire_extremes){least, least, least, least, least, least, 0};
+  *now = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const slice at = slice_of(b->plan, x, r);

@@ -198,6 +198,8 @@ void sw_scene_clear_body(sw_scene_wire *w) {
   sw_free(w->drawing.points);
   sw_free(w->twisted);
   sw_window_free(&w->window);
+  sw_wear_free(&w->wear);
+  sw_zones_forget(&w->zones);
 }
 
 static sw_status draw_wire(sw_scene *s, sw_scene_wire *w, const sw_wire_args *args,

@@ -10,6 +10,7 @@
 #include "scene/ledger.h"
 #include "scene/parts.h"
 #include "scene/watch.h"
+#include "scene/zone.h"
 #include "system/system.h"
 
 struct sw_scene {
@@ -73,6 +74,9 @@ struct sw_scene {
   int diverged;
   sw_error why;
   sw_extreme deepest; /* penetration */
+  int wears;          /* 1: what wears wires in the run is kept */
+  sw_zone *zones;
+  size_t zone_count, zone_capacity;
   sw_frame *frames;
   size_t frame_count, frame_capacity;
   double next_frame;   /* [s] */

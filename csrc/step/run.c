@@ -75,10 +75,11 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   s->why = report->reason;
 }
 
-sw_status sw_scene_begin_run(sw_scene *s, sw_error *err) {
+sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
   sw_scene_reset_extremes(s);
+  s->wears = wear;
   sw_events_clear(&s->events);
   sw_ledger_begin_run(s);
   s->course.parts = 0, s->course.covered = 0;
@@ -117,6 +118,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
     status = sw_scene_store_frame(s, &why);
     s->next_frame = s->time + args->frame * (double)s->frame_stride;
   }
+  if (status == SW_OK && (s->wears || s->zone_count)) status = sw_scene_begin_watching(s, &why);
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
   s->running--;
   s->system.judged = NULL;

@@ -42,6 +42,8 @@ static sw_param run_rows[] = {
      "stop after so many steps; one that had to be divided is finished first, and its parts count"},
     {"unstable", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, unstable),
      "true lets an explicit integrator take steps above its stable one"},
+    {"wear", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, wear),
+     "true: what wears wires is kept of all steps, for run:check of fatigue and abrasion"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "true shows a progress bar (default: when on a terminal and longer than a second)"},
     {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,

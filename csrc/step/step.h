@@ -18,11 +18,12 @@ typedef struct sw_run_args {
   long max_steps;   /* stop after this many [-] */
   double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
   int unstable;     /* 1: an explicit method may take steps above its limit */
+  int wear;         /* 1: what wears wires is kept; told when the run begins */
 } sw_run_args;
 extern const sw_params sw_run_params;
 
-/* A run begins: extremes of wires and of penetration start anew. */
-sw_status sw_scene_begin_run(sw_scene *scene, sw_error *err);
+/* A run begins: extremes of wires and of penetration start anew. wear: is that of wires kept? */
+sw_status sw_scene_begin_run(sw_scene *scene, int wear, sw_error *err);
 
 /* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
 extern const double SW_LEDGER_REMARK, SW_LEDGER_FAILURE;

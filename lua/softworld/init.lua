@@ -43,6 +43,7 @@ require "softworld.link.clipping" -- gripper:clip
 require "softworld.scene.settle"   -- scene:settle with error bars
 require "softworld.scene.changes"  -- get and set of scenes and grippers
 require "softworld.scene.leave"    -- scene:remove
+require "softworld.scene.zone"     -- scene:zone
 local save = require "softworld.scene.save" -- scene:save, scene:resume, scene:find
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }

@@ -53,6 +53,12 @@ describe("run:check", function()
     assert.is_near(5 * 2 * wire.radius, bend.limit, 1e-12) -- IEC 62440: 5 D moving, below 8 mm
     assert.is_near(4 * 2 * wire.radius, run:check{ use = "fixed" }:row "min_bend_radius".limit, 1e-12)
     assert.equal(bend.value - bend.limit, bend.margin)
+    -- where it lies at the end it is laid once: 4 D
+    local last = check:row "end_bend_radius"
+    assert.is_near(wire:min_bend_radius{ now = true } - wire.radius, last.value, 1e-12)
+    assert.is_near(4 * 2 * wire.radius, last.limit, 1e-12)
+    assert.same({ "standard", run.time }, { last.from, last.time })
+    assert.has_error(function() run:check{ use = "fixed" }:row "end_bend_radius" end)
     assert.truthy(bend.step == "lift" or bend.step == "lay", bend.step)
     local pull, load = check:row "max_tension", wire:cable().breaking_load
     assert.same({ "catalogue", load.value, load.low, load.high, "N" },
@@ -106,8 +112,6 @@ describe("run:check", function()
     assert.equal("OPEN", run:check{ limits = { max_sidewall = between } }:row "max_sidewall".verdict)
     assert.equal("PASS", run:check{ limits = { max_sidewall = { max = row.high, sure = true } } }
       :row "max_sidewall".verdict)
-    local torsion = run:check{ limits = { max_torsion = 10 } }:row "max_torsion"
-    assert.equal("OPEN", torsion.verdict, "the steps between frames are not known")
     local life = { curve = { { 1, 1e9 }, { 10, 1e3 } } }
     assert.equal("OPEN", run:check{ fatigue = life }:row "fatigue".verdict)
     assert.equal("FAIL", run:check{ limits = { fatigue = 1 } }:row "fatigue".verdict, "without a curve")
@@ -123,7 +127,7 @@ describe("run:check", function()
       end
       local r = straight:run{ duration = 0.02, dt = 0.01, frame = case[1] }
       assert.equal(2, r.steps)
-      local row = r:check{ limits = { max_torsion = { max = 1, sure = true } } }:row "max_torsion"
+      local row = r:check{ fatigue = { curve = { { 1, 1e9 }, { 10, 1e3 } } } }:row "fatigue"
       assert.equal(case[2], row.verdict, row.note)
     end
   end)

@@ -41,8 +41,9 @@ local function twisted()
   return scene:run{ duration = 1, dt = 0.02, frame = 0.02 }
 end
 
--- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves.
-local function capstan()
+-- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves. duration: of
+-- the last run, at 0.02 m/s.
+local function capstan(duration)
   local Rw, mu, path = R + RADIUS, 0.3, {}
   for i = 10, 1, -1 do path[#path + 1] = { -Rw, 0, -0.01 * i } end
   for i = 0, 100 do
@@ -57,9 +58,18 @@ local function capstan()
   scene:force{ kind = "damping", mass = 20, on = wire }
   local pin = scene:pin(wire, { s = wire.length })
   scene:run{ duration = 0.2, dt = 0.002 }
-  pin:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.02 } }, relative = true, speed = 0.02, law = "linear" }
+  pin:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, speed = 0.02, law = "linear" }
   scene:run{ duration = 0.6, dt = 0.002 }
-  return scene:run{ duration = 0.2, dt = 0.002, frame = 0.002 }, math.exp(mu * math.pi) / Rw
+  return scene:run{ duration = duration, dt = 0.002, frame = 0.002, wear = true }, math.exp(mu * math.pi) / Rw
+end
+
+-- What comes off the cylinder at the end has gone round a part of it in the run, under T_in exp(mu angle):
+-- normal force T per angle, so that its sum over the way is that of exp(mu angle) [N].
+local drawn
+local function slid()
+  drawn = drawn or capstan(0.4)
+  local part, mu = 0.02 * 0.4 / (R + RADIUS), 0.3
+  return drawn, (math.exp(mu * math.pi) - math.exp(mu * (math.pi - part))) / mu
 end
 
 -- A gripper holds a stiff wire still, by its middle or at s: its weight.
@@ -102,6 +112,49 @@ local function lying()
   return scene:run{ duration = 0.25, dt = 0.01 }
 end
 
+-- Lies 3 mm beside y = 0; zones beside it, and one that it lies in.
+local function between_zones()
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS, segments = 20,
+    from = { 0, 0.003, 0 }, to = { 0.3, 0.003, 0 } }
+  scene:zone{ shape = "sphere", radius = 0.02, at = { 0.101, 0.063, 0 } }
+  scene:zone{ name = "hot", shape = "box", size = { 0.02, 0.1, 0.1 }, at = { 0.2, 0, 0 }, temperature = 90 }
+  scene:zone{ name = "cold", shape = "sphere", radius = 0.05, temperature = -30 }
+  scene:zone{ name = "far", shape = "sphere", radius = 0.05, at = { 1, 0, 0 }, temperature = 500 }
+  return scene:run{ duration = 0.02, dt = 0.01 }
+end
+
+-- A stiff wire is pressed by a hold into a clip and pulled there by less than that holds.
+local clipped
+local function in_clip()
+  if clipped then return clipped end
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.05, radius = 0.004,
+    segments = 20, from = { -0.05, 0, 0.03 }, to = { 0.05, 0, 0.03 } }
+  scene:force{ kind = "damping", mass = 20, on = wire }
+  scene:clip{ name = "clip", at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 20 }
+  local ends = { scene:clamp(wire, { s = 0.02 }), scene:clamp(wire, { s = 0.08 }) }
+  for _, hold in ipairs(ends) do
+    hold:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, duration = 1, law = "linear" }
+  end
+  scene:run{ duration = 1.2, dt = 0.001 }
+  for _, hold in ipairs(ends) do hold:release() end
+  scene:force{ kind = "point", on = wire, s = 0.05, force = { 0, 0, 5 } }
+  clipped = scene
+  return scene
+end
+
+-- Clamped at both ends, at rest: 1 m, and its frequencies.
+local function beam()
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = 0.01, mass_per_length = 0.03, radius = 0.002,
+    segments = 50, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  scene:clamp(wire, { s = 0 })
+  scene:clamp(wire, { s = 1 })
+  -- reference case 04: lambda = 22.373285 of the lowest
+  return scene:run{ duration = 0.02, dt = 0.01 }, 22.373285 / (2 * math.pi) * math.sqrt(0.01 / 0.03)
+end
+
 -- A tube that sags between clamps.
 local function squeezed()
   local scene = sw.scene{}
@@ -116,11 +169,12 @@ local weight = 0.02 * 0.1 * g
 -- Name of the check -> a run, arguments of run:check, the value by formula, the share that it may be off.
 local cases = {
   min_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
+  end_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
   max_tension = function() return pulled(), {}, 1e4 * 0.01, 1e-3 end,
   max_strain = function() return pulled(), {}, 0.01, 1e-3 end,
   max_stress = function() return pulled(), {}, 1e4 * 0.01 / (math.pi * RADIUS ^ 2), 1e-3 end,
   max_sidewall = function()
-    local run, value = capstan()
+    local run, value = capstan(0.2)
     return run, {}, value, 0.01
   end,
   max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,
@@ -129,13 +183,56 @@ local cases = {
     local curve = { { 10, 5e5 }, { 100, 500 } }
     return pulled(), { fatigue = { curve = curve, repeats = 20 } }, 20 * 0.5 / 500, 0.01
   end,
+  friction_work = function()
+    local run, value = slid()
+    return run, { abrasion = { coefficient = 1, width = 1e-3 } }, 0.3 * value / 1e-3, 0.01
+  end,
+  wear_depth = function()
+    local run, value = slid()
+    return run, { abrasion = { coefficient = 1e-12, width = 1e-3, repeats = 50 } }, 50 * 1e-12 * value / 1e-3,
+      0.01
+  end,
   landing_error = function()
     return lying(), { landing = { path = { { -1, 0, RADIUS }, { 1, 0, RADIUS } } } }, 0.003, 1e-3
+  end,
+  clearance = function() return between_zones(), {}, 0.06 - 0.02 - RADIUS, 1e-9 end,
+  max_temperature = function() return between_zones(), {}, 90, 0 end,
+  min_temperature = function() return between_zones(), {}, -30, 0 end,
+  -- from half of the lowest below: the share of a half that is between
+  frequency_gap = function()
+    local run, f = beam()
+    return run, { vibration = { bands = { { 1e-3, f / 2 } } } }, 1, 0.01
+  end,
+  -- Miles, of the lowest mode: shape times participation in the middle is 1.588146 x 0.830862
+  vibration_amplitude = function()
+    local run, f = beam()
+    local sigma = math.sqrt(2 / (2 * 0.02) / (32 * math.pi ^ 3 * f ^ 3)) * 1.588146 * 0.830862
+    return run, { vibration = { spectrum = { { 0.1, 2 }, { 10, 2 } }, damping = 0.02, modes = 2,
+      direction = { 0, 0, 3 } } }, 3 * sigma, 0.01
   end,
   peak_force = function() return held(), {}, weight, 0.01 end,
   peak_moment = function() return held(0.03), {}, weight * 0.02, 0.01 end,
   mean_force = function() return held(), {}, weight, 0.01 end,
   peak_margin = function() return lifted(0.1), {}, weight / (0.5 * 2 * 0.1), 0.02 end,
+  insertion_force = function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.05, radius = 0.004,
+      segments = 20, from = { -0.05, 0, 0.01 }, to = { 0.05, 0, 0.01 } }
+    scene:force{ kind = "damping", mass = 20, on = wire }
+    scene:clip{ name = "clip", at = { 0, 0, 0 }, width = 0.01, insertion = 8, retention = 20 }
+    for _, s in ipairs{ 0.02, 0.08 } do
+      scene:clamp(wire, { s = s }):follow{ points = { { 0, 0, 0 }, { 0, 0, -0.01 } }, relative = true,
+        duration = 1, law = "linear" }
+    end
+    return scene:run{ duration = 1.1, dt = 0.001 }, {}, 8, 0.01
+  end,
+  -- 5 N of 20 N
+  retention_used = function()
+    return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 0.25, 0.01
+  end,
+  seated = function() return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 1, 0 end,
+  pad_load = function() return lifted(0.1), {}, 0.1 / 0.02, 0.01 end,
+  opening = function() return lifted(0.1), {}, 2 * RADIUS, 0.01 end, -- they are closed on it
   penetration = function()
     local run = lying()
     return run, {}, run.scene:penetration(), 0

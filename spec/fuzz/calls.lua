@@ -402,6 +402,7 @@ local by_call = {
   ["trajectory.save"] = function(r) return words.or_hostile(r, "dir .. '/way.csv'") end,
   ["wire.bend_limit"] = function(r) return words.table_of(r, { "use", "now" }, 0.3) end,
   ["wire.max_ovalisation"] = function(r) return r.of{ "", "{ now = true }" } end,
+  ["wire.max_torsion"] = function(r) return r.of{ "", "{ now = true }" } end,
   ["clip.force"] = function(r) return r.of{ "", r.pick "wire" } end,
   ["sw.scene"] = table_with(0.3, "name", "gravity"), ["trajectory.new"] = trajectory,
   ["sw.load"] = function(r) return words.or_hostile(r, words.file(r)) end,

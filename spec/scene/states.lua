@@ -51,6 +51,16 @@ for index, force in ipairs(samples.registry.forces) do
   end
 end
 
+case("what wears a wire, and zones", function(s)
+  s:zone{ name = "cold", shape = "box", size = { 0.1, 0.1, 0.01 }, at = { 0.2, 0, 0.02 }, temperature = -20 }
+  s:zone{ shape = "sphere", radius = 0.02, at = { 0.1, 0.05, 0 } }
+  s:obstacle{ shape = "plane", friction = 0.3 }
+  local w = rod(s)
+  s:clamp(w, { s = 0 })
+  s:clamp(w, { s = 0.4 }):follow{ points = { { 0, 0, 0 }, { -0.02, 0, 0.01 }, { 0, 0, 0 } }, relative = true,
+    duration = 0.1 }
+end, run(0.08, { wear = true }), run(0.02, { wear = true }))
+
 case("a force that is a function", function(s)
   local w = rod(s)
   s:clamp(w, { s = 0 })

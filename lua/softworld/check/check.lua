@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local bendrule = require "softworld.wire.bendrule"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local fixing = require "softworld.link.fixing"
 local judge = require "softworld.check.judge"
 local limits = require "softworld.check.limits"
 local own = require "softworld.check.own"
@@ -13,21 +14,11 @@ local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local stages = require "softworld.run.stages"
 local unread = require "softworld.unread"
+local wanted = require "softworld.check.wanted"
 local writing = require "softworld.check.writing"
 
 local check = {}
 
-local landing = rows.list{
-  { "path", "list", "m", "points {x, y, z} of the wanted path", required = true },
-  { "wire", "text", "-", "name of the wire that is to lie there", usual = "every wire" },
-  { "from", "number", "m", "arc length from which it is to lie there", min = 0, usual = 0 },
-  { "to", "number", "m", "arc length up to which", min = 0, usual = "its end" },
-}
-
-local fatigue = rows.list{
-  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising", required = true },
-  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
-}
 
 local call = rows.call("run:check", "{...}", "does the process pass? see help 'check'", {
   gives = "a check: verdict, rows, csv, json, junit",
@@ -36,8 +27,11 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
   { "limits", "limits", "-", "by name: a number, false or { max =, min =, source =, sure = }",
     usual = "of the catalogue, standards and definitions" },
   { "checks", "list", "-", "of your own: { name =, unit =, of = function(run), max =, min = }" },
-  { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = landing },
-  { "fatigue", "table", "-", "the curve by which changes of tension wear the wire", rows = fatigue },
+  { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = wanted.landing },
+  { "fatigue", "table", "-", "the curves by which cycles of tension and bending wear the wire",
+    rows = wanted.fatigue },
+  { "abrasion", "table", "-", "by what sliding wears the wire's surface", rows = wanted.abrasion },
+  { "vibration", "table", "-", "what shakes the holds once wires lie there", rows = wanted.vibration },
   { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
 })
 
@@ -65,12 +59,16 @@ rows.calls{
 local function context_of(run, args)
   local data = build.data(run.scene)
   local c = { run = run, scene = run.scene, use = args.use, landing = args.landing, fatigue = args.fatigue,
-    wires = {}, grippers = {} }
+    abrasion = args.abrasion, vibration = args.vibration, wires = {}, grippers = {} }
   for i, w in ipairs(data.wires) do
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end
   for i, g in ipairs(data.grippers) do c.grippers[i] = { name = g.name, object = g } end
-  c.objects = { wire = c.wires, gripper = c.grippers, run = { { object = run } } }
+  local clips = {}
+  for _, f in ipairs(fixing.all(run.scene)) do
+    if checks.kind(f) == "clip" then clips[#clips + 1] = { name = f.name, object = f } end
+  end
+  c.objects = { wire = c.wires, gripper = c.grippers, clip = clips, run = { { object = run } } }
   return c
 end
 
@@ -263,42 +261,9 @@ local function check_there(run)
   end
 end
 
-local function read_landing(args)
-  for i, point in ipairs(args.landing and args.landing.path or {}) do
-    args.landing.path[i] = checks.vector(("run:check: landing.path[%d]"):format(i), point, "m", 0)
-  end
-  local given = args.landing
-  if not given then return end
-  if #given.path == 0 then error("run:check: landing.path has no points", 0) end
-  if given.from and given.to and given.from > given.to then
-    error(("run:check: landing: from = %g m is beyond to = %g m"):format(given.from, given.to), 0)
-  end
-end
-
--- Ranges rise and cycles fall along the curve.
-local function read_curve(given)
-  local copy = {}
-  for i, point in ipairs(given.curve) do
-    local what = ("run:check: fatigue.curve[%d]"):format(i)
-    if type(point) ~= "table" then
-      error(("%s must be { range [N], cycles }, got %s"):format(what, checks.got(point)), 0)
-    end
-    copy[i] = { checks.number(what .. "[1]", point[1], 0, " N", 0, nil, true),
-      checks.number(what .. "[2]", point[2], 0, "", 0, nil, true) }
-    local before = copy[i - 1]
-    if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
-      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(what), 0)
-    end
-  end
-  if #copy < 2 then error("run:check: fatigue.curve has fewer than 2 points { range [N], cycles }", 0) end
-  given.curve = copy
-end
-
 local function read(run, args)
   args = call:read(args == nil and {} or args)
-  if args.landing then args.landing.path = table.move(args.landing.path, 1, #args.landing.path, 1, {}) end
-  read_landing(args)
-  if args.fatigue then read_curve(args.fatigue) end
+  wanted.read(args)
   local context = context_of(run, args)
   local wire = args.landing and args.landing.wire
   if wire then

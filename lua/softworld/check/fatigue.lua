@@ -1,11 +1,76 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Fatigue by tension: the share of its life that the wire loses, at the node where that is most: a rainflow
--- count of the stored frames' tensions, Miner's sum by the S-N curve that the script gives, times repeats.
--- Curvature is not counted: it is stored without its sign, and a bend to and fro would count as two of half
--- the range.
+--- Fatigue: the share of its life that the wire loses, at the place where that is most. Cycles of tension and
+-- of bending are counted there by rainflow and added up by Miner's rule with the S-N curves that the script
+-- gives, times repeats.
+--
+-- With scene:run{ wear = true } they are those of every step. Bending is then that of the fibres all round
+-- the wire: to and fro is one cycle of the whole range, and what rolls while bent is bent. Without it there
+-- are the tensions of the stored frames, and no bending: curvature is stored without its sign.
 -- @module softworld.check.fatigue
+local core = require "softworld.core"
 local rainflow = require "softworld.check.rainflow"
 local stored = require "softworld.check.stored"
+local tension = require "softworld.check.tension"
+local worn = require "softworld.check.worn"
+
+local WAYS = 12 -- directions in which bending is counted [-]
+
+-- Miner's sum over a flat list of range, mean, number; and the largest range. strength: Goodman's [N].
+local function damage(cycles, curve, strength)
+  local sum, most = 0, 0
+  for i = 1, #cycles, 3 do
+    local range, mean, count = cycles[i], cycles[i + 1], cycles[i + 2]
+    most = math.max(most, range)
+    if strength and mean > 0 then range = mean < strength and range / (1 - mean / strength) or math.huge end
+    if range > 0 then sum = sum + count / rainflow.life(curve, range) end
+  end
+  return sum, most
+end
+
+-- The largest sum over all directions: of the parabola through the logarithms of the largest and its
+-- neighbours, which of bends in one plane is off by less than 1e-4.
+local function around(sums)
+  local best = 1
+  for k = 2, #sums do if sums[k] > sums[best] then best = k end end
+  local a, b, c = sums[best > 1 and best - 1 or #sums], sums[best], sums[best < #sums and best + 1 or 1]
+  if not (a > 0 and c > 0 and b < math.huge) then return b end
+  local before, after = math.log(b / a), math.log(b / c)
+  if before + after <= 0 then return b end
+  return b * math.exp((before - after) ^ 2 / (8 * (before + after)))
+end
+
+-- Of one place: what tension takes and what bending takes, with their largest ranges.
+local function of_place(object, k, given, strength)
+  local pull, pull_range, bend, bend_range = 0, 0, 0, 0
+  if given.curve then
+    pull, pull_range = damage(core.worn_cycles(object, k, 0), given.curve, strength)
+  end
+  if given.bending then
+    local sums = {}
+    for way = 1, WAYS do
+      local range
+      sums[way], range = damage(core.worn_cycles(object, k, way), given.bending)
+      bend_range = math.max(bend_range, range)
+    end
+    bend = around(sums)
+  end
+  return pull + bend, pull_range, bend_range
+end
+
+local function of_steps(entry, given, places, strength)
+  local best = { value = 0 }
+  for k, place in ipairs(places) do
+    local sum, pull, bend = of_place(entry.object, k, given, strength)
+    if sum * given.repeats > best.value then
+      local ranges = {}
+      if given.curve then ranges[1] = ("%.4g N"):format(pull) end
+      if given.bending then ranges[#ranges + 1] = ("%.4g 1/m"):format(bend) end
+      best = { value = sum * given.repeats, s = place.s,
+        note = "ranges up to " .. table.concat(ranges, " and ") }
+    end
+  end
+  return best
+end
 
 -- Tensions of each node over the frames, and their number; nil where a wire has not always the same nodes.
 local function histories(context, entry)
@@ -20,31 +85,58 @@ local function histories(context, entry)
   return same and count and list or nil, places, count
 end
 
-local function value(entry, context)
+local function of_frames(entry, context, strength)
   local given = context.fatigue
-  if not given then
-    return { value = 0 / 0, note = "its curve is missing: fatigue = { curve = { { range [N], cycles } } }" }
-  end
   local list, places, count = histories(context, entry)
   if not list then return { value = 0 / 0, note = "the wire has not the same nodes in all frames" } end
   local best = { value = 0 }
   for k, history in ipairs(list) do
-    local sum, range = rainflow.damage(history, given.curve)
+    local sum, range = damage(rainflow.flat(history), given.curve, strength)
     if sum * given.repeats > best.value then
       best = { value = sum * given.repeats, s = places[k], note = ("ranges up to %.4g N"):format(range) }
     end
   end
   if not stored.whole(context, count) then
-    best.low, best.high = best.value, math.huge
-    local of = ("of %d frames, the steps between are not known: scene:run{ frame = } as short as a step")
-      :format(count)
-    best.note = best.note and best.note .. "; " .. of or of
+    worn.at_least(best, ("of %d frames, the steps between are not known: %s"):format(count, worn.HOW))
   end
   return best
 end
 
+-- Goodman's strength [N], nil where it is not wanted; false where it is and nobody knows it.
+local function strength_of(entry, given)
+  if given.mean ~= "goodman" then return nil end
+  local load = tension.limit(entry)
+  return given.strength or load and (load.low or load.value) or false
+end
+
+local function value(entry, context)
+  local given = context.fatigue
+  if not given then
+    return { value = 0 / 0, note = "its curve is missing: fatigue = { curve = { { range [N], cycles } } } or "
+      .. "{ bending = { { range [1/m], cycles } } }" }
+  end
+  local strength = strength_of(entry, given)
+  if strength == false then
+    return { value = 0 / 0, note = "mean = 'goodman' needs the wire's breaking load: give strength [N]" }
+  end
+  local places, partial = worn.of(entry)
+  local best
+  if places then
+    best = of_steps(entry, given, places, strength)
+    if partial then worn.at_least(best, partial) end
+  elseif given.bending then
+    best = worn.missing(entry)
+  else
+    best = of_frames(entry, context, strength)
+  end
+  local from = ("S-N curve: %s"):format(given.flag and ("%s, %s"):format(given.source or "of the script",
+    given.flag) or given.source or "of the script, its source is not given")
+  best.note = best.note and best.note .. "; " .. from or from
+  return best
+end
+
 return { name = "fatigue", unit = "-", side = "max", on = "wire", asked = true,
-  label = "share of the life lost by changes of tension", missing = "allowed share of life", value = value,
+  label = "share of the life lost by cycles of load", missing = "allowed share of life", value = value,
   wanted = function(context) return context.fatigue ~= nil end,
   limit = function() return { value = 1, from = "definition", source = "Miner's sum at failure" } end,
   reference = function() return 1 end }

@@ -47,7 +47,7 @@ local function times(x) return ("%.3g"):format(x >= 1 and x or 1 / x) end
 -- known: the limit that holds without the user's; reference: what limits of the kind are like; or nil.
 function judge.suspicion(value, limit, side, unit, known, reference)
   local usual = known and known.value or reference
-  if usual and side == "min" and limit.value <= 0 then
+  if usual and usual > 0 and side == "min" and limit.value <= 0 then
     return ("a limit of %s is none; sure = true keeps it"):format(number.text(limit.value, unit)), true
   end
   local far = laxer(limit.value, usual or value, side)

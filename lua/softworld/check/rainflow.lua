@@ -17,7 +17,7 @@ function rainflow.reversals(history)
   return list
 end
 
---- Cycles { range =, count = 1 or 0.5 } in the order of being counted.
+--- Cycles { range =, mean =, count = 1 or 0.5 } in the order of being counted.
 function rainflow.count(history)
   local cycles, open = {}, {}
   for _, x in ipairs(rainflow.reversals(history)) do
@@ -27,17 +27,29 @@ function rainflow.count(history)
       local now, before = math.abs(open[n] - open[n - 1]), math.abs(open[n - 1] - open[n - 2])
       if now < before then break end
       if n == 3 then -- the range before holds the history's start
-        cycles[#cycles + 1] = { range = before, count = 0.5 }
+        cycles[#cycles + 1] = { range = before, mean = (open[1] + open[2]) / 2, count = 0.5 }
         table.remove(open, 1)
       else
-        cycles[#cycles + 1] = { range = before, count = 1 }
+        cycles[#cycles + 1] = { range = before, mean = (open[n - 1] + open[n - 2]) / 2, count = 1 }
         table.remove(open, n - 1)
         table.remove(open, n - 2)
       end
     end
   end
-  for i = 2, #open do cycles[#cycles + 1] = { range = math.abs(open[i] - open[i - 1]), count = 0.5 } end
+  for i = 2, #open do
+    cycles[#cycles + 1] = { range = math.abs(open[i] - open[i - 1]), mean = (open[i] + open[i - 1]) / 2,
+      count = 0.5 }
+  end
   return cycles
+end
+
+--- The same as one list of range, mean, count.
+function rainflow.flat(history)
+  local list = {}
+  for _, c in ipairs(rainflow.count(history)) do
+    list[#list + 1], list[#list + 2], list[#list + 3] = c.range, c.mean, c.count
+  end
+  return list
 end
 
 --- Cycles that a range may be repeated for: straight lines through the curve's points { range, cycles } in

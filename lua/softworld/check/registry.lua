@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What run:check looks at, in the order of its rows: one file per check, one line here.
 --
--- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper" or "run", asked =,
--- missing =, value =, limit =, reference =, wanted = }. asked: only where the script gives a limit, or
--- wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the
+-- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper", "clip" or "run",
+-- asked =, missing =, value =, limit =, reference =, wanted = }. asked: only where the script gives a limit,
+-- or wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the
 -- object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
 --   value: { value =, s = [m], time = [s], note =, low =, high = }, low and high where the value is known to
 --     lie between these; nil where there is nothing to judge
@@ -12,9 +12,12 @@
 -- @module softworld.check.registry
 local registry = {}
 
-local files = { "bend_radius", "tension", "strain", "stress", "sidewall", "torsion", "ovalisation", "fatigue",
-  "landing",
-  "peak_force", "peak_moment", "mean_force", "slip", "penetration", "kinks", "spoilt", "cycle_time" }
+local files = { "bend_radius", "end_bend_radius", "tension", "strain", "stress", "sidewall", "torsion",
+  "ovalisation", "fatigue", "friction_work", "wear_depth", "landing", "clearance", "max_temperature",
+  "min_temperature", "frequency_gap", "vibration_amplitude",
+  "peak_force", "peak_moment", "mean_force", "slip", "pad_load", "opening",
+  "insertion_force", "retention_used", "seated",
+  "penetration", "kinks", "spoilt", "cycle_time" }
 
 registry.list, registry.by_name = {}, {}
 for i, file in ipairs(files) do

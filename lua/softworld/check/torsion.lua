@@ -1,22 +1,27 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Torsion per metre, M_t / GJ, of the stored frames. Nothing is kept of the steps between them, so a run
--- that is to pass needs a frame of each.
+--- Torsion per metre, M_t / GJ: the largest of all steps. Of a mesh of particles that of the stored frames;
+-- nothing is kept of the steps between them, so a run that is to pass needs a frame of each.
 -- @module softworld.check.torsion
 local stored = require "softworld.check.stored"
+local worn = require "softworld.check.worn"
 
-local function value(entry, context)
-  local GJ, best = entry.object.beam.GJ, { value = 0 }
-  if not (GJ and GJ > 0) then return nil end
+local function of_frames(entry, context, GJ)
+  local best = { value = 0 }
   local count = stored.each(context, entry, function(values, k, time, s)
     local now = math.abs(values.twist_moment[k]) / GJ
     if now > best.value then best = { value = now, s = s, time = time } end
   end)
-  if not stored.whole(context, count) then
-    best.low, best.high = best.value, math.huge
-    best.note = ("of %d frames, the steps between are not known: scene:run{ frame = } as short as a step")
-      :format(count or 0)
-  end
-  return best
+  if stored.whole(context, count) then return best end
+  return worn.at_least(best, ("of %d frames, the steps between are not known: scene:run{ frame = } as short "
+    .. "as a step"):format(count or 0))
+end
+
+local function value(entry, context)
+  local GJ = entry.object.beam.GJ
+  if not (GJ and GJ > 0) then return nil end
+  if not worn.LINE[entry.object.model] then return of_frames(entry, context, GJ) end
+  local torsion, s, time = entry.object:max_torsion()
+  return { value = torsion, s = s, time = time }
 end
 
 return { name = "max_torsion", unit = "rad/m", side = "max", on = "wire", asked = true,

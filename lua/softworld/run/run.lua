@@ -126,7 +126,7 @@ local function run_once(scene, args, level)
     wall = 0, cpu = 0 }
   process.check_steps(scene)
   data.origin = data.origin or save.origin(scene)
-  if not data.going then build.call(3, core.begin_run, scene) end -- else the run of the file goes on
+  if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
   data.going = nil
   observe.begin(scene, args)
   total.drawn = wires_of(scene)

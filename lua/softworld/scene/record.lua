@@ -16,7 +16,7 @@ local MOST = 20000 -- calls of a scene; a loop that changes something at each st
 -- Methods that make or change something. "name?" only does with an argument; else it reads.
 local core_methods = {
   scene = "wire particles obstacle hold wire_contact join force gripper clip "
-    .. "channel tie set gravity? settle remove",
+    .. "channel tie set gravity? settle remove zone",
   wire = "remodel set_velocity", particles = "set_velocity", force = "release call_it set",
   obstacle = "follow pose? set remove", join = "release",
   clamp = "follow pose? release feed push? force_limit? drive_force? speed? set",

@@ -94,7 +94,7 @@ function class.wire.section(wire, s)
   return setmetatable(build.call(3, section, wire, s), Section)
 end
 
-for _, name in ipairs { "width", "contact_pressure", "von_mises", "max_ovalisation" } do
+for _, name in ipairs { "width", "contact_pressure", "von_mises", "max_ovalisation", "max_torsion" } do
   local read = class.wire[name]
   class.wire[name] = function(...) return build.call(3, read, ...) end
 end

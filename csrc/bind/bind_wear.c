@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run did to its wires, place by place; and the count of cycles alone, for specs. */
+#include "bind/child.h"
+#include "bind/module.h"
+
+/* A flat list of range, mean, number. */
+static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
+  lua_createtable(L, (int)(3 * count), 0);
+  for (size_t k = 0; k < count; k++) {
+    const double row[3] = {list[k].range, list[k].mean, list[k].count};
+    for (size_t i = 0; i < 3; i++) {
+      lua_pushnumber(L, row[i]);
+      lua_rawseti(L, -2, (lua_Integer)(3 * k + i + 1));
+    }
+  }
+  return 1;
+}
+
+/* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }, is it of a part of the run
+ * only?; nil where nothing is kept */
+static int mod_worn(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t count;
+  int partial;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
+  if (!count) return 0;
+  lua_createtable(L, (int)count, 0);
+  for (size_t k = 0; k < count; k++) {
+    const sw_worn x = sw_scene_worn_place(scene, w->id, k);
+    lua_createtable(L, 0, 4);
+    lsw_set_number(L, "s", x.s);
+    lsw_set_number(L, "rubbed", x.rubbed);
+    lsw_set_number(L, "slid", x.slid);
+    lua_pushinteger(L, x.side);
+    lua_setfield(L, -2, "side");
+    lua_rawseti(L, -2, (lua_Integer)k + 1);
+  }
+  lua_pushboolean(L, partial);
+  return 2;
+}
+
+/* core.worn_cycles(wire, place, signal) -> flat list of range, mean, number; signal 0: the tension
+ * [N], others: the bend in one of 12 directions over half a turn [1/m] */
+static int mod_worn_cycles(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
+  size_t count;
+  int partial;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lua_Integer k = lsw_integer(L, 2, "worn_cycles: the place");
+  const lua_Integer signal = lsw_integer(L, 3, "worn_cycles: the signal");
+  lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
+  luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
+  luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
+  return push_cycles(L, list, sw_scene_worn_cycles(scene, w->id, (size_t)k - 1, (int)signal, list));
+}
+
+/* core.cycles(list) -> flat list of range, mean, number, of a history of load */
+static int mod_cycles(lua_State *L) {
+  sw_cycles c = {.opened = 0};
+  sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
+  luaL_checktype(L, 1, LUA_TTABLE);
+  for (lua_Integer k = 1; lua_rawgeti(L, 1, k) != LUA_TNIL; k++) {
+    sw_cycles_add(&c, luaL_checknumber(L, -1));
+    lua_pop(L, 1);
+  }
+  return push_cycles(L, list, sw_cycles_read(&c, list));
+}
+
+static const luaL_Reg functions[] = {
+    {"worn", mod_worn}, {"worn_cycles", mod_worn_cycles}, {"cycles", mod_cycles}, {NULL, NULL}};
+
+void lsw_open_wear(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run did to a wire, place by place, where it was asked to keep that; see wear.h. */
+#ifndef SW_SCENE_WORN_H
+#define SW_SCENE_WORN_H
+
+#include "scene/cycles.h"
+#include "scene/scene.h"
+
+/* What is counted at each place: the tension, then the bend in so many directions [-]. */
+enum { SW_WORN_TENSION, SW_WORN_BEND, SW_WORN_WAYS = 12, SW_WORN_SIGNALS = 1 + SW_WORN_WAYS };
+
+typedef struct sw_worn {
+  double s;      /* [m] */
+  double rubbed; /* work of friction per length [J/m] */
+  double slid;   /* normal force per length times the way that slid [N] */
+  int side;      /* -1, 1: where the wire enters or leaves what holds its direction; else 0 */
+} sw_worn;
+
+/* How many places there are: 0 where nothing is kept. partial: 1, it is not of the whole run. */
+sw_status sw_scene_worn(const sw_scene *scene, sw_handle wire, size_t *places, int *partial,
+                        sw_error *err);
+/* Place number k of them, and its cycles of a signal (SW_CYCLES_KEPT + SW_CYCLES_OPEN at most),
+ * whose number is returned. */
+sw_worn sw_scene_worn_place(const sw_scene *scene, sw_handle wire, size_t k);
+size_t sw_scene_worn_cycles(const sw_scene *scene, sw_handle wire, size_t k, int signal,
+                            sw_cycle *out);
+
+#endif

@@ -1,0 +1,41 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Abrasion where wires slide on obstacles and on each other, at the place where it is most, of every step
+-- of a run with wear = true: work of friction per area, and depth worn off by Archard's law,
+--     depth = coefficient x normal force x way / area.
+-- The area is the wire's length times a width across it on which it rubs. Friction in feeds, sliders and
+-- clips, and that of blows, is not in it.
+-- @module softworld.check.abrasion
+local worn = require "softworld.check.worn"
+
+local abrasion = {}
+
+-- Width on which the wire rubs, and words where nobody gave it.
+local function width(entry, given)
+  if given and given.width then return given.width end
+  return entry.object.radius, ("on a width of %.3g m, assumed: its radius"):format(entry.object.radius)
+end
+
+local function join(a, b) return a and b and a .. "; " .. b or a or b end
+
+--- The largest of { rubbed =, slid = } over places by what of(place) gives, times repeats, over the width.
+function abrasion.largest(entry, context, of)
+  local given = context.abrasion
+  local places, partial = worn.of(entry)
+  if not places then return worn.missing(entry) end
+  local across, assumed = width(entry, given)
+  local best = { value = 0, note = assumed }
+  for _, place in ipairs(places) do
+    local now = of(place) / across * (given and given.repeats or 1)
+    if now > best.value then best.value, best.s = now, place.s end
+  end
+  if partial then worn.at_least(best, partial) end
+  return best
+end
+
+--- Where the coefficient is from, in words.
+function abrasion.source(given)
+  return ("%.3g 1/Pa, %s"):format(given.coefficient, join(given.source, given.flag)
+    or "assumed: its source is not given")
+end
+
+return abrasion

@@ -1,0 +1,25 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Bend radius of the inside of the bend as the wire lies at the end, against what is allowed to a cable that
+-- is laid once. That of the moving wire is min_bend_radius, by the run's own class of use.
+-- @module softworld.check.end_bend_radius
+local bendrule = require "softworld.wire.bendrule"
+local cable = require "softworld.cable"
+
+local USE = "fixed"
+
+return { name = "end_bend_radius", unit = "m", side = "min", on = "wire", asked = true,
+  label = "smallest radius of the inside of a bend at the end",
+  missing = "bend (its wire has no entry of the catalogue)",
+  wanted = function(context) return context.use ~= nil and context.use ~= USE end,
+  value = function(entry, context)
+    local radius, s = entry.object:min_bend_radius{ now = true }
+    return { value = radius - entry.object.radius, s = s, time = context.run.time }
+  end,
+  limit = function(entry)
+    local known = entry.object:cable()
+    if not known then return nil end
+    return { value = cable.bend_limit(known, USE, 2 * entry.object.radius),
+      from = known.bend[USE] and "catalogue" or "standard",
+      source = ("%s for %s"):format(known.bend[USE] and known.name or bendrule.source, USE) }
+  end,
+  reference = function(entry) return 8 * entry.object.radius end }

@@ -1,0 +1,50 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- How far the natural frequencies of a wire, where it lies at the end, are from bands of excitation: the
+-- least share of a band's edge that is between, below 0 where one is in a band.
+-- @module softworld.check.frequency_gap
+local swings = require "softworld.check.swings"
+
+-- Of a frequency from a band, above 0 outside of it.
+local function apart(f, band)
+  if f < band[1] then return (band[1] - f) / band[1] end
+  if f > band[2] then return (f - band[2]) / band[2] end
+  local low = band[1] > 0 and (f - band[1]) / band[1] or math.huge
+  return -math.min(low, (band[2] - f) / band[2])
+end
+
+local function least(found, bands)
+  local best = { value = math.huge }
+  for n, f in ipairs(found) do
+    for _, band in ipairs(bands) do
+      local now = apart(f, band)
+      if now < best.value then
+        best.value = now
+        best.note = ("mode %d, %.4g Hz, and the band of %g to %g Hz"):format(n, f, band[1], band[2])
+      end
+    end
+  end
+  return best
+end
+
+return { name = "frequency_gap", unit = "-", side = "min", on = "wire", asked = true,
+  label = "distance of natural frequencies from bands of excitation", missing = "wanted distance",
+  wanted = function(context) return context.vibration ~= nil and context.vibration.bands ~= nil end,
+  value = function(entry, context)
+    local given = context.vibration
+    if not (given and given.bands) then
+      return { value = 0 / 0, note = "the bands are missing: vibration = { bands = { { from, to } } } [Hz]" }
+    end
+    local highest = 0
+    for _, band in ipairs(given.bands) do highest = math.max(highest, band[2]) end
+    local found, whole = swings.up_to(entry.object, highest, given)
+    if found.unstable > 0 then return { value = 0 / 0, note = found.note } end
+    local value = least(found, given.bands)
+    if not whole then
+      value.low, value.high = -math.huge, value.value
+      value.note = ("%s; %d modes reach up to %.4g Hz only"):format(value.note, #found, found[#found])
+    end
+    return value
+  end,
+  limit = function()
+    return { value = 0, from = "definition", source = "no natural frequency within a band" }
+  end }

@@ -1,0 +1,14 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Largest opening of a gripper's pads in the run, against what the gripper can open.
+-- @module softworld.check.opening
+return { name = "opening", unit = "m", side = "max", on = "gripper", asked = true,
+  label = "largest opening of the pads", missing = "stroke of the gripper",
+  value = function(entry, context)
+    local series, best = entry.object:series(), nil
+    for i, opening in pairs(series.opening or {}) do
+      local t = series.t[i]
+      local inside = t >= context.run.start and t <= context.run.time
+      if inside and (not best or opening > best.value) then best = { value = opening, time = t } end
+    end
+    return best
+  end }

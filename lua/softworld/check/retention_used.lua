@@ -1,0 +1,20 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Largest pull on a wire in a clip so far, over what the clip holds; also of one that came out in the run.
+-- @module softworld.check.retention_used
+return { name = "retention_used", unit = "-", side = "max", on = "clip",
+  label = "largest pull out of the clip, of what it holds", missing = "allowed share of the retention",
+  value = function(entry, context)
+    local clip, out = entry.object, entry.object.pulled_out
+    local value = { value = clip:ratio() }
+    if out and out.time > context.run.start then
+      value.value = math.max(1, value.value, out.peak_force / clip.retention)
+      value.time, value.note = out.time, ("'%s' came out"):format(out.wire.name)
+    elseif clip:state() ~= "seated" then
+      return nil
+    end
+    return value
+  end,
+  limit = function()
+    return { value = 1 - 1e-9, from = "definition", source = "at its retention a clip lets go" }
+  end,
+  reference = function() return 1 end }

@@ -1,0 +1,151 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What scripts give to run:check besides limits: tables of parameters, and what is wrong with them.
+-- @module softworld.check.wanted
+local cable = require "softworld.cable"
+local checks = require "softworld.checks"
+local rows = require "softworld.rows"
+local vec = require "softworld.vec"
+
+local wanted = {}
+
+wanted.landing = rows.list{
+  { "path", "list", "m", "points {x, y, z} of the wanted path", required = true },
+  { "wire", "text", "-", "name of the wire that is to lie there", usual = "every wire" },
+  { "from", "number", "m", "arc length from which it is to lie there", min = 0, usual = 0 },
+  { "to", "number", "m", "arc length up to which", min = 0, usual = "its end" },
+}
+
+wanted.fatigue = rows.list{
+  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising" },
+  { "bending", "list", "1/m", "points { range of curvature, cycles endured }, ranges rising" },
+  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
+  { "mean", "choice", "-", "goodman: a range of tension counts as range / (1 - mean / strength)",
+    choices = { "none", "goodman" }, default = "none" },
+  { "strength", "number", "N", "of Goodman's rule", min = 0, above = true,
+    usual = "the least breaking load" },
+  { "source", "text", "-", "where the curves are from" },
+  { "flag", "choice", "-", "how well they are known", choices = cable.flags },
+}
+
+wanted.abrasion = rows.list{
+  { "coefficient", "number", "1/Pa", "Archard's: volume worn off over force and way", min = 0, above = true,
+    required = true },
+  { "width", "number", "m", "across the wire, on which it rubs", min = 0, above = true,
+    usual = "its radius" },
+  { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
+  { "source", "text", "-", "where the coefficient is from" },
+  { "flag", "choice", "-", "how well it is known", choices = cable.flags },
+}
+
+wanted.vibration = rows.list{
+  { "bands", "list", "Hz", "bands of excitation { from, to }" },
+  { "spectrum", "list", "(m/s2)2/Hz", "of the holds' acceleration, points { f [Hz], W }, f rising" },
+  { "damping", "number", "-", "ratio of each mode, for the spectrum", min = 0, above = true, max = 1 },
+  { "direction", "vector", "-", "of the acceleration", usual = "the worst of each mode" },
+  { "modes", "integer", "-", "so many of the lowest are looked at", min = 1, max = 200,
+    usual = "all up to the highest frequency" },
+  { "tolerance", "number", "-", "how far from rest the wire may be, as a share of its length", min = 0,
+    above = true, usual = 1e-4 },
+}
+
+-- Ranges rise and cycles fall along the curve.
+local function read_curve(name, curve, unit)
+  local copy = {}
+  for i, point in ipairs(curve) do
+    local what = ("run:check: fatigue.%s[%d]"):format(name, i)
+    if type(point) ~= "table" then
+      error(("%s must be { range [%s], cycles }, got %s"):format(what, unit, checks.got(point)), 0)
+    end
+    copy[i] = { checks.number(what .. "[1]", point[1], 0, " " .. unit, 0, nil, true),
+      checks.number(what .. "[2]", point[2], 0, "", 0, nil, true) }
+    local before = copy[i - 1]
+    if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
+      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(what), 0)
+    end
+  end
+  if #copy < 2 then
+    error(("run:check: fatigue.%s has fewer than 2 points { range [%s], cycles }"):format(name, unit), 0)
+  end
+  return copy
+end
+
+local read = {}
+
+function read.fatigue(given)
+  if not (given.curve or given.bending) then
+    error("run:check: fatigue: a curve is missing: curve = { { range [N], cycles } } or bending = { { range "
+      .. "[1/m], cycles } }", 0)
+  end
+  given.curve = given.curve and read_curve("curve", given.curve, "N")
+  given.bending = given.bending and read_curve("bending", given.bending, "1/m")
+end
+
+-- A pair of numbers.
+local function pair(what, point, units)
+  if type(point) ~= "table" then
+    error(("%s must be a pair of numbers, got %s"):format(what, checks.got(point)), 0)
+  end
+  return { checks.number(what .. "[1]", point[1], 0, units[1], 0), checks.number(what .. "[2]", point[2], 0,
+    units[2], 0, nil, true) }
+end
+
+local function read_bands(given)
+  local copy = {}
+  for i, band in ipairs(given) do
+    local what = ("run:check: vibration.bands[%d]"):format(i)
+    copy[i] = pair(what, band, { " Hz", " Hz" })
+    if copy[i][1] >= copy[i][2] then
+      error(("%s: from = %g Hz is not below to = %g Hz"):format(what, copy[i][1], copy[i][2]), 0)
+    end
+  end
+  if #copy == 0 then error("run:check: vibration.bands has no band { from, to } [Hz]", 0) end
+  return copy
+end
+
+local function read_spectrum(given)
+  local copy = {}
+  for i, point in ipairs(given) do
+    local what = ("run:check: vibration.spectrum[%d]"):format(i)
+    copy[i] = pair(what, point, { " Hz", " (m/s2)2/Hz" })
+    if copy[i][1] <= (i > 1 and copy[i - 1][1] or 0) then
+      error(what .. ": a higher frequency than before is wanted, above 0 Hz", 0)
+    end
+  end
+  if #copy < 2 then error("run:check: vibration.spectrum has fewer than 2 points { f [Hz], W }", 0) end
+  return copy
+end
+
+function read.vibration(given)
+  if not (given.bands or given.spectrum) then
+    error("run:check: vibration: bands = { { from, to } } [Hz] or spectrum = { { f, W } } is missing", 0)
+  end
+  given.bands = given.bands and read_bands(given.bands)
+  given.spectrum = given.spectrum and read_spectrum(given.spectrum)
+  if given.spectrum and not given.damping then
+    error("run:check: vibration: damping, the ratio of each mode, is required with a spectrum", 0)
+  end
+  if given.direction and not vec.unit(given.direction) then
+    error("run:check: vibration.direction must not be the zero vector", 0)
+  end
+end
+
+function read.landing(given)
+  local path = {}
+  for i, point in ipairs(given.path) do
+    path[i] = checks.vector(("run:check: landing.path[%d]"):format(i), point, "m", 0)
+  end
+  given.path = path
+  if #path == 0 then error("run:check: landing.path has no points", 0) end
+  if given.from and given.to and given.from > given.to then
+    error(("run:check: landing: from = %g m is beyond to = %g m"):format(given.from, given.to), 0)
+  end
+end
+
+--- Raise where one of these tables of run:check's arguments makes no sense; what they hold becomes copies.
+function wanted.read(args)
+  for name, one in pairs(read) do
+    if args[name] then one(args[name]) end
+  end
+end
+
+return wanted

@@ -1,0 +1,33 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- scene:zone{ shape =, at =, ... }: a part of space in which wires are watched. See help "check".
+-- @module softworld.scene.zone
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local meshfile = require "softworld.meshfile"
+local rows = require "softworld.rows"
+
+rows.calls{
+  { "scene:zone", "{ shape =, at =, temperature = }", "a part of space that nothing touches: wires are to "
+    .. "keep out of it, or have its temperature [degC]; see help 'check'", "its name",
+    example = 'scene:zone { name = "oven", shape = "box", size = { 1, 1, 1 }, temperature = 90 }' },
+}
+
+local function make(scene, args)
+  if checks.kind(args) ~= "table" then
+    error("scene:zone takes one table of parameters, got " .. checks.kind(args), 0)
+  end
+  local own = {}
+  for key, value in pairs(args) do own[key] = value end
+  if own.file ~= nil then
+    local mesh = meshfile.read(own.file)
+    own.data, own.format, own.file = mesh.data, own.format or mesh.format, nil
+  end
+  return core.zone(scene, own)
+end
+
+--- A part of space that nothing touches: run:check tells how near wires came to it.
+function core.class.scene.zone(scene, args)
+  build.check(scene, "scene:zone", 3)
+  return build.call(3, make, scene, args)
+end

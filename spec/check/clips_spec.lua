@@ -1,0 +1,62 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- run:check of clips: what they bore in the run, and whether the wire is in at its end.
+local sw = require "softworld"
+
+-- A hand presses a cable into a clip, if it is to, and takes it out again.
+local function pressed(into, out)
+  local scene = sw.scene{ name = "clip" }
+  local wire = scene:wire{ name = "cable", E = 60e6, density = 1500, radius = 0.004, segments = 30,
+    from = { 0, 0, 0.045 }, to = { 0.2, 0, 0.045 } }
+  scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.003 }
+  scene:clip{ name = "clip", at = { 0.1, 0, 0.014 }, width = 0.01, insertion = 8, retention = 25,
+    friction = 0.25 }
+  local hand = scene:gripper{ name = "hand", pads = { width = 0.008 } }
+  scene:process(function(p)
+    hand:grasp(wire, { s = 0.115 })
+    if into then hand:clip{ into = scene:find "clip", speed = 0.1, max_force = 40 } end
+    if out then hand:move{ by = { 0, 0, 0.05 }, duration = 0.5 } end
+    p:wait(0.1)
+  end)
+  return scene:run{ dt = 0.005 }, scene
+end
+
+local function verdicts(check)
+  local list = {}
+  for _, row in ipairs(check.rows) do
+    local name = row.name:match "^clip%.(.+)$"
+    if name then list[name] = row.verdict end
+  end
+  return list
+end
+
+describe("run:check of a clip", function()
+  it("tells how it went in, and that it is in", function()
+    local run, scene = pressed(true)
+    local check = run:check{ limits = { insertion_force = 10, ["clip.retention_used"] = 0.9 } }
+    assert.same({ insertion_force = "PASS", retention_used = "PASS", seated = "PASS" }, verdicts(check))
+    local row = check:row "insertion_force"
+    local into = scene:find "clip".inserted
+    assert.same({ into.peak_force, into.time, into.s }, { row.value, row.time, row.s })
+    assert.is_near(8, row.value, 0.2)
+    assert.equal("FAIL", run:check{ limits = { insertion_force = 7 } }:row "insertion_force".verdict)
+    -- forces of ways in that are of another run are not of this one
+    check = scene:run{ duration = 0.02, dt = 0.005 }:check{ limits = { insertion_force = 7 } }
+    assert.equal("OPEN", check:row "insertion_force".verdict)
+    assert.equal("PASS", check:row "clip.seated".verdict)
+  end)
+
+  it("fails where the wire is not in at the end", function()
+    local check = pressed(false):check{}
+    assert.same({ seated = "FAIL" }, verdicts(check))
+    assert.truthy(check:row "seated".note:find("it is empty", 1, true))
+    assert.same({ "clip.seated" }, pressed(false):check{ limits = { ["clip.seated"] = false } }.skipped)
+  end)
+
+  it("fails where it came out again", function()
+    local check = pressed(true, true):check{}
+    assert.same({ retention_used = "FAIL", seated = "FAIL" }, verdicts(check))
+    local row = check:row "retention_used"
+    assert.is_near(1, row.value, 0.05)
+    assert.truthy(row.note:find("'cable' came out", 1, true), row.note)
+  end)
+end)

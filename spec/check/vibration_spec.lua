@@ -1,0 +1,120 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- run:check of vibration: natural frequencies where the wire lies against bands, amplitudes under a spectrum.
+local sw = require "softworld"
+
+local EI, MASS = 0.01, 0.03
+-- omega sqrt(m L^4 / EI) of a rod clamped at both ends, characteristic equation cosh x cos x = 1
+local LAMBDA = { 22.373285, 61.672823, 120.903392 }
+
+local function frequency(n) return LAMBDA[n] / (2 * math.pi) * math.sqrt(EI / MASS) end
+
+local function beam(options)
+  local scene = sw.scene{ gravity = options and options.gravity or { 0, 0, 0 } }
+  local wire = scene:wire{ name = "w", EA = 1e5, EI = EI, mass_per_length = MASS, radius = 0.002,
+    segments = options and options.segments or 50, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
+  scene:clamp(wire, { s = 0 })
+  if not (options and options.free) then scene:clamp(wire, { s = 1 }) end
+  return scene:run{ duration = 0.02, dt = 0.01 }
+end
+
+local function fails(run, words, given)
+  local fine, why = pcall(run.check, run, { vibration = given })
+  assert.is_false(fine)
+  assert.truthy(why:find(words, 1, true), why)
+end
+
+describe("run:check of natural frequencies", function()
+  local run = beam()
+  local function row(bands, more)
+    local given = { bands = bands }
+    for key, value in pairs(more or {}) do given[key] = value end
+    return run:check{ vibration = given }:row "frequency_gap"
+  end
+
+  it("tells how far the nearest is from the bands", function()
+    local f1, f2 = frequency(1), frequency(2)
+    -- between the first and the second: 10 % above the one, 20 % below the other
+    local r = row{ { 1.1 * f1, f2 / 1.2 } }
+    assert.is_near(1 - 1 / 1.1, r.value, 0.002)
+    assert.same({ "PASS", 0, "definition" }, { r.verdict, r.limit, r.from })
+    assert.truthy(r.note:find("mode 2", 1, true) or r.note:find("mode 1", 1, true), r.note)
+    r = row{ { 1.3 * f1, f2 / 1.2 } }
+    assert.is_near(0.2, r.value, 0.01)
+    assert.truthy(r.note:find("mode 3", 1, true) or r.note:find("mode 4", 1, true), r.note)
+  end)
+
+  it("fails where one is in a band, of several bands too", function()
+    local f2 = frequency(2)
+    local r = row{ { 1e-4, 1e-3 }, { 0.95 * f2, 1.2 * f2 } }
+    assert.equal("FAIL", r.verdict)
+    assert.is_near(-(1 / 0.95 - 1), r.value, 0.005)
+    assert.equal("PASS", row({ { 0.95 * f2, 1.2 * f2 } }, { modes = 2 }).verdict, "of the lowest two")
+    assert.equal("FAIL", run:check{ vibration = { bands = { { 1e-4, 1e-3 } } }, limits = { frequency_gap = {
+      min = 1e9, sure = true } } }:row "frequency_gap".verdict)
+  end)
+
+  it("looks at as many as reach over the bands, or is open", function()
+    local f3 = frequency(3)
+    assert.equal("FAIL", row{ { 0.99 * f3, 1.01 * f3 } }.verdict)
+    local long = beam{ segments = 150 }
+    local r = long:check{ vibration = { bands = { { 1e5, 2e5 } } } }:row "frequency_gap"
+    assert.equal("OPEN", r.verdict)
+    assert.truthy(r.note:find("200 modes reach up to", 1, true), r.note)
+    -- of a wire that has no more than these it is known
+    r = beam{ segments = 5 }:check{ vibration = { bands = { { 1e5, 2e5 } } } }:row "frequency_gap"
+    assert.equal("PASS", r.verdict)
+  end)
+
+  it("cannot be told of a wire that still moves", function()
+    local r = beam{ gravity = { 0, 0, -9.81 }, free = true }:check{ vibration = { bands = { { 1, 2 } } } }
+      :row "frequency_gap"
+    assert.equal("FAIL", r.verdict)
+    assert.truthy(r.note:find("cannot be told", 1, true), r.note)
+  end)
+
+  it("needs bands that make sense", function()
+    local r = run:check{ limits = { frequency_gap = 0.1 } }:row "frequency_gap"
+    assert.equal("FAIL", r.verdict)
+    fails(run, "bands = { { from, to } } [Hz] or spectrum", {})
+    fails(run, "vibration.bands has no band", { bands = {} })
+    fails(run, "from = 20 Hz is not below to = 10 Hz", { bands = { { 20, 10 } } })
+    fails(run, "vibration.bands[1] must be a pair of numbers, got 20", { bands = { 20, 200 } })
+    fails(run, "vibration.bands[1][1] = -1 Hz", { bands = { { -1, 10 } } })
+    fails(run, "damping, the ratio of each mode, is required", { spectrum = { { 1, 1 }, { 2, 1 } } })
+    fails(run, "a higher frequency than before", { spectrum = { { 1, 1 }, { 1, 1 } }, damping = 0.1 })
+    fails(run, "fewer than 2 points", { spectrum = { { 1, 1 } }, damping = 0.1 })
+    fails(run, "must not be the zero vector", { bands = { { 1, 2 } }, direction = { 0, 0, 0 } })
+  end)
+end)
+
+describe("run:check of amplitudes under a spectrum", function()
+  local run = beam()
+  local function value(more)
+    local given = { spectrum = { { 0.1, 2 }, { 100, 2 } }, damping = 0.02, direction = { 0, 0, 1 } }
+    for key, item in pairs(more or {}) do given[key] = item end
+    return run:check{ vibration = given, limits = { vibration_amplitude = 1 } }:row "vibration_amplitude"
+  end
+
+  -- Whatever shakes along a straight wire does not swing across it; half of the spectrum is 1/sqrt(2) of it.
+  it("goes with direction, damping and spectrum", function()
+    local all = value()
+    assert.is_near(0.5, all.s, 1e-6)
+    assert.is_near(all.value / 2, value{ damping = 0.08 }.value, 1e-6 * all.value)
+    assert.is_near(all.value / math.sqrt(2), value{ spectrum = { { 0.1, 1 }, { 100, 1 } } }.value,
+      1e-6 * all.value)
+    assert.is_true(value{ direction = { 1, 0, 0 } }.value < 1e-3 * all.value)
+    assert.equal(0, value{ spectrum = { { 0.1, 2 }, { 0.2, 2 } } }.value)
+    -- in logarithms: W = 2 (f / 0.1)^-1
+    local f = frequency(1)
+    local sloping = value{ spectrum = { { 0.1, 2 }, { 100, 0.002 } }, modes = 2 }.value
+    assert.is_near(value{ modes = 2 }.value * math.sqrt(0.1 / f), sloping, 0.01 * sloping)
+    assert.equal("PASS", all.verdict)
+    assert.truthy(all.note:find("damping ratio 0.02", 1, true), all.note)
+  end)
+
+  it("is open without a limit", function()
+    local row = run:check{ vibration = { spectrum = { { 1, 1 }, { 2, 1 } }, damping = 0.1 } }
+      :row "vibration_amplitude"
+    assert.equal("OPEN", row.verdict)
+  end)
+end)

@@ -1,0 +1,411 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What runs keep of every step with wear = true, and what run:check makes of it: cycles of tension and
+-- bending against counts by hand, also of what passes between two frames.
+local sw = require "softworld"
+local core = require "softworld.core"
+local rainflow = require "softworld.check.rainflow"
+
+local R, L, RADIUS = 0.05, 0.1, 0.0015
+
+-- Miner's sum of a flat list of range, mean, number by a slope.
+local function damage(flat, slope)
+  local sum = 0
+  for i = 1, #flat, 3 do sum = sum + flat[i + 2] * flat[i] ^ slope end
+  return sum
+end
+
+describe("cycles that are counted as they come", function()
+  local seed = 7
+  local function random()
+    seed = (seed * 1103515245 + 12345) % 2 ^ 31
+    return seed / 2 ^ 31
+  end
+  local histories = {
+    noise = random,
+    steps = function() return math.floor(10 * random()) end,
+    ["a swing that dies away, with noise"] = function(i)
+      return math.sin(i) * math.exp(-0.004 * i) + 0.05 * random()
+    end,
+    ["a swing that grows"] = function(i) return math.sin(i) * math.exp(0.004 * i) end,
+    ["a slow rise with ripples"] = function(i) return 0.01 * i + math.sin(2 * i) end,
+  }
+  -- The room is bounded, so that ranges within 4 % of each other may be one.
+  for name, of in pairs(histories) do
+    it("damage as those of the whole history: " .. name, function()
+      for try = 1, 20 do
+        local history = {}
+        for i = 1, 20 + 70 * try do history[i] = of(i) end
+        for _, slope in ipairs{ 3, 5, 8 } do
+          local whole, streamed = damage(rainflow.flat(history), slope), damage(core.cycles(history), slope)
+          assert.is_near(whole, streamed, 0.005 * whole)
+        end
+      end
+    end)
+  end
+
+  it("are the same ones where there are few, with their means", function()
+    local history = { -2, 1, -3, 5, -1, 3, -4, 4, -2 } -- ASTM E1049-85, figure 6
+    local function sorted(flat)
+      local list = {}
+      for i = 1, #flat, 3 do list[#list + 1] = ("%g about %g"):format(flat[i], flat[i + 1]) end
+      table.sort(list)
+      return list
+    end
+    local means = sorted(rainflow.flat(history))
+    for _, words in ipairs{ "4 about 1", "8 about 1", "9 about 0.5" } do
+      assert.truthy(table.concat(means, ";"):find(words, 1, true))
+    end
+    assert.is_near(damage(rainflow.flat(history), 3), damage(core.cycles(history), 3), 1e-9)
+    assert.same({}, core.cycles{ 1, 1, 0 / 0, 1 })
+    assert.same({ 1e300, 5e299, 0.5 }, core.cycles{ 0, 1e300, math.huge, 1e300 })
+  end)
+end)
+
+-- A wire between two clamps that follow a circle of curvature k(t); turn(t): both about the wire.
+local function bent(k, turn, run_options, wire_options)
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
+  local given = { name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02, radius = RADIUS,
+    from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 40 }
+  for key, value in pairs(wire_options or {}) do given[key] = value end
+  local wire = scene:wire(given)
+  turn = turn or function() return 0 end
+  -- the rotation: first about the wire as it was drawn, then in the plane of the circle
+  local function rotation(roll, angle)
+    local a, b, c, d = math.cos(roll / 2), math.sin(roll / 2), math.cos(angle / 2), math.sin(-angle / 2)
+    return { a * c, b * c, a * d, -b * d }
+  end
+  local function place(s)
+    return function(t)
+      local angle = k(t) * s
+      local r = math.abs(angle) > 1e-9 and s / angle
+      return r and { r * math.sin(angle), 0, r * (1 - math.cos(angle)) } or { s, 0, 0 },
+        rotation(turn(t), angle)
+    end
+  end
+  for _, s in ipairs{ 0, L } do
+    scene:clamp(wire, { s = s }):follow{ duration = 4, func = place(s) }
+  end
+  local options = { duration = 4, dt = 0.02, quasistatic = true, wear = true, frame = 4 }
+  for key, value in pairs(run_options or {}) do options[key] = value end
+  return scene:run(options), scene, wire
+end
+
+local function wave(t) return math.sin(math.pi * t / 2) / R end
+
+local curve = { { 1, 1e6 }, { 100, 1 } } -- slope -3: 1e6 / range^3 cycles [1/m]
+
+local function share(run, more)
+  local given = { bending = curve, source = "this spec", flag = "guessed" }
+  for key, value in pairs(more or {}) do given[key] = value end
+  return run:check{ fatigue = given }:row "fatigue"
+end
+
+describe("run:check of fatigue by bending", function()
+  -- From straight to 1/R, -1/R and back: half a cycle of 2/R and two halves of 1/R. Nothing of it is in a
+  -- frame: the run has those of its begin and end, when the wire is straight. Bends of chords are 0.15 %
+  -- sharper than their circle, three times that in the sum.
+  it("counts to and fro as one range, also between frames", function()
+    local run = bent(wave)
+    assert.is_true(run.scene:frame_count() <= 2)
+    local row = share(run)
+    local wanted = (0.5 * (2 / R) ^ 3 + 2 * 0.5 * (1 / R) ^ 3) / 1e6
+    print(("measured: damage %.6g, by hand %.6g"):format(row.value, wanted))
+    assert.is_near(wanted, row.value, 0.01 * wanted)
+    assert.equal("PASS", row.verdict)
+    assert.truthy(row.note:find("this spec, guessed", 1, true), row.note)
+    assert.truthy(row.note:find("1/m", 1, true), row.note)
+    local again = share(run, { repeats = 100 })
+    assert.is_near(100 * row.value, again.value, 1e-9 * again.value)
+    assert.equal("FAIL", share(run, { repeats = 1e6 }).verdict)
+  end)
+
+  -- One turn about itself while it stays bent: each fibre goes from +1/R to -1/R and back, one cycle of 2/R
+  -- but for where in it it begins. In place of the wire's own frame one that does not roll would see none.
+  for name, wire in pairs{ ["a wire"] = {}, ["a wire with frames"] = { rest = "path" } } do
+    it("counts what rolls while it is bent: " .. name, function()
+      local function hold(t) return math.min(1, t) / R end
+      local still = share((bent(hold, nil, nil, wire)))
+      local rolled = share((bent(hold, function(t) return 2 * math.pi * math.max(0, math.min(1, t - 1)) end,
+        { dt = 0.01 }, wire)))
+      -- of the worst fibre: 0, 1/R, -1/R, 1/R: two halves of 2/R, half of 1/R
+      local wanted = ((2 / R) ^ 3 + 0.5 * (1 / R) ^ 3) / 1e6
+      print(("measured: damage %.6g, by hand %.6g"):format(rolled.value, wanted))
+      assert.is_near(0.5 * (1 / R) ^ 3 / 1e6, still.value, 0.01 * still.value)
+      assert.is_near(wanted, rolled.value, 0.015 * wanted)
+    end)
+  end
+
+  -- The far end turned by two turns against the near one: the middle has rolled once.
+  it("knows how far the wire between two holds has rolled", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local path = {}
+    for i = 0, 40 do path[i + 1] = { R * math.sin(i / 20), 0, R * (1 - math.cos(i / 20)) } end
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1, GJ = 1e-6, mass_per_length = 0.02,
+      radius = RADIUS, path = path, segments = 40 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = wire.length }):follow{ points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true,
+      turn = { axis = { math.cos(2), 0, math.sin(2) }, angle = 4 * math.pi }, duration = 1 }
+    scene:run{ duration = 1, dt = 0.01, quasistatic = true, wear = true }
+    local function largest(s)
+      local most = 0
+      for k, place in ipairs(core.worn(wire)) do
+        if math.abs(place.s - s) < 1e-3 and place.side == 0 then
+          for way = 1, 12 do
+            local flat = core.worn_cycles(wire, k, way)
+            for i = 1, #flat, 3 do most = math.max(most, flat[i]) end
+          end
+        end
+      end
+      return most * R
+    end
+    assert.is_near(2, largest(wire.length / 2), 0.03)
+    -- a quarter of a turn: the worst fibre goes from cos(45) to cos(135)
+    assert.is_near(math.sqrt(2), largest(wire.length / 8), 0.03)
+  end)
+
+  it("goes on where a wire gets other holds and loses them", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02,
+      radius = RADIUS, from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 20 }
+    scene:clamp(wire, { s = 0 })
+    local hand = scene:gripper{ name = "hand" }
+    scene:process(function(p)
+      hand:grasp(wire, { s = 0.09 })
+      hand:move{ by = { 0, 0, 0.03 }, duration = 0.3 }
+      hand:move{ by = { 0, 0, -0.03 }, duration = 0.3 }
+      hand:release()
+      p:wait(0.1)
+    end)
+    scene:run{ dt = 0.005, wear = true }
+    local sharpest, widest, least = 1 / wire:min_bend_radius(), 0, math.huge
+    for way = 1, 12 do
+      local top = 0
+      for k in ipairs(core.worn(wire)) do
+        local flat = core.worn_cycles(wire, k, way)
+        for i = 1, #flat, 3 do top = math.max(top, flat[i]) end
+      end
+      widest, least = math.max(widest, top), math.min(least, top)
+    end
+    -- directions are 15 degrees apart; across the plane of bending there is no more than sin(7.5), so
+    -- none has jumped when the gripper took hold and let go
+    assert.is_true(widest >= math.cos(math.rad(7.6)) * sharpest, widest .. " " .. sharpest)
+    assert.is_true(least <= math.sin(math.rad(7.6)) * 1.5 * sharpest, least .. " " .. sharpest)
+  end)
+
+  it("is open where it was not kept, and says how", function()
+    local row = share((bent(wave, nil, { wear = false })))
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("scene:run{ wear = true }", 1, true), row.note)
+  end)
+
+  it("begins anew with each run", function()
+    local run, scene = bent(wave)
+    local before = share(run).value
+    assert.is_true(before > 0)
+    local after = scene:run{ duration = 0.1, dt = 0.02, wear = true }
+    assert.is_true(share(after).value < 1e-6 * before)
+  end)
+end)
+
+describe("run:check of fatigue by tension", function()
+  -- 0 to 100 N and back in the middle of a run whose frames do not see it.
+  local function pulled(more)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS,
+      from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 10, breaking_load = 500 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.3 }):follow{ points = { { 0, 0, 0 }, { 3e-3, 0, 0 }, { 0, 0, 0 } },
+      relative = true, duration = 1, law = "linear" }
+    return scene:run{ duration = 1, dt = 0.01, quasistatic = true, frame = 1, wear = true }:check{
+      fatigue = { curve = { { 10, 1e6 }, { 100, 1e3 } }, mean = more and more.mean, strength = more
+        and more.strength, bending = more and more.bending } }:row "fatigue"
+  end
+
+  it("finds a peak between two frames", function()
+    local row = pulled()
+    assert.is_near(1e-3, row.value, 0.01e-3)
+    assert.equal("PASS", row.verdict)
+  end)
+
+  it("counts a mean by Goodman's rule", function()
+    -- 100 N about 50 N of 500 N: as 100 / 0.9 N
+    assert.is_near(1e-3 / 0.9 ^ 3, pulled{ mean = "goodman" }.value, 0.01e-3)
+    assert.is_near(1e-3 / 0.5 ^ 3, pulled{ mean = "goodman", strength = 100 }.value, 0.08e-3)
+    local row = pulled{ mean = "goodman", strength = 40 }
+    assert.same({ math.huge, "FAIL" }, { row.value, row.verdict }) -- its mean alone breaks it
+  end)
+
+  it("adds bending to it", function()
+    assert.is_near(pulled().value, pulled{ bending = curve }.value, 1e-5)
+  end)
+end)
+
+describe("run:check of torsion", function()
+  -- To 1 rad and back between two frames, 1 rad over 0.3 m.
+  it("is the largest of all steps", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02,
+      radius = RADIUS, from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 10 }
+    scene:clamp(wire, { s = 0 })
+    scene:clamp(wire, { s = 0.3 }):follow{ duration = 1, func = function(t)
+      return { 0.3, 0, 0 }, { axis = { 1, 0, 0 }, angle = math.sin(math.pi * t) }
+    end }
+    local run = scene:run{ duration = 1, dt = 0.01, quasistatic = true, frame = 1 }
+    local row = run:check{ limits = { max_torsion = { max = 4, sure = true } } }:row "max_torsion"
+    assert.is_near(1 / 0.3, row.value, 0.001)
+    assert.same({ 0.5, "PASS" }, { row.time, row.verdict })
+    assert.is_near(0, (wire:max_torsion{ now = true }), 1e-9)
+    assert.equal("FAIL", run:check{ limits = { max_torsion = 3 } }:row "max_torsion".verdict)
+  end)
+
+  it("is of frames for a mesh of particles", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.004, model = "tube",
+      segments = 8, from = { 0, 0, 0 }, to = { 0.06, 0, 0 } }
+    local run = scene:run{ duration = 0.02, dt = 0.01, frame = 1 }
+    assert.equal("OPEN", run:check{ limits = { max_torsion = 9 } }:row "max_torsion".verdict)
+    assert.has_error(function() wire:max_torsion() end)
+    assert.equal("OPEN", share(scene:run{ duration = 0.02, dt = 0.01, wear = true }).verdict)
+  end)
+end)
+
+describe("what a run keeps of wear", function()
+  local given = { fatigue = { bending = curve, curve = { { 1, 1e9 }, { 10, 1e3 } } } }
+  local path = os.tmpname()
+  teardown(function() os.remove(path) end)
+
+  local function scene_of()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
+      segments = 16 }
+    scene:clamp(wire, { s = 0 })
+    scene:zone{ shape = "sphere", radius = 0.02, at = { 0.1, 0, 0.08 } }
+    local hand = scene:gripper{ name = "hand" }
+    scene:process(function(p)
+      p:step("up", function()
+        hand:grasp(wire, { s = 0.19 })
+        hand:move{ by = { -0.02, 0, 0.05 }, duration = 0.1 }
+      end)
+      p:step("down", function() hand:move{ by = { 0, 0, -0.1 }, duration = 0.1 } end)
+      p:step("let go", function()
+        hand:release()
+        p:wait(0.05)
+      end)
+    end)
+    return scene
+  end
+
+  it("goes on with a run from its file, to the last bit", function()
+    local whole = scene_of():run{ dt = 0.005, wear = true }:check(given)
+    os.remove(path)
+    local cut = scene_of()
+    cut:observe{ every = 0.05, call = function(o) if cut.time > 0.14 then o:stop "enough" end end }
+    cut:run{ dt = 0.005, wear = true, save = path }
+    local rest = scene_of():run{ dt = 0.005, wear = true, resume = path }:check(given)
+    for _, name in ipairs{ "fatigue", "clearance", "max_tension" } do
+      assert.equal(whole:row(name).value, rest:row(name).value, name)
+    end
+    assert.is_true(whole:row "fatigue".value > 0)
+  end)
+
+  it("costs the run when memory is out, and nothing else", function()
+    local failed = 0
+    for n = 1, 600, 7 do
+      local scene = scene_of()
+      core.fail_allocation(n)
+      local fine, why = pcall(scene.run, scene, { dt = 0.005, duration = 0.02, wear = true, frames = false })
+      core.fail_allocation(0)
+      if not fine then
+        failed = failed + 1
+        assert.truthy(tostring(why):find("memory", 1, true), why)
+      end
+    end
+    assert.is_true(failed > 0)
+  end)
+
+  it("is there with error bars and with steps by tolerance", function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 },
+      segments = 16 }
+    scene:clamp(wire, { s = 0 })
+    local bars = scene:run{ duration = 0.1, dt = 0.01, wear = true, tolerance = { max_tension = 0.5 } }
+    assert.is_true(share(bars).value > 0)
+    local run = scene:run{ duration = 0.1, tolerance = 1e-5, wear = true }
+    assert.is_true(share(run).value > 0)
+  end)
+end)
+
+describe("work of friction", function()
+  -- Drawn over a third of a cylinder at a constant speed: T_in (exp(mu angle) - 1) v in all, and none where
+  -- nothing touches. Nothing of it is in a frame.
+  it("is that of the capstan, all of it at the nodes", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local Rw, mu, angle, path = R + RADIUS, 0.4, 2 * math.pi / 3, {}
+    local function at(a) return { -Rw * math.cos(a), 0, Rw * math.sin(a) } end
+    local from, to = at(math.pi / 2 - angle / 2), at(math.pi / 2 + angle / 2)
+    local c, s = math.cos(angle / 2), math.sin(angle / 2)
+    for i = 8, 1, -1 do path[#path + 1] = { from[1] - 0.01 * i * c, 0, from[3] - 0.01 * i * s } end
+    for i = 0, 60 do path[#path + 1] = at(math.pi / 2 - angle / 2 + angle * i / 60) end
+    for i = 1, 8 do path[#path + 1] = { to[1] + 0.01 * i * c, 0, to[3] - 0.01 * i * s } end
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-9, mass_per_length = 0.1, radius = RADIUS,
+      path = path, model = "string", segments = 200 }
+    scene:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
+      rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+    scene:force{ kind = "point", on = wire, s = 0, force = { -c, 0, -s } }
+    scene:force{ kind = "damping", mass = 20, on = wire }
+    local v = 0.02
+    scene:pin(wire, { s = wire.length }):follow{ points = { { 0, 0, 0 }, { 0.03 * c, 0, -0.03 * s } },
+      relative = true, speed = v, law = "linear" }
+    scene:run{ duration = 0.5, dt = 0.002 }
+    local run = scene:run{ duration = 0.5, dt = 0.002, wear = true, frame = 1 }
+    local sum, places, n = 0, core.worn(wire), wire.segments + 1
+    for k = 1, n do
+      sum = sum + places[k].rubbed * (places[math.min(k + 1, n)].s - places[math.max(k - 1, 1)].s) / 2
+      assert.is_near(places[k].rubbed, mu * places[k].slid, 1e-9 + 1e-3 * places[k].rubbed)
+    end
+    local wanted = (math.exp(mu * angle) - 1) * v * 0.5
+    print(("measured: %.6g J, by the capstan %.6g J"):format(sum, wanted))
+    assert.is_near(wanted, sum, 0.01 * wanted)
+    assert.same({ 0, 0 }, { places[1].rubbed, places[n].rubbed })
+    local row = run:check{ abrasion = { coefficient = 1e-12, source = "this spec", flag = "guessed" },
+      limits = { wear_depth = 1e-9 } }:row "wear_depth"
+    assert.truthy(row.note:find("1e-12 1/Pa, this spec; guessed", 1, true), row.note)
+    assert.truthy(row.note:find("assumed: its radius", 1, true), row.note)
+  end)
+
+  it("is open without a limit, without a record, and fails without a coefficient", function()
+    local run = bent(wave)
+    local row = run:check{ abrasion = { coefficient = 1e-12 } }:row "wear_depth"
+    assert.same({ 0, "OPEN" }, { row.value, row.verdict })
+    assert.truthy(row.note:find("assumed: its source is not given", 1, true), row.note)
+    assert.truthy(row.note:find("limits = { ['w.wear_depth'] = } [m]", 1, true), row.note)
+    row = run:check{ limits = { wear_depth = 1e-6 } }:row "wear_depth"
+    assert.equal("FAIL", row.verdict)
+    row = bent(wave, nil, { wear = false }):check{ limits = { friction_work = 1 } }:row "friction_work"
+    assert.equal("OPEN", row.verdict)
+    assert.truthy(row.note:find("wear = true", 1, true), row.note)
+    assert.has_error(function() run:check{ abrasion = {} } end)
+    assert.has_error(function() run:check{ abrasion = { coefficient = -1 } } end)
+  end)
+end)
+
+describe("fatigue that makes no sense", function()
+  local run = bent(wave, nil, { duration = 0.04 })
+  for words, given in pairs{ ["a curve is missing"] = {}, ["fatigue.bending has fewer than 2 points"] =
+    { bending = { { 1, 1 } } }, ["fatigue.bending[1][1] = -1 1/m"] = { bending = { { -1, 5 }, { 2, 3 } } },
+    ["is not one of: goodman none"] = { bending = curve, mean = "goodmann" },
+    ["fatigue.flag = 'sure'"] = { bending = curve, flag = "sure" },
+    ["strength = 0 N"] = { bending = curve, strength = 0 } } do
+    it("is refused: " .. words, function()
+      local fine, why = pcall(run.check, run, { fatigue = given })
+      assert.is_false(fine)
+      assert.truthy(why:find(words, 1, true), why)
+    end)
+  end
+
+  it("is not a number where Goodman's strength is not known", function()
+    local row = run:check{ fatigue = { bending = curve, mean = "goodman" } }:row "fatigue"
+    assert.equal("FAIL", row.verdict)
+    assert.truthy(row.note:find("give strength", 1, true), row.note)
+  end)
+end)
