@@ -16,7 +16,8 @@ manual.groups = {
   { "Choose", { "models", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
-  { "What runs tell", { "results", "check", "refused", "remarks", "crashes", "breaking", "kinks", "files" } },
+  { "What runs tell", { "results", "check", "compare", "refused", "remarks", "crashes", "breaking", "kinks",
+    "files" } },
   { "Grippers' methods", { "gripper" } },
   { "Inside", { "glossary", "day", "parts" } },
 }
