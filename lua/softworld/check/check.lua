@@ -229,7 +229,7 @@ end
 
 local function refuse(self, why)
   self.rows = { { name = "run", what = "the run", unit = "-", verdict = "FAIL", note = why } }
-  self.verdict, self.reason = "FAIL", why
+  self.verdict, self.reason, self.no_numbers = "FAIL", why, true
 end
 
 -- Why there can be no numbers, or nil.

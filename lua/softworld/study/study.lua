@@ -279,11 +279,12 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 rows.later(Study, "softworld.study.where", "run cancel")
 rows.later(Study, "softworld.study.again", "again")
+rows.later(Study, "softworld.study.change", "change")
 rows.later(Study, "softworld.study.report", "report")
 methods.guard_table("study", Study)
 
-local SHOWN = "run cancel sweep minimise fit pareto front spread advise table best again report csv json "
-  .. "chart name file computed"
+local SHOWN = "run cancel sweep minimise fit pareto front spread change advise table best again report csv "
+  .. "json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
