@@ -346,6 +346,7 @@ function check.check(run, args)
   local self = build.call(3, make, run, args)
   if not self.trial then unread.judged(self.verdict) end
   self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"
+  self.source = run
   return writing.new(self)
 end
 

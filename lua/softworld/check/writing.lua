@@ -1,11 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What run:check gives: prints as a table, is written as CSV, JSON and JUnit XML, with the same numbers.
+--- What run:check gives: prints as a table, is written as CSV, JSON, JUnit XML and a page, with the same
+-- numbers.
 -- @module softworld.check.writing
 local cells = require "softworld.check.cells"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local json = require "softworld.output.json"
 local methods = require "softworld.methods"
+local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
 
@@ -13,8 +15,10 @@ local writing = {}
 local Check = { __name = "check" }
 
 -- Columns of files, in their order; numbers are in the row's unit, s in m, time in s.
-local columns = { "verdict", "name", "object", "what", "value", "error", "low", "high", "unit", "side",
+writing.columns = { "verdict", "name", "object", "what", "value", "error", "low", "high", "unit", "side",
   "limit", "limit_low", "limit_high", "from", "source", "margin", "s", "time", "step", "note" }
+
+local columns = writing.columns
 
 -- --- the terminal ------------------------------------------------------------------------------------
 
@@ -134,11 +138,14 @@ function Check.__names()
   return names
 end
 
+rows.later(Check, "softworld.check.page", "report")
 methods.guard_table("check", Check)
 
+local readable = checks.set(table.concat(fields, " ") .. " use")
+
 function Check:__index(key)
-  local value = rawget(sealed.fields(self), key)
-  if value ~= nil then return value end
+  local value = readable[key] and rawget(sealed.fields(self), key)
+  if value ~= nil and readable[key] then return value end
   if Check[key] ~= nil then return Check[key] end
   local near = core.nearest(checks.shown(key), Check.__names())
   error(("a check has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
