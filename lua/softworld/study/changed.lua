@@ -52,7 +52,7 @@ local function mends_text(found, row)
       cells.number(found.margin, row.unit))
   end
   if #found.breaks > 0 then return ("%s; but not %s then"):format(text, table.concat(found.breaks, ", ")) end
-  return text .. (found.all_pass and "; all rows pass" or "")
+  return text .. (found.all_pass and "; all rows pass" or "; other rows do not pass yet")
 end
 
 local function line_of(found, row)

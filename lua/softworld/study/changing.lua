@@ -254,7 +254,8 @@ local function answer(self, hunts)
     for i in ipairs(self.own.parameters) do
       local hunt
       for _, h in ipairs(hunts) do
-        if h.target == target and h.index == i then hunt = nearest(self, hunt, h) end
+        local fits = h.target == target or target.all and all_pass(self, h.good.record)
+        if fits and h.index == i then hunt = nearest(self, hunt, h) end
       end
       one.parameters[i] = found_of(self, target, i, hunt)
     end
