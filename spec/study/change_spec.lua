@@ -72,7 +72,7 @@ describe("study:change", function()
     local text = tostring(change)
     assert.truthy(text:find("a helps, but not enough: 10.00 m at best, with 10.00 m", 1, true), text)
     assert.truthy(text:find("b does not help", 1, true), text)
-    assert.truthy(text:find("no parameter mends it alone, at 9 values of its range", 1, true), text)
+    assert.truthy(text:find("no parameter mends it alone with that reserve, of 9 values", 1, true), text)
     assert.is_nil(change.parameters)
   end)
 
@@ -112,6 +112,21 @@ describe("study:change", function()
     local asked = study:change "w"
     assert.same({ true, "no need" }, { asked.ok, found_of(asked, "w", "b").status })
     assert.is_near(-1, found_of(asked, "w", "b").slope, 1e-9)
+  end)
+
+  -- d(-ln x)/dx at 5 is -0.2, by a parabola in ln x, which is exact; -ln 1 is the limit, and none is left.
+  it("takes a logarithmic range as one, and tells what passes with less than the reserve", function()
+    local change = study_of(function(p) return { own("v", 1 + math.log(p.x), { max = 1 }) } end,
+      { parameters = { x = { 1, 1000, start = 5, log = true } } }):change()
+    local found = found_of(change, "v", "x")
+    assert.same({ "passes", 1, 0 }, { found.status, found.to, found.margin })
+    assert.is_near(-0.2, found.slope, 1e-9)
+    assert.truthy(tostring(change):find("x makes it pass, with less in reserve than wanted", 1, true))
+  end)
+
+  it("tells two limits of a row apart", function()
+    local change = study_of(function(p) return { own("v", p.a, { max = 3, min = 2.9 }) } end):change()
+    assert.same({ "v min" }, found_of(change, "v", "a").breaks)
   end)
 
   it("takes integers and choices as they are", function()
@@ -200,8 +215,8 @@ describe("an evaluation that returns a check", function()
       return { own("a b.c", p.a, { max = 3 }), own("far", math.huge, { min = 1 }) }
     end)
     local row = study:sweep{ grid = { a = 2, b = 2 } }[4]
-    assert.same({ 10, -7, 0, -1, 1 }, { row.a_b_c, row.a_b_c_margin, row.a_b_c_error, row.a_b_c_verdict,
-      row.kinks_verdict })
+    assert.same({ 10, -7, -1, 1 }, { row.a_b_c, row.a_b_c_margin, row.a_b_c_verdict, row.kinks_verdict })
+    assert.is_nil(row.a_b_c_error) -- nobody knows it
     assert.same({ 1 }, { row.far_verdict, row.far, row.far_margin }) -- results are finite
   end)
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The rows of a check as results of a study's evaluation, numbers by name: of the row "cable.max_tension"
 -- cable_max_tension (value), cable_max_tension_margin, cable_max_tension_error (half of the range in which
--- the value is known to lie, 0 where nobody knows) and cable_max_tension_verdict (PASS 1, OPEN 0, FAIL -1).
+-- the value is known to lie, where that is known) and cable_max_tension_verdict (PASS 1, OPEN 0, FAIL -1).
 -- @module softworld.check.results
 local core = require "softworld.core"
 local sealed = require "softworld.sealed"
@@ -62,7 +62,7 @@ function results.of(check, taken)
     flat[key .. "_verdict"] = results.verdicts[row.verdict]
     if is_finite(row.value) then flat[key] = row.value end
     if is_finite(row.margin) then flat[key .. "_margin"] = row.margin end
-    local width = row.low and row.high and row.high - row.low or 0
+    local width = row.low and row.high and row.high - row.low
     if is_finite(row.value) and is_finite(width) then flat[key .. "_error"] = width / 2 end
   end
   return flat

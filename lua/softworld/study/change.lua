@@ -119,9 +119,10 @@ end
 local function targets_of(keys, o)
   local targets, hopeless, names = {}, {}, {}
   local wanted = o.rows and by_names(keys, o.rows)
-  local count = 0
+  local count, seen = 0, {}
+  for _, one in ipairs(keys) do seen[one.row.name] = (seen[one.row.name] or 0) + 1 end
   for _, one in ipairs(keys) do
-    names[one.key] = one.row.name
+    names[one.key] = one.row.name .. (seen[one.row.name] > 1 and one.row.side and " " .. one.row.side or "")
     if is_hopeless(one.row) then
       hopeless[one.key] = true
       if wanted and wanted[one] then fail("row '%s' has no limit: %s", one.row.name, one.row.note or "") end

@@ -23,15 +23,15 @@ local function shown(p, value)
   return cells.number(value, p.unit or "-")
 end
 
--- A round part of a range, about a tenth, by which a slope is told.
-local function round_part(p)
-  return 10.0 ^ math.floor(math.log((p.high - p.low) / 5, 10))
+-- A round part of a range, about a tenth, by which a slope is told; of a logarithmic one of the value.
+local function round_part(p, from)
+  return 10.0 ^ math.floor(math.log((p.log and from or p.high - p.low) / 5, 10))
 end
 
 local function slope_text(found, unit)
   if not found.slope then return "" end
   if math.abs(found.slope) <= found.slope_error then return "; no slope beyond its error there" end
-  local part = round_part(found.parameter)
+  local part = round_part(found.parameter, found.from)
   local change = found.slope * part
   return ("; margin %s%s for each %s"):format(change > 0 and "+" or "", cells.number(change, unit),
     cells.number(part, found.unit or "-"))
@@ -61,9 +61,10 @@ local function line_of(found, row)
   if found.status == "noise" then
     return p.name .. ": what passed once did not when it was run again; values are noisy"
   end
-  if found.status == "helps" then
-    return ("%s helps, but not enough: %s at best, with %s%s"):format(p.name,
-      cells.number(found.value, row.unit), shown(p, found.to), slope_text(found, row.unit))
+  if found.status == "helps" or found.status == "passes" then
+    return ("%s %s: %s at best, with %s%s"):format(p.name, found.status == "helps" and "helps, but not enough"
+      or "makes it pass, with less in reserve than wanted", cells.number(found.value, row.unit),
+      shown(p, found.to), slope_text(found, row.unit))
   end
   if found.status == "does not mend" then return p.name .. " alone does not" end
   if found.status == "no need" then return (p.name .. slope_text(found, row.unit)):gsub(";", ":", 1) end
@@ -93,8 +94,8 @@ local function text_of(c, list)
       lines[#lines + 1] = "        " .. line_of(found, not one.all and one)
     end
     if not one.mended and not one.passes then
-      lines[#lines + 1] = ("        no parameter mends %s alone, at %d values of its range"):format(one.all
-        and "all" or "it", c.values)
+      lines[#lines + 1] = ("        no parameter mends %s alone with that reserve, of %d values over each "
+        .. "range"):format(one.all and "all" or "it", c.values)
     end
   end
   return table.concat(lines, "\n")
@@ -118,13 +119,13 @@ local function row_of(one)
   local row = { parameters = one.parameters, mended = false, all = one.target.all or false,
     passes = one.target.passes or false }
   for key, value in pairs(one.target.row or {}) do row[key] = value end
-  local order = { mends = 1, helps = 2, noise = 3 }
+  local order = { mends = 1, passes = 2, helps = 3, noise = 4 }
   for i, found in ipairs(row.parameters) do
     found.index = i
     if found.status == "mends" then row.mended = true end
   end
   table.sort(row.parameters, function(a, b)
-    local x, y = order[a.status] or 4, order[b.status] or 4
+    local x, y = order[a.status] or 5, order[b.status] or 5
     if x ~= y then return x < y end
     if x == 1 and size_of(a) ~= size_of(b) then return size_of(a) < size_of(b) end
     return a.index < b.index

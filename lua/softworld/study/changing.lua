@@ -195,14 +195,16 @@ end
 local function slope_of(self, target, i, noise)
   local p, here, points = self.own.parameters[i], self.values[i], {}
   if p.kind == "choice" or not margin_of(target, self.now) then return {} end
-  local near = { [here] = true }
+  local near, place = { [here] = true }, parameters.place(p, here)
   for _, value in ipairs(axis.around(p, here)) do near[value] = true end
   for _, record in ipairs(self.lines[i]) do
-    local margin = margin_of(target, record)
-    if near[record.values[i]] and margin then points[#points + 1] = { record.values[i] - here, margin } end
+    local margin, value = margin_of(target, record), record.values[i]
+    if near[value] and margin then points[#points + 1] = { parameters.place(p, value) - place, margin } end
   end
   local slope, doubt, deviation = axis.slope(points, error_of(target, self.now) + noise)
-  return { slope = slope, slope_error = doubt, deviation = deviation }
+  if not slope then return {} end
+  local each = p.log and here * math.log(p.high / p.low) or p.high - p.low -- dp / d place
+  return { slope = slope / each, slope_error = doubt / each, deviation = deviation }
 end
 
 -- The largest margin of a parameter's line.
@@ -226,6 +228,7 @@ local function say_best(self, target, i, found, noise)
     found.status = "helps"
     found.to, found.margin = best.values[i], margin_of(target, best)
     found.value, found.evaluation = best.results[target.key], best.number
+    if best.results[target.key .. "_verdict"] == 1 then found.status = "passes" end
   end
 end
 
