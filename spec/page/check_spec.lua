@@ -50,9 +50,9 @@ end
 
 -- Of rows the shown cells, in the order of the page: number from 1, verdict, value, limit, margin, link.
 local cells = [[
-  return [...document.querySelectorAll("table.rows tbody tr")].map((r) => {
-    const text = (k) => r.children[k].firstChild ? r.children[k].firstChild.textContent : "";
-    return [r.id.slice(4), text(0), text(2), text(3), text(4)];
+  return [...document.querySelectorAll("table.rows tbody")].map((b) => {
+    const r = b.rows[0], text = (k) => r.children[k].firstChild ? r.children[k].firstChild.textContent : "";
+    return [b.id.slice(4), text(0), text(2), text(3), text(4)];
   });]]
 
 describe("the page of a check", function()
@@ -94,7 +94,7 @@ describe("the page of a check", function()
 
   it("begins at the worst row that has a time, and fits its window", function()
     assert.equal(check:row("left.peak_moment").time, page:run "return player.state.get('time')")
-    assert.equal(1, page:run "return document.querySelectorAll('tr[aria-current]').length")
+    assert.equal(1, page:run "return document.querySelectorAll('tbody[aria-current]').length")
     assert.is_true(page:run [[
       const p = document.querySelector("#panel-check");
       return p.scrollWidth <= p.clientWidth && document.documentElement.scrollWidth <= innerWidth;]])
@@ -171,6 +171,16 @@ describe("the page of a check", function()
       assert.equal(theme == "dark", ink > 128)
       assert.equal(theme == "dark", colours[2] < 128)
     end
+  end)
+
+  it("has nothing of a run that came after", function()
+    local first, scene = laying("first")
+    local early = first:check {}
+    scene:run { duration = 0.1, dt = 0.01 }
+    early:report(folder .. "/early.html")
+    open "early.html"
+    local last = page:run "return [player.data.runs[0].series.time.at(-1), player.transport.span[1]]"
+    for _, time in ipairs(last) do assert.near(first.time, time, 1e-12) end
   end)
 
   it("shows what study:change gave", function()

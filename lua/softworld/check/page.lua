@@ -51,6 +51,7 @@ local function shown(row)
   end
   if row.s then texts.s = micro(cells.number(row.s, "m")) end
   if row.time then texts.time = micro(cells.number(row.time, "s")) end
+  if row.note then texts.note = micro(row.note) end
   return texts
 end
 
@@ -89,6 +90,19 @@ local function data_of(own, run, o)
     steps = steps_of(run), change = change_of(o.change) }
 end
 
+-- Without what was recorded after the run, by another one.
+local function until_end(series, time)
+  local count = #series.time
+  while count > 0 and series.time[count] > time do count = count - 1 end
+  if count == #series.time then return series end
+  local cut = { time = table.move(series.time, 1, count, 1, {}), columns = {} }
+  for i, column in ipairs(series.columns) do
+    cut.columns[i] = { name = column.name, unit = column.unit,
+      values = table.move(column.values, 1, count, 1, {}) }
+  end
+  return cut
+end
+
 local function write(self, path, args)
   local own, o = sealed.fields(self), call:read(args == nil and {} or args)
   if type(path) ~= "string" or path == "" then
@@ -100,6 +114,7 @@ local function write(self, path, args)
   end
   local described = runfiles.described(run)
   if own.no_numbers then described.ok, described.reason = false, own.reason end
+  if described.series then described.series = until_end(described.series, run.time) end
   return require("softworld.output.report").write({ described }, path,
     { title = o.title or own.name, check = data_of(own, run, o) })
 end

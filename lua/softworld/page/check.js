@@ -46,23 +46,23 @@ export class CheckPanel {
 
   table() {
     const head = ["Verdict", "What", "Value", "Limit", "Margin", "Where"];
-    const body = h("tbody");
     const order = this.check.rows.map((row, i) => i).sort((a, b) => ORDER[this.check.rows[a].verdict] - ORDER[this.check.rows[b].verdict] || a - b);
-    for (const i of order) body.append(this.line(this.check.rows[i], i));
+    const groups = order.map((i) => this.line(this.check.rows[i], i));
     const cells = head.map((name) => h("th", { scope: "col", className: /Value|Margin/.test(name) ? "number" : "" }, name));
-    return h("table.rows", {}, h("thead", {}, h("tr", {}, ...cells)), body);
+    return h("table.rows", {}, h("thead", {}, h("tr", {}, ...cells)), ...groups);
   }
 
   line(row, i) {
     const { shown } = row;
-    const line = h("tr", { id: `row-${i + 1}` }, h("td", {}, badge(row.verdict)),
-      h("th", { scope: "row" }, h("bdi", {}, ...breakable(row.name)), row.what && row.what !== row.name ? h("small", {}, row.what) : null,
-        row.note ? h("small.note", {}, row.note) : null),
+    const cells = h("tr", {}, h("td", {}, badge(row.verdict)),
+      h("th", { scope: "row" }, h("bdi", {}, ...breakable(row.name)), row.what && row.what !== row.name ? h("small", {}, row.what) : null),
       h("td.number", { title: exact(row.value, row.unit) }, shown.value || "–", shown.error ? h("small", {}, `± ${shown.error}`) : null),
       h("td", { title: exact(row.limit, row.unit) }, shown.limit ? `${row.side === "max" ? "≤" : "≥"} ${shown.limit}` : "–",
         row.from ? h("small", {}, row.source && row.source !== row.from ? `${row.from}: ${row.source}` : row.from) : null),
       h("td.number", { title: exact(row.margin, row.unit) }, shown.margin || "–", this.bar(row)),
       h("td", {}, this.link(row, i), shown.s ? h("small", {}, `s = ${shown.s}`) : null, row.step ? h("small", {}, row.step) : null));
+    const line = h("tbody", { id: `row-${i + 1}` }, cells,
+      row.note ? h("tr.note", {}, h("td"), h("td", { colSpan: 5 }, h("bdi", {}, shown.note))) : null);
     line.classList.toggle("wrong", row.verdict === "FAIL");
     this.lines[i] = { row, line };
     return line;
