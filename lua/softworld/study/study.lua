@@ -45,8 +45,8 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "name", "text", "-", "of the study", required = true },
   { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma =, "
     .. "of = }, { choices = {...} }, or a value of the catalogue with its bounds", required = true },
-  { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers",
-    required = true },
+  { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers "
+    .. "or a check", required = true },
   { "setup", "function", "-", "builds what all evaluations use, once; its scenes are restored before each" },
   { "constraints", "table", "-", "of results by name { min =, max =, unit = }" },
   { "file", "text", "-", "the journal, from which the same script goes on", usual = "nothing is kept" },
