@@ -10,8 +10,12 @@ const NEAR = 0.004;    // of the time's span: moments so near are one picture
 const WIDTH = 150, HEIGHT = 92; // of a picture [px]
 const ZOOM = 1.7;      // of pictures of places
 
-/** A name that may go on in the next line after a dot or an underscore. */
-const breakable = (name) => name.split(/(?<=[._])/).flatMap((part) => [part, h("wbr")]);
+/** A row's name, which may go on in the next line after a dot or an underscore; the object's turns nothing else round. */
+function nameOf({ name, object }, wraps = true) {
+  const own = object && name.startsWith(`${object}.`) ? object : "";
+  const breakable = (text) => (!wraps ? [text] : text.split(/(?<=[._])/).flatMap((part) => [part, h("wbr")]));
+  return h("bdi", {}, own ? h("bdi", {}, ...breakable(own)) : null, ...breakable(name.slice(own.length)));
+}
 
 export const badge = (verdict) => h(`span.badge.${CLASSES[verdict] || "warn"}`, {}, verdict);
 
@@ -55,7 +59,7 @@ export class CheckPanel {
   line(row, i) {
     const { shown } = row;
     const cells = h("tr", {}, h("td", {}, badge(row.verdict)),
-      h("th", { scope: "row" }, h("bdi", {}, ...breakable(row.name)), row.what && row.what !== row.name ? h("small", {}, row.what) : null),
+      h("th", { scope: "row" }, nameOf(row), row.what && row.what !== row.name ? h("small", {}, row.what) : null),
       h("td.number", { title: exact(row.value, row.unit) }, shown.value || "–", shown.error ? h("small", {}, `± ${shown.error}`) : null),
       h("td", { title: exact(row.limit, row.unit) }, shown.limit ? `${row.side === "max" ? "≤" : "≥"} ${shown.limit}` : "–",
         row.from ? h("small", {}, row.source && row.source !== row.from ? `${row.from}: ${row.source}` : row.from) : null),
@@ -135,12 +139,12 @@ export class CheckPanel {
     rows.sort((a, b) => ORDER[a.row.verdict] - ORDER[b.row.verdict] || a.i - b.i);
     for (const { row, i } of rows) {
       const t = this.inside(row.time), known = list.find((m) => Math.abs(m.t - t) <= near);
-      if (known) known.names.push(row.name);
-      else if (list.length < MOST) list.push({ t, names: [row.name], verdict: row.verdict, row, number: i + 1, step: row.step });
+      if (known) known.rows.push(row);
+      else if (list.length < MOST) list.push({ t, rows: [row], verdict: row.verdict, row, number: i + 1, step: row.step });
     }
     for (const step of this.check.steps) {
       const t = this.inside(step.to ?? this.span[1]), known = list.some((m) => Math.abs(m.t - t) <= near);
-      if (!known && step.to !== step.from && list.length < MOST) list.push({ t, names: [], step: step.name, end: true });
+      if (!known && step.to !== step.from && list.length < MOST) list.push({ t, rows: [], step: step.name });
     }
     return list.sort((a, b) => a.t - b.t);
   }
@@ -169,10 +173,11 @@ export class CheckPanel {
     stage.draw();
     this.copy(canvas, from, m.row ? this.spot() : null);
     const t = `${Number(m.t.toPrecision(4))} s`;
-    const words = m.names.length ? m.names.join(", ") : `end of ${m.step}`;
+    const words = m.rows.length ? m.rows.map((row) => row.name).join(", ") : `end of ${m.step}`;
+    const shown = m.rows.length ? m.rows.flatMap((row, i) => [i ? ", " : null, nameOf(row, false)]) : ["end of ", h("bdi", {}, m.step)];
     const button = h("button.picture", { type: "button", "aria-pressed": "false", title: `${t}: ${words}`,
       onclick: () => (m.number ? this.go(m.number) : this.state.set({ time: m.t, playing: false, probe: null, selected: null })) },
-    canvas, h("span.when", {}, t, m.verdict ? badge(m.verdict) : null), h("span.words", {}, words));
+    canvas, h("span.when", {}, t, m.verdict ? badge(m.verdict) : null), h("span.words", {}, ...shown));
     return { button };
   }
 
