@@ -56,6 +56,7 @@ describe("study:change", function()
     assert.equal(9 - found.to ^ 2, found.margin)
     assert.same({ true, true, found.to, 5 },
       { row.mended, change.ok, change.parameters.a, change.parameters.b })
+    assert.equal(found.value, study:again(found.evaluation, found.part):row "v".value)
     local again = study:change{ at = change.parameters }
     assert.same({ true, 0 }, { again.ok, #again.rows })
     assert.truthy(tostring(change):find("lower a from 4.000 m to 2.9%d0 m.*all rows pass"), tostring(change))

@@ -167,7 +167,7 @@ end
 
 -- What scripts see of it.
 local SEEN = { "name", "unit", "status", "value", "margin", "gain", "slope", "slope_error", "breaks",
-  "all_pass", "evaluation" }
+  "all_pass", "evaluation", "part" }
 
 local function public(list)
   for _, row in ipairs(list) do

@@ -227,7 +227,7 @@ local function say_best(self, target, i, found, noise)
   if found.gain > math.max(doubt, LITTLE * (target.floor - now)) then
     found.status = "helps"
     found.to, found.margin = best.values[i], margin_of(target, best)
-    found.value, found.evaluation = best.results[target.key], best.number
+    found.value, found.evaluation, found.part = best.results[target.key], best.number, best.part
     if best.results[target.key .. "_verdict"] == 1 then found.status = "passes" end
   end
 end
@@ -238,7 +238,8 @@ local function found_of(self, target, i, hunt)
   found.name, found.unit, found.from, found.parameter = p.name, p.unit, self.values[i], p
   if hunt and not hunt.unsure then
     local record = hunt.good.record
-    found.status, found.to, found.evaluation = "mends", record.values[i], record.number
+    found.status, found.to = "mends", record.values[i]
+    found.evaluation, found.part = record.number, record.part
     found.breaks, found.all_pass = broken(self, record), all_pass(self, record)
     if not target.all then
       found.value, found.margin = record.results[target.key], margin_of(target, record)
