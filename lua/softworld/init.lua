@@ -73,6 +73,7 @@ rows.later(core.class.scene, "softworld.view.view", "view")
 rows.later(sw, "softworld.run.plot", "plot")
 rows.later(sw, "softworld.study.study", "study")
 rows.later(sw, "softworld.calibration.calibration", "calibration")
+rows.later(sw, "softworld.check.compare", "compare")
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end

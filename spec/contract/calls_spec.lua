@@ -26,7 +26,9 @@ local function objects()
   local calibration = sw.calibration{ mass_per_length = 0.02, outer_diameter = 0.004, EI = 1e-3,
     twist = { length = 1, angle = 9, sigma = 0.1 } }
   local fit = study:fit{ data = { y = { 0.5, sigma = 0.1 } } }
-  return { check = run:check{}, calibration = calibration, fit = fit, study = study, evaluation = evaluation,
+  local check = run:check{}
+  return { check = check, comparison = sw.compare(check, check),
+    calibration = calibration, fit = fit, study = study, evaluation = evaluation,
     scene = scene, wire = wire, hand = hand, gripper = hand, process = process, clip = clip,
     channel = channel, tie = tie, run = run, sw = sw, observer = scene:observe{ call = print },
     view = scene:view{ open = false },

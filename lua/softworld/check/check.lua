@@ -227,7 +227,7 @@ end
 
 local function refuse(self, why)
   self.rows = { { name = "run", what = "the run", unit = "-", verdict = "FAIL", note = why } }
-  self.verdict, self.reason = "FAIL", why
+  self.verdict, self.reason, self.no_numbers = "FAIL", why, true
 end
 
 -- Why there can be no numbers, or nil.
@@ -311,6 +311,7 @@ function check.check(run, args)
   local self = build.call(3, make, run, args)
   if not self.trial then unread.judged(self.verdict) end
   self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"
+  self.source = run
   return writing.new(self)
 end
 

@@ -16,7 +16,8 @@ manual.groups = {
   { "Choose", { "models", "auto", "wire_mesh", "sections", "cable", "springback", "damping", "integrators",
     "vibration", "calibrate", "remodel", "units" } },
   { "Trust", { "accuracy", "tolerance", "limits", "speed", "peaks", "energy", "events", "changes" } },
-  { "What runs tell", { "results", "check", "refused", "remarks", "crashes", "breaking", "kinks", "files" } },
+  { "What runs tell", { "results", "check", "change", "compare", "refused", "remarks", "crashes", "breaking",
+    "kinks", "files" } },
   { "Grippers' methods", { "gripper" } },
   { "Inside", { "glossary", "day", "parts" } },
 }
@@ -31,7 +32,7 @@ manual.also = { manual = "start", contact = "touches", meshes = "wire_mesh", har
   sweep = "study", optimise = "study", workers = "study", journal = "study",
   minimise = "search", bobyqa = "search", cobyla = "search", simplex = "search", pareto = "search",
   slurm = "cluster", nodes = "cluster",
-  verdict = "check", margin = "check",
+  verdict = "check", margin = "check", sensitivity = "change",
   identify = "fit", intervals = "fit", sag = "calibration", measure = "calibration",
   report = "player", page = "player", html = "player", film = "player", frames = "player",
   changed = "changes", modes = "vibration", stress = "vibration" }

@@ -242,7 +242,7 @@ end
 --- Write runs into one page.
 -- @tparam {table,...} runs as softworld.run.files describes them for it
 -- @tparam string path ending in .html
--- @tparam[opt] table options title
+-- @tparam[opt] table options title; check, of softworld.check.page
 -- @treturn string the path
 function report.write(runs, path, options)
   local kind = sink.extension(path)
@@ -253,7 +253,7 @@ function report.write(runs, path, options)
   for i, run in ipairs(runs) do names[i] = run.name end
   local page = { blobs = {}, shapes = {}, data = json.object{ version = core.version, runs = {},
     title = options and options.title or table.concat(names, ", "), made = os.date "%Y-%m-%d %H:%M",
-    script = script() } }
+    check = options and options.check, script = script() } }
   for _, run in ipairs(runs) do add_run(page, run) end
   return sink.write_file(path, function(write) write_page(page, write) end)
 end

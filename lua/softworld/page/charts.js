@@ -4,6 +4,7 @@ import Dygraph from "dygraphs";
 import { h } from "./dom.js";
 import { format } from "./model.js";
 import { CURVES } from "./colours.js";
+import { limitsOf } from "./check.js";
 
 const MANY = 8;       // curves of a unit beyond which components of vectors wait to be asked for
 const STRAIGHT = 100; // times the smallest bend radius: what is drawn of radii
@@ -22,7 +23,21 @@ function groupsOf(data) {
         label: data.runs.length > 1 ? `${r + 1}: ${column.name}` : column.name });
     }
   });
-  return [...groups.values()].filter((g) => g.curves.length);
+  const list = [...groups.values()].filter((g) => g.curves.length);
+  for (const limit of limitsOf(data)) addLimit(list, limit);
+  return list;
+}
+
+const FAR = 20; // times what a curve reaches: a limit beyond it is drawn when it is asked for, since the curve would be flat
+
+/** A limit is a level curve of the chart in which what it limits is. */
+function addLimit(groups, { name, value, label }) {
+  const group = groups.find((g) => g.curves.some((c) => c.name === name));
+  if (!group || !Number.isFinite(value)) return;
+  const curve = group.curves.find((c) => c.name === name);
+  const reached = Math.max(...curve.values.filter((x) => Number.isFinite(x)).map(Math.abs));
+  group.curves.push({ ...curve, name: label, label, values: new Float64Array(curve.values.length).fill(value), limit: true,
+    far: !group.radius && Math.abs(value) > FAR * reached });
 }
 
 /** Rows of all curves on the union of their times. */
@@ -30,7 +45,7 @@ function rowsOf(group) {
   const runs = [...new Set(group.curves.map((c) => c.run))];
   let top = Infinity;
   if (group.radius) {
-    const least = Math.min(...group.curves.flatMap((c) => [Math.min(...c.values.filter((x) => !Number.isNaN(x)))]));
+    const least = Math.min(...group.curves.filter((c) => !c.limit).flatMap((c) => [Math.min(...c.values.filter((x) => !Number.isNaN(x)))]));
     top = STRAIGHT * least;
   }
   const shown = (x) => (Number.isNaN(x) || !(x <= top) ? NaN : x);
@@ -57,7 +72,8 @@ class Chart {
     const many = group.curves.length > MANY;
     group.curves.forEach((c, k) => {
       c.colour = CURVES[(data_index(group, c)) % CURVES.length];
-      c.on = !(many && /_[xyz]$/.test(c.name)) && !(many && k > 24);
+      if (c.limit) c.colour = "#d1495b";
+      c.on = !c.far && !(many && /_[xyz]$/.test(c.name)) && !(many && k > 24);
     });
     this.plot = h("div.plot");
     this.cursor = h("div.cursor", { "aria-hidden": "true" });
@@ -92,7 +108,7 @@ class Chart {
       connectSeparatedPoints: this.all.runs > 1, logscale: group.radius, digitsAfterDecimal: 4,
       axisLabelWidth: 52, gridLineColor: "#80808038", axisLineColor: "#80808066", xRangePad: 2, yRangePad: 6, labelsKMB: false, gridLineWidth: 1,
       series: Object.fromEntries(group.curves.map((c, i) => [`${c.label}${" ".repeat(i)}`,
-        c.r ? { strokePattern: [[7, 3], [2, 2], [9, 3, 2, 3]][(c.r - 1) % 3] } : {}])),
+        c.limit ? { strokePattern: [6, 4], strokeWidth: 1.8 } : c.r ? { strokePattern: [[7, 3], [2, 2], [9, 3, 2, 3]][(c.r - 1) % 3] } : {}])),
       axes: { x: { axisLabelFormatter: (t) => `${Number(t.toPrecision(6))}`, pixelsPerLabel: 56 },
         y: { axisLabelFormatter: (y) => short(y), pixelsPerLabel: 19 } },
       clickCallback: (e, t) => this.state.set({ time: t, playing: false }),

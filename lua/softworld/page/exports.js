@@ -116,6 +116,7 @@ export function readLink(hash) {
   if (given.has("t") && Number.isFinite(t)) out.time = t;
   const camera = (given.get("camera") || "").split(",").map(Number);
   if (camera.length === 6 && camera.every(Number.isFinite)) out.camera = camera;
+  if (/^\d+$/.test(given.get("row") || "")) out.row = Number(given.get("row"));
   if (given.has("colour")) out.quantity = given.get("colour");
   return out;
 }

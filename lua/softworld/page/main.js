@@ -8,6 +8,7 @@ import { Charts } from "./charts.js";
 import { View } from "./view.js";
 import { Legend, ProbeCard, compass, objectTree, lookPanel, resultsPanel, eventsPanel, scriptPanel } from "./panels.js";
 import { startLive } from "./live.js";
+import { CheckPanel, badge } from "./check.js";
 import { savePicture, saveTable, saveFilm, linkOf, readLink } from "./exports.js";
 
 const $ = (id) => document.getElementById(id);
@@ -186,6 +187,12 @@ function header(data, state) {
   $("title").textContent = data.title;
   $("status").textContent = failed.length ? "FAILED" : data.runs.some((run) => run.unmet) ? "not as exact as asked" : "ok";
   $("status").className = `badge ${failed.length ? "bad" : data.runs.some((run) => run.unmet) ? "warn" : "good"}`;
+  if (data.check) {
+    const mark = badge(data.check.verdict);
+    $("status").textContent = mark.textContent;
+    $("status").className = mark.className;
+    document.body.classList.add("checked");
+  }
   for (const run of failed) {
     $("banner").append(h("p", {}, h("strong", {}, h("bdi", {}, run.name), " failed. "), run.reason || "No reason is given."));
   }
@@ -296,6 +303,7 @@ const shared = {
 async function start() {
   if (!window.DecompressionStream) throw new Error("this browser is too old: it knows no DecompressionStream");
   const data = await load();
+  if (!data.check) for (const name of ["tab", "panel"]) $(`${name}-check`).remove();
   if (data.live) {
     await startLive(data, shared);
     return;
@@ -306,7 +314,8 @@ async function start() {
   }
   const span = spanOf(data), given = readLink(location.hash);
   const known = knownQuantities(data, "all", 0, null).map((q) => q.key);
-  const state = new State({ ...usual(data), time: span[0], tab: data.runs.every((run) => run.series) ? "charts" : "results" });
+  const state = new State({ ...usual(data), time: span[0], tab: data.check ? "check" : data.runs.every((run) => run.series) ? "charts" : "results",
+    left: !data.check });
   if (known.includes(given.quantity)) state.set({ quantity: given.quantity });
   header(data, state);
   const transport = new Transport($("transport"), data, state, span, frameTimes(data));
@@ -317,6 +326,7 @@ async function start() {
     await new Promise((resolve) => { setTimeout(resolve, 0); });
   }
   lookPanel($("look"), data, state);
+  const check = data.check ? new CheckPanel($("panel-check"), data, state, view, span) : null;
   const charts = new Charts($("panel-charts"), data, state);
   resultsPanel($("panel-results"), data, state);
   eventsPanel($("panel-events"), data, state);
@@ -325,13 +335,16 @@ async function start() {
   menu(view, data, state, span);
   keys(state, transport, view, data);
   new ResizeObserver(() => { if (state.get("tab") === "charts") charts.shown(); }).observe($("panel-charts"));
-  const follow = ({ time, camera }) => {
+  const follow = ({ time, camera, row }) => {
     if (time !== undefined) state.set({ time: Math.min(span[1], Math.max(span[0], time)), playing: false });
     if (camera && view) view.stage.setPose(camera);
+    if (row !== undefined) check?.go(row);
   };
+  if (check) state.watch(["theme"], () => check.draw());
+  if (given.time === undefined && given.row === undefined) check?.begin();
   follow(given);
   addEventListener("hashchange", () => follow(readLink(location.hash)));
-  window.player = { state, view, charts, transport, data };
+  window.player = { state, view, charts, transport, data, check };
   document.body.dataset.ready = String(Math.round(performance.now()));
   document.body.classList.add("ready");
 }

@@ -2,6 +2,7 @@
 --- One evaluation: what evaluate is given, what becomes of what it returns. A function of the parameters'
 -- values, the study's seed, the method with its options and the number within it, and of nothing else.
 -- @module softworld.study.evaluation
+local check_results = require "softworld.check.results"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local judge_results = require "softworld.study.judge"
@@ -105,8 +106,13 @@ end
 -- "ok" and the results as text, or what is wrong with them.
 local function read(own, results, ...)
   if select("#", ...) > 0 then return wrong(own, "returned more than one value; one table is wanted") end
+  if checks.kind(results) == "check" then
+    local numbers, reason = check_results.of(results, own.by_name)
+    if not numbers then return "failed", reason:match "^[^\n]*":sub(1, LONGEST) end
+    results = numbers
+  end
   if type(results) ~= "table" then
-    return wrong(own, "returned %s; a table of results is wanted, such as { time = 1.5 }",
+    return wrong(own, "returned %s; a table of results is wanted, such as { time = 1.5 }, or a check",
       results == nil and "nothing" or checks.got(results))
   end
   local flat, status, why = flatten(own, results)

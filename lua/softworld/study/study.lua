@@ -45,8 +45,8 @@ local new = rows.call("sw.study", "{...}", "a study: a model to be evaluated man
   { "name", "text", "-", "of the study", required = true },
   { "parameters", "table", "-", "by name { lowest, highest, unit =, log =, integer =, start =, sigma =, "
     .. "of = }, { choices = {...} }, or a value of the catalogue with its bounds", required = true },
-  { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers",
-    required = true },
+  { "evaluate", "function", "-", "of the parameters and what setup gave; returns a table of numbers "
+    .. "or a check", required = true },
   { "setup", "function", "-", "builds what all evaluations use, once; its scenes are restored before each" },
   { "constraints", "table", "-", "of results by name { min =, max =, unit = }" },
   { "file", "text", "-", "the journal, from which the same script goes on", usual = "nothing is kept" },
@@ -279,11 +279,12 @@ function Study:chart(args) return build.call(3, do_chart, self, args) end
 
 rows.later(Study, "softworld.study.where", "run cancel")
 rows.later(Study, "softworld.study.again", "again")
+rows.later(Study, "softworld.study.change", "change")
 rows.later(Study, "softworld.study.report", "report")
 methods.guard_table("study", Study)
 
-local SHOWN = "run cancel sweep minimise fit pareto front spread advise table best again report csv json "
-  .. "chart name file computed"
+local SHOWN = "run cancel sweep minimise fit pareto front spread change advise table best again report csv "
+  .. "json chart name file computed"
 local unknown = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)

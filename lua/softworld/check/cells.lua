@@ -1,0 +1,98 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Rows of checks as lines of a terminal, as CSV and as JSON.
+-- @module softworld.check.cells
+local json = require "softworld.output.json"
+local number = require "softworld.output.number"
+local sink = require "softworld.output.sink"
+
+local cells = {}
+
+--- A text without control characters.
+function cells.one_line(text) return (tostring(text):gsub("%c", " ")) end
+
+--- The same without the characters of Unicode that turn the order of what follows, U+202A to U+202E and
+-- U+2066 to U+2069: a name cannot make a terminal show other numbers.
+function cells.plain(text)
+  return (cells.one_line(text):gsub("\226\128[\170-\174]", " "):gsub("\226\129[\166-\169]", " "))
+end
+
+--- A number with its unit; "" where there is none.
+function cells.number(value, unit)
+  if type(value) ~= "number" then return "" end
+  return number.text(value, unit ~= "-" and unit or nil)
+end
+
+local function pad(text, width) return text .. (" "):rep(width - number.columns(text)) end
+
+--- Add lines of cells, aligned, with the note of each below it.
+function cells.add_table(lines, list)
+  local widths = {}
+  for _, line in ipairs(list) do
+    for c, text in ipairs(line) do widths[c] = math.max(widths[c] or 0, number.columns(text)) end
+  end
+  for _, line in ipairs(list) do
+    local padded = {}
+    for c, text in ipairs(line) do padded[c] = pad(text, widths[c]) end
+    lines[#lines + 1] = ("  " .. table.concat(padded, "  ")):gsub("%s+$", "")
+    if line.note then lines[#lines + 1] = "        " .. cells.plain(line.note) end
+  end
+end
+
+-- --- files -----------------------------------------------------------------------------------------
+
+--- Raise unless it is the name of a file. what: the method; extension: with its article.
+function cells.check_path(what, path, extension)
+  if type(path) == "string" and path ~= "" then return end
+  error(("%s expects the name of %s file, got %s"):format(what, extension, path == "" and "''"
+    or type(path)), 3)
+end
+
+local function quoted(text)
+  if text:find '[",;\r\n\t#]' or text:find "^%s" or text:find "%s$" then
+    return '"' .. cells.one_line(text):gsub('"', '""') .. '"'
+  end
+  return text
+end
+
+local function cell(value)
+  if value == nil then return "" end
+  return type(value) == "number" and sink.number(value) or quoted(tostring(value))
+end
+
+--- Write rows as CSV.
+function cells.write_csv(path, columns, rows)
+  return sink.write_file(path, function(write)
+    write(table.concat(columns, ",") .. "\n")
+    for _, row in ipairs(rows) do
+      local line = {}
+      for c, name in ipairs(columns) do line[c] = cell(row[name]) end
+      write(table.concat(line, ",") .. "\n")
+    end
+  end)
+end
+
+-- Numbers that JSON does not have are texts: "inf", "nan".
+local function known(value)
+  if type(value) == "number" and value - value ~= 0 then return sink.number(value) end
+  return value
+end
+
+--- Rows with these columns as JSON takes them.
+function cells.known_rows(columns, rows)
+  local list = {}
+  for i, row in ipairs(rows) do
+    list[i] = json.object{}
+    for _, name in ipairs(columns) do list[i][name] = known(row[name]) end
+  end
+  return list
+end
+
+--- Write a document as JSON.
+function cells.write_json(path, document)
+  return sink.write_file(path, function(write)
+    json.write(document, write)
+    write "\n"
+  end)
+end
+
+return cells

@@ -1,0 +1,293 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Which change of one parameter mends a row of a check: each parameter is looked at over its whole range
+-- and closely about its present value, then the least change that passes is hunted down. Whatever is said was
+-- run.
+--
+-- A target: { key =, row =, floor = least margin wanted, passes = has it that already }, or { all = true }:
+-- every row. What is asked for are lists of values, by coroutine.yield, which gives their records.
+-- @module softworld.study.changing
+local axis = require "softworld.study.axis"
+local parameters = require "softworld.study.parameters"
+
+local changing = {}
+
+local ROUNDS = 8 -- of a hunt
+local AGAIN = 2  -- more runs of what is said, where values are noisy
+local LITTLE = 0.01 -- of what is lacking: a gain below it is none [-]
+
+-- --- one record ------------------------------------------------------------------------------------
+
+local function margin_of(target, record) return record.results and record.results[target.key .. "_margin"] end
+
+local function error_of(target, record) return record.results[target.key .. "_error"] or 0 end
+
+-- What a margin lacks to what is wanted; nil where there is none.
+local function lacks(target, record)
+  local margin = not target.all and margin_of(target, record)
+  return margin and target.floor + error_of(target, record) - margin or nil
+end
+
+local function row_passes(target, record)
+  if record.results[target.key .. "_verdict"] ~= 1 then return false end
+  local margin = margin_of(target, record)
+  return margin == nil or margin >= target.floor
+end
+
+-- Do all rows pass, but those that no parameter can help?
+local function all_pass(self, record)
+  for _, target in ipairs(self.targets) do
+    if not target.all and not row_passes(target, record) then return false end
+  end
+  for name, value in pairs(record.results) do
+    local key = name:match "^(.*)_verdict$"
+    if key and value < 1 and not self.hopeless[key] then return false end
+  end
+  return true
+end
+
+local function passes(self, target, record)
+  if not record.results then return false end
+  if target.all then return all_pass(self, record) end
+  return row_passes(target, record)
+end
+
+-- Rows whose verdict is worse than now, by their names.
+local function broken(self, record)
+  local list, now = {}, self.now.results
+  for name, value in pairs(record.results) do
+    local key = name:match "^(.*)_verdict$"
+    if key and value < (now[name] or 1) then list[#list + 1] = self.names[key] or key end
+  end
+  table.sort(list)
+  return list
+end
+
+-- --- evaluations -----------------------------------------------------------------------------------
+
+local function moved(self, i, value)
+  local values = table.move(self.values, 1, #self.values, 1, {})
+  values[i] = value
+  return values
+end
+
+-- The records of lists of values; what was asked for before is known.
+local function ask(self, list)
+  local new, words = {}, {}
+  for k, values in ipairs(list) do
+    words[k] = parameters.word(values)
+    if not self.known[words[k]] then
+      self.known[words[k]], new[#new + 1] = true, values
+    end
+  end
+  local records = #new > 0 and coroutine.yield(new) or {}
+  for k, values in ipairs(new) do self.known[parameters.word(values)] = records[k] end
+  for k, word in ipairs(words) do words[k] = self.known[word] end
+  return words
+end
+
+-- The whole of each range, and closely about the present value: lists of records by parameter, sorted.
+local function look(self)
+  local list, at = {}, {}
+  for i, p in ipairs(self.own.parameters) do
+    for _, values in ipairs{ axis.scan(p, self.count), axis.around(p, self.values[i]) } do
+      for _, value in ipairs(values) do list[#list + 1], at[#at + 1] = moved(self, i, value), i end
+    end
+  end
+  local records, seen = ask(self, list), {}
+  self.lines = {}
+  for i in ipairs(self.own.parameters) do
+    self.lines[i], seen[i] = { self.now }, { [self.values[i]] = true }
+  end
+  for k, record in ipairs(records) do
+    local i = at[k]
+    local value = list[k][i]
+    if not seen[i][value] then table.insert(self.lines[i], record) end
+    seen[i][value] = true
+  end
+  for i, line in ipairs(self.lines) do
+    table.sort(line, function(a, b) return a.values[i] < b.values[i] end)
+  end
+end
+
+-- --- the least change that passes --------------------------------------------------------------------
+
+local function end_of(target, i, record)
+  return { value = record.values[i], lacks = record.results and lacks(target, record), record = record }
+end
+
+-- From the present value outwards, the first that passes, with the one before it.
+local function hunt_of(self, target, i, by)
+  local line, k = self.lines[i], 1
+  while line[k] ~= self.now do k = k + 1 end
+  local before = self.now
+  while true do
+    k = k + by
+    local record = line[k]
+    if not record then return nil end
+    if passes(self, target, record) then
+      return { target = target, index = i, bad = end_of(target, i, before), good = end_of(target, i, record) }
+    end
+    before = record
+  end
+end
+
+local function nearest(self, one, other)
+  if not (one and other) then return one or other end
+  local p = self.own.parameters[one.index]
+  if p.kind == "choice" then return one end
+  local here = parameters.place(p, self.values[one.index])
+  local function far(hunt) return math.abs(parameters.place(p, hunt.good.value) - here) end
+  return far(one) <= far(other) and one or other
+end
+
+local function hunts_of(self)
+  local list = {}
+  for _, target in ipairs(self.targets) do
+    for i in ipairs(self.own.parameters) do
+      for _, by in ipairs(target.passes and {} or { 1, -1 }) do
+        list[#list + 1] = hunt_of(self, target, i, by)
+      end
+    end
+  end
+  return list
+end
+
+local function narrow(self, hunts)
+  for _ = 1, ROUNDS do
+    local list, asked = {}, {}
+    for _, hunt in ipairs(hunts) do
+      local value = axis.between(self.own.parameters[hunt.index], hunt)
+      if value then list[#list + 1], asked[#asked + 1] = moved(self, hunt.index, value), hunt end
+    end
+    if #list == 0 then return end
+    for k, record in ipairs(ask(self, list)) do
+      local hunt = asked[k]
+      local which = passes(self, hunt.target, record) and "good" or "bad"
+      hunt[which] = end_of(hunt.target, hunt.index, record)
+    end
+  end
+end
+
+-- Where values are noisy what passed once is run again, with other random numbers.
+local function confirm(self, hunts)
+  if not self.noisy then return end
+  local list = {}
+  for k, hunt in ipairs(hunts) do
+    for _ = 1, AGAIN do list[#list + 1] = { hunt = k, values = hunt.good.record.values } end
+  end
+  if #list == 0 then return end
+  local values = {}
+  for k, one in ipairs(list) do values[k] = one.values end
+  for k, record in ipairs(coroutine.yield(values)) do
+    local hunt = hunts[list[k].hunt]
+    if not passes(self, hunt.target, record) then hunt.unsure = true end
+  end
+end
+
+-- --- what it comes to ------------------------------------------------------------------------------
+
+-- How far the same parameters gave other margins.
+local function noise_of(self, target)
+  local a, b = margin_of(target, self.now), margin_of(target, self.again)
+  return a and b and math.abs(a - b) or 0
+end
+
+local function slope_of(self, target, i, noise)
+  local p, here, points = self.own.parameters[i], self.values[i], {}
+  if p.kind == "choice" or not margin_of(target, self.now) then return {} end
+  local near, place = { [here] = true }, parameters.place(p, here)
+  for _, value in ipairs(axis.around(p, here)) do near[value] = true end
+  for _, record in ipairs(self.lines[i]) do
+    local margin, value = margin_of(target, record), record.values[i]
+    if near[value] and margin then points[#points + 1] = { parameters.place(p, value) - place, margin } end
+  end
+  local slope, doubt, deviation = axis.slope(points, error_of(target, self.now) + noise)
+  if not slope then return {} end
+  local each = p.log and here * math.log(p.high / p.low) or p.high - p.low -- dp / d place
+  return { slope = slope / each, slope_error = doubt / each, deviation = deviation }
+end
+
+-- The largest margin of a parameter's line.
+local function best_of(self, target, i)
+  local best
+  for _, record in ipairs(self.lines[i]) do
+    local margin = margin_of(target, record)
+    if margin and (not best or margin > margin_of(target, best)) then best = record end
+  end
+  return best
+end
+
+local function say_best(self, target, i, found, noise)
+  local best, now = best_of(self, target, i), margin_of(target, self.now)
+  found.status = "does not help"
+  if not best or not now then return end
+  local doubt = error_of(target, self.now) + error_of(target, best)
+    + 2 * math.max(noise, found.deviation or 0)
+  found.gain = margin_of(target, best) - now
+  if found.gain > math.max(doubt, LITTLE * (target.floor - now)) then
+    found.status = "helps"
+    found.to, found.margin = best.values[i], margin_of(target, best)
+    found.value, found.evaluation, found.part = best.results[target.key], best.number, best.part
+    if best.results[target.key .. "_verdict"] == 1 then found.status = "passes" end
+  end
+end
+
+local function found_of(self, target, i, hunt)
+  local p, noise = self.own.parameters[i], target.all and 0 or noise_of(self, target)
+  local found = target.all and {} or slope_of(self, target, i, noise)
+  found.name, found.unit, found.from, found.parameter = p.name, p.unit, self.values[i], p
+  if hunt and not hunt.unsure then
+    local record = hunt.good.record
+    found.status, found.to = "mends", record.values[i]
+    found.evaluation, found.part = record.number, record.part
+    found.breaks, found.all_pass = broken(self, record), all_pass(self, record)
+    if not target.all then
+      found.value, found.margin = record.results[target.key], margin_of(target, record)
+    end
+  elseif hunt then found.status = "noise"
+  elseif target.all then found.status = "does not mend"
+  elseif target.passes then found.status = "no need"
+  else say_best(self, target, i, found, noise) end
+  return found
+end
+
+local function answer(self, hunts)
+  local list = {}
+  for t, target in ipairs(self.targets) do
+    local one = { target = target, parameters = {} }
+    for i in ipairs(self.own.parameters) do
+      local hunt
+      for _, h in ipairs(hunts) do
+        local fits = h.target == target or target.all and all_pass(self, h.good.record)
+        if fits and h.index == i then hunt = nearest(self, hunt, h) end
+      end
+      one.parameters[i] = found_of(self, target, i, hunt)
+    end
+    list[t] = one
+  end
+  return list
+end
+
+local function is_noisy(one, other)
+  for name, value in pairs(one.results or {}) do
+    if not other.results or other.results[name] ~= value then return true end
+  end
+  return one.results == nil or other.results == nil
+end
+
+--- Go through it; within a coroutine. self: own (of the study), values (present), targets, count (of values
+-- looked at in each range), hopeless (keys of rows that nothing can help), names (of rows by key). Gives a
+-- list of { target =, parameters = { what was found } }.
+function changing.run(self)
+  local first = coroutine.yield{ self.values, self.values }
+  self.now, self.again, self.known = first[1], first[2], { [parameters.word(self.values)] = first[1] }
+  if not self.now.results then error(("the present parameters fail: %s"):format(self.now.failed), 0) end
+  self.noisy = is_noisy(first[1], first[2])
+  look(self)
+  local hunts = hunts_of(self)
+  narrow(self, hunts)
+  confirm(self, hunts)
+  return answer(self, hunts)
+end
+
+return changing
