@@ -21,8 +21,9 @@ local trust = require "softworld.run.trust"
 
 local choose = {}
 
-local MODEL = 0.5  -- of a tolerance: what rungs may leave out [-]
-local SAFETY = 1.5 -- of a change from one rung to the next [-]
+local MODEL = 0.6  -- of a tolerance: what rungs may leave out [-]
+local LEAST = 0.5  -- of a tolerance: what edges and steps may always take [-]
+local SAFETY = 1.25 -- of a change from one rung to the next [-]
 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
 local DOUBT = 4
 local LEVELS = 3   -- coarse ones on which rungs are compared
@@ -99,8 +100,16 @@ local function changed_by(c)
     number.text(c.allowed, q.unit))
 end
 
-local function raise_rung(state, why)
+-- The choices after it begin anew: they were made with the rung that is given up.
+local function raise_rung(context, state, why)
   state.rung, state.by, state.raised, state.why = state.rung + 1, "raised", why, why
+  local after = false
+  for _, other in ipairs(context.states) do
+    if after and other.by ~= "given" then
+      other.rung, other.by, other.raised, other.why, other.checked = 1, nil, nil, nil, nil
+    end
+    after = after or other == state
+  end
 end
 
 -- Settled, and why: by the reason for which it went up, if it did, and the one for which it stays.
@@ -117,7 +126,7 @@ local function look(context, state)
   local here = probe.of(context, rungs, 1)
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
-    raise_rung(state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
+    raise_rung(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
     return false
   end
   local f = here.facts[name]
@@ -142,8 +151,8 @@ local function look(context, state)
   end
   local c = compare(context, state, rungs, up)
   local costly = choice.costly and choice.costly(rung, here, above)
-  if costly then raise_rung(state, costly)
-  elseif c.worst > 1 then raise_rung(state, ("with %s %s"):format(next_as, changed_by(c)))
+  if costly then raise_rung(context, state, costly)
+  elseif c.worst > 1 then raise_rung(context, state, ("with %s %s"):format(next_as, changed_by(c)))
   else
     state.change = c.all
     return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
@@ -194,7 +203,7 @@ local function refined(context)
   local job, steps = context.job, nil
   for _, q in ipairs(job.quantities) do
     local left = left_out(context, q.name)
-    function q.aim(asked) return math.max(asked - left, asked * MODEL, context.spread:floor(q)) end
+    function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
   end
   job.levels, job.contact, job.finest, job.begun = {}, nil, nil, 0
   for name in pairs(job.values) do job.values[name] = {} end
@@ -248,12 +257,27 @@ local function broken(context, result)
   return again
 end
 
+-- Poses whose bars are too long, as friction makes them: dynamics may do better. True when it is to try.
+local function shorter(context, result)
+  local state = context.states[1]
+  if result.met or state.rung == state.last or state.by == "given" then return false end
+  for _, q in ipairs(result:error_bars()) do
+    if not q.met and q.error > context.spread:floor(q) then
+      raise_rung(context, state, ("the bar of %s by %s stays at %s (asked for %s)"):format(q.name,
+        state.choice.rungs[1].as, number.text(q.error, q.unit), number.text(q.tolerance, q.unit)))
+      settle(context)
+      return true
+    end
+  end
+  return false
+end
+
 local function compute(context)
   local base = settle(context)
   if base then context.spread:look(rungs_of(context), base) end
   for _ = 1, #context.states + 1 do
     local result = refined(context)
-    if result.refused or not broken(context, result) then return result end
+    if result.refused or not broken(context, result) and not shorter(context, result) then return result end
   end
   return refined(context)
 end
