@@ -110,6 +110,34 @@ auto.scenes = {
       return finish(scene, options), { "peg.mean_force", "min_bend_radius" }, duration
     end
   end },
+  { name = "dropped", of = function(random)
+    local section, height = wire_of(random), between(random, 0.005, 0.05)
+    local mu = pick(random, { 0, 0.3 })
+    return function(options)
+      local scene = sw.scene{ name = "dropped" }
+      scene:obstacle{ name = "table", shape = "plane", friction = mu }
+      local z = section.radius + height
+      local w = made(scene, section, options, { name = "w", from = { 0, 0, z }, to = { 0.5, 0, z } })
+      local hand = scene:clamp(w, { s = 0, name = "hand" })
+      hand:follow{ points = { { 0, 0, 0 }, { 0, 0.03, 0 } }, relative = true, duration = 0.4 }
+      return finish(scene, options), { "table.mean_force", "tip" }, 0.5
+    end, true
+  end },
+  { name = "looped", of = function(random)
+    local section, duration = wire_of(random), pick(random, { 1, 8 })
+    local past = between(random, -0.05, 0.08)
+    return function(options)
+      local scene = sw.scene{ name = "looped" }
+      local w = made(scene, section, options, { name = "w", from = { 0, 0, 0 }, to = { 0.5, 0, 0 },
+        segments = 32 })
+      scene:clamp(w, { s = 0, name = "left" })
+      local off = 2.2 * section.radius
+      scene:clamp(w, { s = 0.5, name = "right" }):follow{ relative = true, duration = duration,
+        points = { { 0, 0, 0 }, { -0.25, 0.12, off }, { -0.5 - past, 0.02, off } },
+        turn = { axis = { 0, 0, 1 }, angle = 1.5 * math.pi } }
+      return finish(scene, options), { "min_bend_radius", "tip" }, duration
+    end
+  end },
 }
 
 -- --- what is true ------------------------------------------------------------------------------
@@ -163,10 +191,10 @@ local function cheaper(a, b)
 end
 
 local function one(kind, random, share)
-  local build = kind.of(random)
-  local truth, why = run(build, { rolls = true, contact = true }, share / 8, 6)
+  local build, moves = kind.of(random)
+  local truth, why = run(build, { rolls = true, contact = true, settle = not moves }, share / 8, 6)
   if not truth then return nil, why end
-  local r, reason, cost = run(build, { auto = true }, share)
+  local r, reason, cost = run(build, { auto = true, settle = not moves }, share)
   if not r then return { failed = reason } end
   local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu,
     probes = r.model.cost,
@@ -180,7 +208,8 @@ local function one(kind, random, share)
     out.off = math.max(out.off or 0, off / bar)
   end
   for _, word in ipairs(fixed) do
-    local f = run(build, { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w" }, share / 4, 5,
+    local f = run(build, { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w",
+      settle = not moves }, share / 4, 5,
       word:sub(1, 1) == "p" or nil)
     local enough = f ~= nil
     for name, q in pairs(f and f.quantities or {}) do
