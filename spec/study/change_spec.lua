@@ -93,6 +93,27 @@ describe("study:change", function()
     assert.is_true(other.rows[#other.rows].all)
   end)
 
+  it("runs the changes that mend one row each together, and says it when all rows pass then", function()
+    local change = study_of(function(p)
+      return { own("low", p.a, { max = 3 }), own("high", p.b, { min = 6 }) }
+    end):change()
+    assert.same({ true, "lower a from 4.000 m to 2.800 m and raise b from 5 to 6.400" },
+      { change.ok, change.reason })
+    assert.same({ a = 2.8, b = 6.4 }, change.parameters)
+    assert.truthy(tostring(change):find("together: " .. change.reason .. "; all rows pass", 1, true))
+    -- b raises the first row by 0.14: 1.25 times as far both pass with the reserve
+    local farther = study_of(function(p)
+      return { own("low", p.a + 0.1 * (p.b - 5), { max = 3 }), own("high", p.b, { min = 6 }) }
+    end):change()
+    assert.same({ a = 2.5, b = 6.8 }, { a = farther.parameters.a, b = farther.parameters.b })
+    -- b mends the second row, but not while a is low
+    local apart = study_of(function(p)
+      return { own("low", p.a, { max = 3 }), own("high", p.a < 3.5 and 0 or p.b, { min = 6 }) }
+    end):change()
+    assert.same({ false, "no parameter alone mends all rows" }, { apart.ok, apart.reason })
+    assert.is_nil(apart.parameters)
+  end)
+
   -- A row that passes between 6 and 7 only: seen by looking over the range, not by a slope.
   it("looks over the whole range, up and down", function()
     local change = study_of(function(p)

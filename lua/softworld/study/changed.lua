@@ -10,7 +10,7 @@ local changed = {}
 
 local Changed = { __name = "change" }
 local unknown = checks.fields("change", "ok reason parameters rows evaluations failed noisy name values")
-local MAY_LACK = checks.set "parameters"
+local MAY_LACK = checks.set "parameters several"
 
 function Changed.__index(c, key)
   if not MAY_LACK[key] then return unknown(c, key) end
@@ -84,7 +84,7 @@ local function head_of(one)
     #where > 0 and "  (" .. table.concat(where, ", ") .. ")" or "")
 end
 
-local function text_of(c, list)
+local function text_of(c, list, together)
   local lines = { ("what to change in '%s': %s (%d evaluations, %d failed)"):format(cells.plain(c.name),
     c.reason, c.evaluations, c.failed) }
   if c.noisy then lines[#lines + 1] = "  values are noisy: what is said was run three times" end
@@ -97,6 +97,10 @@ local function text_of(c, list)
       lines[#lines + 1] = ("        no parameter mends %s alone with that reserve, of %d values over each "
         .. "range"):format(one.all and "all" or "it", c.values)
     end
+  end
+  if c.several then lines[#lines + 1] = ("  together: %s; all rows pass"):format(c.several)
+  elseif together == false then
+    lines[#lines + 1] = "  together, what mends one row each does not mend all, nor up to twice as far"
   end
   return table.concat(lines, "\n")
 end
@@ -157,12 +161,22 @@ end
 
 -- The parameters by name, as evaluate takes them.
 local function by_name(work, best)
-  local values = {}
+  local values, from = {}, work.together and work.together.values or work.values
   for i, p in ipairs(work.own.parameters) do
-    values[p.name] = parameters.shown(p, work.values[i])
+    values[p.name] = parameters.shown(p, from[i])
     if best and best.name == p.name then values[p.name] = parameters.shown(p, best.to) end
   end
   return values
+end
+
+-- Several changes in words.
+local function several_of(work)
+  local moves = {}
+  for i, p in ipairs(work.own.parameters) do
+    local from, to = work.values[i], work.together and work.together.values[i]
+    if to and to ~= from then moves[#moves + 1] = move_text { parameter = p, from = from, to = to } end
+  end
+  return #moves > 0 and table.concat(moves, " and ") or nil
 end
 
 -- What scripts see of it.
@@ -191,12 +205,12 @@ function changed.new(work, check, o)
   if hopeless then reason = "nothing that a parameter can help: rows are open for want of a limit"
   elseif #list == 0 then reason = "nothing, all rows pass with that reserve"
   elseif not needed then reason = "nothing, what is asked for passes with that reserve"
-  else reason = reason_of(list, best) end
-  local ok = best ~= nil or not needed and not hopeless
+  else reason = several_of(work) or reason_of(list, best) end
+  local ok = best ~= nil or (work.together or nil) ~= nil or not needed and not hopeless
   local c = setmetatable({ ok = ok, reason = reason, parameters = ok and by_name(work, best) or nil,
     evaluations = work.total, failed = work.count_failed, noisy = work.noisy or false,
-    name = sealed.fields(check).name, values = o.values }, Changed)
-  texts[c] = text_of(c, list)
+    name = sealed.fields(check).name, values = o.values, several = several_of(work) }, Changed)
+  texts[c] = text_of(c, list, work.together)
   c.rows = public(list)
   return c
 end

@@ -13,6 +13,7 @@ local changing = {}
 
 local ROUNDS = 8 -- of a hunt
 local AGAIN = 2  -- more runs of what is said, where values are noisy
+local FARTHER = { 1, 1.25, 1.5, 2 } -- times the changes that mend one row each, made together
 local LITTLE = 0.01 -- of what is lacking: a gain below it is none [-]
 
 -- --- one record ------------------------------------------------------------------------------------
@@ -131,13 +132,16 @@ local function hunt_of(self, target, i, by)
   end
 end
 
+-- How large a change is, as a share of the range.
+local function size_of(self, hunt)
+  local p = self.own.parameters[hunt.index]
+  if p.kind == "choice" then return 1 end
+  return math.abs(parameters.place(p, hunt.good.value) - parameters.place(p, self.values[hunt.index]))
+end
+
 local function nearest(self, one, other)
   if not (one and other) then return one or other end
-  local p = self.own.parameters[one.index]
-  if p.kind == "choice" then return one end
-  local here = parameters.place(p, self.values[one.index])
-  local function far(hunt) return math.abs(parameters.place(p, hunt.good.value) - here) end
-  return far(one) <= far(other) and one or other
+  return size_of(self, one) <= size_of(self, other) and one or other
 end
 
 local function hunts_of(self)
@@ -182,6 +186,65 @@ local function confirm(self, hunts)
     local hunt = hunts[list[k].hunt]
     if not passes(self, hunt.target, record) then hunt.unsure = true end
   end
+end
+
+-- The nearest hunt of each row that is wanting; nil where one has none.
+local function one_of_each(self, hunts)
+  local list = {}
+  for _, target in ipairs(self.targets) do
+    local best
+    for _, hunt in ipairs(hunts) do
+      local fits = hunt.target == target and not target.all and not hunt.unsure
+      if fits and (not best or size_of(self, hunt) < size_of(self, best)) then best = hunt end
+    end
+    if not best and not (target.all or target.passes) then return nil end
+    list[#list + 1] = best
+  end
+  return list
+end
+
+-- Changes of several parameters so many times as far; nil where they are of less than two, or against each
+-- other.
+local function several(self, chosen, times)
+  local values, count = table.move(self.values, 1, #self.values, 1, {}), 0
+  for _, hunt in ipairs(chosen) do
+    local i, value = hunt.index, hunt.good.value
+    local p, from = self.own.parameters[i], self.values[i]
+    if p.kind ~= "choice" then
+      local here = parameters.place(p, from)
+      local there = here + times * (parameters.place(p, value) - here)
+      value = times == 1 and value or axis.round(p, parameters.at(p, math.max(0, math.min(1, there))))
+    end
+    if values[i] == from then values[i], count = value, count + 1
+    elseif (values[i] > from) ~= (value > from) then return nil
+    elseif math.abs(value - from) > math.abs(values[i] - from) then values[i] = value end
+  end
+  return count > 1 and values or nil
+end
+
+local function stands(self, record)
+  if not (record.results and all_pass(self, record)) then return false end
+  local list = {}
+  for k = 1, self.noisy and AGAIN or 0 do list[k] = record.values end
+  for _, other in ipairs(#list > 0 and coroutine.yield(list) or {}) do
+    if not (other.results and all_pass(self, other)) then return false end
+  end
+  return true
+end
+
+-- Where no change mends all rows: those that mend one each, made together, and somewhat farther, since one
+-- may work against the other. The record, where all rows pass then; false where none does.
+local function together(self, hunts)
+  for _, hunt in ipairs(hunts) do
+    if not hunt.unsure and all_pass(self, hunt.good.record) then return nil end
+  end
+  local chosen, list = one_of_each(self, hunts), {}
+  for _, times in ipairs(chosen and FARTHER or {}) do list[#list + 1] = several(self, chosen, times) end
+  if #list == 0 then return nil end
+  for _, record in ipairs(ask(self, list)) do
+    if stands(self, record) then return record end
+  end
+  return false
 end
 
 -- --- what it comes to ------------------------------------------------------------------------------
@@ -277,7 +340,8 @@ end
 
 --- Go through it; within a coroutine. self: own (of the study), values (present), targets, count (of values
 -- looked at in each range), hopeless (keys of rows that nothing can help), names (of rows by key). Gives a
--- list of { target =, parameters = { what was found } }.
+-- list of { target =, parameters = { what was found } }; in self.together the record of changes of several
+-- parameters that mend all.
 function changing.run(self)
   local first = coroutine.yield{ self.values, self.values }
   self.now, self.again, self.known = first[1], first[2], { [parameters.word(self.values)] = first[1] }
@@ -287,6 +351,7 @@ function changing.run(self)
   local hunts = hunts_of(self)
   narrow(self, hunts)
   confirm(self, hunts)
+  self.together = together(self, hunts)
   return answer(self, hunts)
 end
 
