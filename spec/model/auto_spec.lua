@@ -186,6 +186,22 @@ describe("model = 'auto'", function()
     assert.is_true(#run.levels <= 3)
   end)
 
+  -- Poses cannot tell that the wire is crushed: what cannot be checked is not met.
+  it("is not met where the dearer model cannot be computed", function()
+    local scene = sw.scene()
+    local w = rod(scene, { E = 1e4 })
+    scene:clamp(w, { s = 0 })
+    follow(scene:clamp(w, { s = 0.6 }), { { 0.6, 0, 0 }, { 40, 0, 0.05 } }, 0.01)
+    local run = scene:run { duration = 0.3, tolerance = { tip = 0.01 } }
+    if run.ok and run.model.motion == "poses" then
+      assert.is_false(run.met)
+      assert.truthy(tostring(run:why()):find("NOT known: whether this model suffices", 1, true))
+      assert.truthy(tostring(run):find("see run:why()", 1, true))
+    else
+      assert.is_false(run.ok)
+    end
+  end)
+
   it("gives the same bits twice, and leaves nothing behind", function()
     local one, two = hung(2), hung(2)
     assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))

@@ -32,6 +32,7 @@ function Model:__tostring()
   end
   for _, q in ipairs(self.quantities or {}) do lines[#lines + 1] = quantity_line(q) end
   for _, text in ipairs(self.short) do lines[#lines + 1] = "  NOT enough: " .. text end
+  if self.blind then lines[#lines + 1] = "  NOT known: whether this model suffices, for " .. self.blind end
   for _, text in ipairs(self.unchecked) do lines[#lines + 1] = "  not checked: " .. text end
   lines[#lines + 1] = ("  %d coarse computations to choose, %.3g s; the run %.3g s"):format(self.probes,
     self.cost, self.run_cost)
@@ -47,7 +48,7 @@ end
 -- Bars with what rungs leave out.
 local function widen(result, model)
   model.quantities = result:error_bars()
-  local met = #model.short == 0
+  local met = #model.short == 0 and not model.blind
   for _, q in ipairs(model.quantities) do
     local sum = 0
     for _, c in ipairs(model.choices) do sum = sum + (c.by == "compared" and c.error[q.name] or 0) end
@@ -56,7 +57,7 @@ local function widen(result, model)
     met = met and q.met
   end
   if not met and not result.advice then
-    result.advice = model.short[1] or "the tolerance is below what the cable's spread makes worth computing"
+    result.advice = model.short[1] or model.blind or "the tolerance is below what the cable's spread makes worth computing"
   end
   result.met = met
 end
@@ -70,7 +71,8 @@ function answer.add(context, result)
       local c = choice_of(state)
       model.choices[#model.choices + 1], model[c.name] = c, c.rung
       if state.short then model.short[#model.short + 1] = state.short end
-      if not state.short and state.doubt and (state.by == "failed" or state.last == 1) then
+      if state.by == "failed" then model.blind = ("%s was not checked: %s"):format(c.name, c.why) end
+      if not state.short and state.doubt and state.by ~= "failed" and state.last == 1 then
         model.unchecked[#model.unchecked + 1] = ("%s: %s"):format(c.name, state.doubt)
       end
     end

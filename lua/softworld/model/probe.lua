@@ -2,6 +2,7 @@
 --- One computation on the way to a model: from the start of the run, of one rung of each choice, on a coarse
 -- level of edges and steps.
 -- @module softworld.model.probe
+local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local quantity = require "softworld.quantity"
@@ -85,7 +86,7 @@ function probe.of(context, rungs, k, factors, label)
   local fine, result = pcall(compute, context, rungs, k, factors)
   if not fine then
     if checks.is_interrupt(result) then error(result, 0) end
-    result = { ok = false, reason = tostring(result), raised = result }
+    result = { ok = false, reason = build.plain(tostring(result)), raised = result }
   end
   context.probes[key] = result
   context.probe_count = context.probe_count + 1

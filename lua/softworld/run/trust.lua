@@ -128,7 +128,9 @@ function trust.unmet(result)
   for _, name in ipairs(result.quantities and result.asked or {}) do
     if not result.quantities[name].met then names[#names + 1] = name end
   end
-  if #names == 0 then return nil end
+  if #names == 0 then
+    return result.met == false and result.model and "its model may leave out too much, see run:why()" or nil
+  end
   return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
 end
 
