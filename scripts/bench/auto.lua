@@ -194,6 +194,9 @@ local function one(kind, random, share)
   local build, moves = kind.of(random)
   local truth, why = run(build, { rolls = true, contact = true, settle = not moves }, share / 8, 6)
   if not truth then return nil, why end
+  for name, t in pairs(truth.quantities) do
+    if t.error > share * size(t.value) / 2 then return nil, name .. " is not known to the tolerance" end
+  end
   local r, reason, cost = run(build, { auto = true, settle = not moves }, share)
   if not r then return { failed = reason } end
   local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu,
@@ -221,25 +224,30 @@ local function one(kind, random, share)
   return out
 end
 
---- Scenes drawn by a seed: { name =, share =, rungs =, held =, rows =, cheapest =, too_cheap =, cost =,
--- probes = }.
+-- Too cheap, or dearer than need be?
+local function rate(row)
+  row.too_cheap = not row.enough[row.rungs]
+  row.cheapest = not row.too_cheap
+  for _, word in ipairs(fixed) do
+    if row.enough[word] and cheaper(word, row.rungs) and row.times[word] < row.times[row.rungs] then
+      row.cheapest, row.better = false, word
+    end
+  end
+end
+
+--- Scenes drawn by a seed, until so many are known well enough: { name =, share =, rungs =, held =, rows =,
+-- cheapest =, too_cheap =, cost =, probes = }.
 function auto.draw(count, seed, tell)
   local generator, list = require("softworld.study.design").generator(seed, 17), {}
-  for k = 1, count do
+  local k, known = 0, 0
+  while known < count and k < 4 * count do
+    k = k + 1
     local kind, share = auto.scenes[1 + (k - 1) % #auto.scenes], ({ 0.1, 0.03, 0.01 })[1 + (k - 1) % 3]
-    local got, why = one(kind, generator, share)
-    if not got then why = tostring(why) end
-    local row = got or { failed = why, no_truth = true }
+    local row, why = one(kind, generator, share)
+    row = row or { failed = tostring(why), no_truth = true }
     row.name, row.share = kind.name, share
-    if row.enough then
-      row.too_cheap = not row.enough[row.rungs]
-      row.cheapest = not row.too_cheap
-      for _, word in ipairs(fixed) do
-        if row.enough[word] and cheaper(word, row.rungs) and row.times[word] < row.times[row.rungs] then
-          row.cheapest, row.better = false, word
-        end
-      end
-    end
+    if not row.no_truth then known = known + 1 end
+    if row.enough then rate(row) end
     list[k] = row
     if tell then tell(row) end
   end
@@ -274,7 +282,7 @@ function auto.print(seed)
   for k = 1, 2 do
     local number = (tonumber(seed) or 1) + k - 1
     local f = auto.figures(auto.draw(20, number))
-    print(("\nruns that choose their model, seed %d: %d scenes (%d without a result)"):format(number,
+    print(("\nruns that choose their model, seed %d: %d scenes (%d not known well enough)"):format(number,
       f.scenes,
       f.failed))
     print(("  %.1f %% of %d bars hold (aim %g: %s); %.1f %% the cheapest that suffices (aim %g: %s), %.1f "

@@ -213,6 +213,11 @@ local function resting(put, r)
   put(("%s:run{ duration = 0.05, quasistatic = true, max_steps = %d }"):format(s, r.whole(1, 5)))
   local result = put(("%s:run{ duration = 0.02, tolerance = { ['tip'] = 1e-2 }, levels = 3 }"):format(s))
   put(result .. ":error_bars()")
+  put(("%s:advise{ tolerance = %s, duration = 1 }"):format(s, r.of{ "0.1", "1e-9", "1" }))
+  result = put(("%s:run{ duration = 0.02, model = 'auto', tolerance = { tip = { relative = %s } }, levels "
+    .. "= 3 }")
+    :format(s, r.of{ "0.5", "1e-3", "1e-12" }))
+  put(result .. ":why()")
 end
 
 local function written(put, r)

@@ -57,7 +57,8 @@ local function widen(result, model)
     met = met and q.met
   end
   if not met and not result.advice then
-    result.advice = model.short[1] or model.blind or "the tolerance is below what the cable's spread makes worth computing"
+    result.advice = model.short[1] or model.blind or "the tolerance is below what the cable's spread makes "
+      .. "worth computing"
   end
   result.met = met
 end
