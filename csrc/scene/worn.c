@@ -14,6 +14,13 @@ sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, int *par
   return SW_OK;
 }
 
+sw_extreme sw_scene_worn_sidewall(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = &s->wires[h.slot];
+  sw_extreme x = w->wear.sidewall;
+  x.s -= w->mesh.s[0];
+  return x;
+}
+
 sw_worn sw_scene_worn_place(const sw_scene *s, sw_handle h, size_t k) {
   const sw_scene_wire *w = &s->wires[h.slot];
   const sw_wear_place *x = &w->wear.places[k];

@@ -19,6 +19,8 @@ typedef struct sw_worn {
 /* How many places there are: 0 where nothing is kept. partial: 1, it is not of the whole run. */
 sw_status sw_scene_worn(const sw_scene *scene, sw_handle wire, size_t *places, int *partial,
                         sw_error *err);
+/* The largest pressure T/R of its surface where it touched something [N/m]. */
+sw_extreme sw_scene_worn_sidewall(const sw_scene *scene, sw_handle wire);
 /* Place number k of them, and its cycles of a signal (SW_CYCLES_KEPT + SW_CYCLES_OPEN at most),
  * whose number is returned. */
 sw_worn sw_scene_worn_place(const sw_scene *scene, sw_handle wire, size_t k);

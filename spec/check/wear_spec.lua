@@ -367,6 +367,11 @@ describe("work of friction", function()
     print(("measured: %.6g J, by the capstan %.6g J"):format(sum, wanted))
     assert.is_near(wanted, sum, 0.01 * wanted)
     assert.same({ 0, 0 }, { places[1].rubbed, places[n].rubbed })
+    -- T/R is largest where it leaves: T_in exp(mu angle) / R, at no frame
+    local pressure = run:check{ limits = { max_sidewall = 1e3 } }:row "max_sidewall"
+    assert.is_near(math.exp(mu * angle) / Rw, pressure.value, 0.02 * pressure.value)
+    assert.equal("PASS", pressure.verdict)
+    assert.is_nil(pressure.high)
     local row = run:check{ abrasion = { coefficient = 1e-12, source = "this spec", flag = "guessed" },
       limits = { wear_depth = 1e-9 } }:row "wear_depth"
     assert.truthy(row.note:find("1e-12 1/Pa, this spec; guessed", 1, true), row.note)
