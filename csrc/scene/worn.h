@@ -26,5 +26,8 @@ sw_extreme sw_scene_worn_sidewall(const sw_scene *scene, sw_handle wire);
 sw_worn sw_scene_worn_place(const sw_scene *scene, sw_handle wire, size_t k);
 size_t sw_scene_worn_cycles(const sw_scene *scene, sw_handle wire, size_t k, int signal,
                             sw_cycle *out);
+/* Values of the reversals among these that still wait for their cycle (SW_CYCLES_OPEN at most);
+ * gives how many. */
+size_t sw_scene_worn_open(const sw_scene *scene, sw_handle wire, size_t k, int signal, double *out);
 
 #endif
