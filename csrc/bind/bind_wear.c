@@ -41,8 +41,26 @@ static int mod_worn(lua_State *L) {
   return 2;
 }
 
-/* core.worn_cycles(wire, place, signal) -> flat list of range, mean, number; signal 0: the tension
- * [N], others: the bend in one of 12 directions over half a turn [1/m] */
+/* core.worn_sidewall(wire) -> largest pressure T/R where it touched [N/m], where [m], when [s]; nil
+ * where nothing is kept, or of a part of the run only */
+static int mod_worn_sidewall(lua_State *L) {
+  sw_scene *scene;
+  sw_error err = {""};
+  size_t count;
+  int partial;
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
+  if (!count || partial) return 0;
+  const sw_extreme x = sw_scene_worn_sidewall(scene, w->id);
+  lua_pushnumber(L, x.value);
+  lua_pushnumber(L, x.s);
+  lua_pushnumber(L, x.time);
+  return 3;
+}
+
+/* core.worn_cycles(wire, place, signal) -> flat list of range, mean, number, and values of the
+ * reversals among them that wait for their cycle; signal 0: the tension [N], others: the bend in
+ * one of 12 directions over half a turn [1/m] */
 static int mod_worn_cycles(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};
@@ -55,7 +73,10 @@ static int mod_worn_cycles(lua_State *L) {
   lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
   luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
   luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
-  return push_cycles(L, list, sw_scene_worn_cycles(scene, w->id, (size_t)k - 1, (int)signal, list));
+  double open[SW_CYCLES_OPEN];
+  push_cycles(L, list, sw_scene_worn_cycles(scene, w->id, (size_t)k - 1, (int)signal, list));
+  lsw_push_flat(L, open, sw_scene_worn_open(scene, w->id, (size_t)k - 1, (int)signal, open));
+  return 2;
 }
 
 /* core.cycles(list) -> flat list of range, mean, number, of a history of load */
@@ -70,7 +91,10 @@ static int mod_cycles(lua_State *L) {
   return push_cycles(L, list, sw_cycles_read(&c, list));
 }
 
-static const luaL_Reg functions[] = {
-    {"worn", mod_worn}, {"worn_cycles", mod_worn_cycles}, {"cycles", mod_cycles}, {NULL, NULL}};
+static const luaL_Reg functions[] = {{"worn", mod_worn},
+                                     {"worn_sidewall", mod_worn_sidewall},
+                                     {"worn_cycles", mod_worn_cycles},
+                                     {"cycles", mod_cycles},
+                                     {NULL, NULL}};
 
 void lsw_open_wear(lua_State *L) { luaL_setfuncs(L, functions, 0); }

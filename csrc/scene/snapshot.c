@@ -19,7 +19,7 @@ struct sw_snapshot {
   sw_snapshot *next;
   sw_tape tape;
   double time; /* [s] */
-  size_t build, holds, obstacles, tools, forces, joins, rules, frames, frame_stride;
+  size_t build, holds, obstacles, tools, forces, joins, rules, zones, frames, frame_stride;
   uint32_t *force; /* (forces) generations of those that are there; 0 of others */
 };
 
@@ -86,6 +86,7 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
     return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   }
   *p = (sw_snapshot){.force = force, .time = s->time, .build = s->build};
+  p->zones = s->zone_count;
   p->holds = s->hold_count, p->obstacles = s->obstacle_count, p->tools = s->tool_count;
   p->forces = s->force_count, p->joins = s->join_count, p->rules = s->rule_count;
   p->frames = s->frame_count, p->frame_stride = s->frame_stride;
@@ -110,7 +111,8 @@ static int same_system(const sw_scene *s, const sw_snapshot *p) {
   for (size_t k = 0; k < s->hold_count; k++)
     if (s->holds[k].alive && sw_hold_passes(&s->holds[k])) return 0;
   return s->obstacle_count == p->obstacles && s->tool_count == p->tools &&
-         s->force_count == p->forces && s->join_count == p->joins && s->rule_count == p->rules;
+         s->force_count == p->forces && s->join_count == p->joins && s->rule_count == p->rules &&
+         s->zone_count == p->zones;
 }
 
 /* The system stays, all else goes where it is. */

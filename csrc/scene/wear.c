@@ -83,7 +83,7 @@ static sw_status fit(sw_wear *w, const sw_plan *p) {
     }
     new.places[k].s = s, new.places[k].side = side;
   }
-  new.partial = w->partial; /* holds 0: directions are found anew */
+  new.sidewall = w->sidewall, new.partial = w->partial; /* holds 0: directions are found anew */
   sw_wear_free(w);
   *w = new;
   return SW_OK;
@@ -190,8 +190,10 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
     if (free_start && k == 0) x->turn = 0;
     turn_place(x, tangent_of(b, e), across_at(b, across, k),
                wear->holds != holds && !(free_start && k == 0));
-    count_place(&wear->cycles[SW_WEAR_SIGNALS * k], x, tension_at(p, T, k),
-                bend_of(&s->system, b, k));
+    const sw_vec bend = bend_of(&s->system, b, k);
+    const double tension = tension_at(p, T, k);
+    count_place(&wear->cycles[SW_WEAR_SIGNALS * k], x, tension, bend);
+    x->load = tension * sw_norm(bend), x->touches = 0;
   }
   wear->holds = holds;
   sw_free(across);
@@ -211,6 +213,7 @@ static void rub(sw_wear *w, const sw_body *b, size_t node, double share, double 
   if (node < b->first_node || node >= b->first_node + b->plan->nodes || !(share > 0)) return;
   const size_t i = node - b->first_node;
   const double length = share_of(b->plan, i);
+  w->places[i].touches = 1;
   w->places[i].rubbed += share * work / length;
   w->places[i].slid += share * slid / length;
 }
@@ -245,6 +248,27 @@ static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
   }
 }
 
+/* Pressure at a node that touches: chords on a round thing turn by turns too much and too little,
+ * so that where the next node touches too, the mean of both counts. */
+static double pressure_at(const sw_wear *w, size_t i) {
+  const sw_wear_place *x = &w->places[i];
+  if (!x->touches) return 0;
+  if (i + 1 < w->nodes && x[1].touches) return 0.5 * (x[0].load + x[1].load);
+  return i > 0 && x[-1].touches ? 0 : x->load;
+}
+
+/* Beside a clamp its node has what the clamp has. */
+static void press_sides(const sw_plan *p, double time, sw_wear *w) {
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    sw_wear_place *node = &w->places[p->clamps[c].node];
+    node->load = fmax(node->load, w->places[p->nodes + c].load);
+  }
+  for (size_t i = 0; i < w->nodes; i++) {
+    const double now = pressure_at(w, i);
+    if (now > w->sidewall.value) w->sidewall = (sw_extreme){now, p->s[i], time};
+  }
+}
+
 sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   sw_wear *wear = &s->wires[w].wear;
   const sw_body *b = &s->system.bodies[w];
@@ -258,7 +282,10 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   if (status == SW_OK) status = count_all(s, w, T);
   if (status != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'", s->wires[w].name);
-  if (rubs) rub_obstacles(s, b, wear), rub_bodies(s, b, wear);
+  if (rubs) {
+    rub_obstacles(s, b, wear), rub_bodies(s, b, wear);
+    press_sides(b->plan, s->time, wear);
+  }
   return SW_OK;
 }
 
@@ -280,7 +307,7 @@ static void tape_cycles(sw_tape *t, sw_cycles *c) {
 }
 
 static void tape_place(sw_tape *t, sw_wear_place *x) {
-  SW_TAPE_STRUCT(t, sw_wear_place, 88);
+  SW_TAPE_STRUCT(t, sw_wear_place, 104); /* load and touches are of one state */
   sw_tape_double(t, &x->s), sw_tape_double(t, &x->rubbed), sw_tape_double(t, &x->slid);
   sw_tape_double(t, &x->turn), sw_tape_vec(t, &x->tangent), sw_tape_vec(t, &x->across);
   sw_tape_int(t, &x->side), sw_tape_int(t, &x->seen);
@@ -290,7 +317,7 @@ static void tape_place(sw_tape *t, sw_wear_place *x) {
 
 void sw_tape_wear(sw_tape *t, sw_wear *w) {
   size_t count = w->count, nodes = w->nodes;
-  SW_TAPE_STRUCT(t, sw_wear, 48);
+  SW_TAPE_STRUCT(t, sw_wear, 72);
   sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
   sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
   if (!sw_tape_good(t)) return;
@@ -309,6 +336,8 @@ void sw_tape_wear(sw_tape *t, sw_wear *w) {
   }
   w->nodes = nodes;
   sw_tape_raw(t, &w->holds, sizeof w->holds), sw_tape_int(t, &w->partial);
+  sw_tape_double(t, &w->sidewall.value), sw_tape_double(t, &w->sidewall.s);
+  sw_tape_double(t, &w->sidewall.time);
   for (size_t k = 0; k < w->count && sw_tape_good(t); k++) tape_place(t, &w->places[k]);
   for (size_t k = 0; k < SW_WEAR_SIGNALS * w->count && sw_tape_good(t); k++)
     tape_cycles(t, &w->cycles[k]);

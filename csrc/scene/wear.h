@@ -24,6 +24,8 @@ typedef struct sw_wear_place {
   double rubbed, slid;    /* work of friction, normal force times way, per length [J/m], [N] */
   double turn;            /* from what is carried along the wire to its own direction [rad] */
   sw_vec tangent, across; /* the wire and its own direction at the last state [-] */
+  double load;            /* at this state: tension times curvature [N/m] */
+  int touches;            /* at this state: 1, something presses on it */
   int side;               /* -1, 1: where it enters or leaves what holds its direction; else 0 */
   int seen;               /* 1: tangent and across are known */
 } sw_wear_place;
@@ -33,6 +35,7 @@ typedef struct sw_wear {
   sw_wear_place *places; /* (count) */
   sw_cycles *cycles;     /* (count x SW_WEAR_SIGNALS) */
   uint64_t holds;        /* a number for what holds its direction where */
+  sw_extreme sidewall;   /* largest pressure T/R where it touches [N/m] */
   int partial;           /* 1: it was a mesh of particles for a while, of which nothing is kept */
 } sw_wear;
 

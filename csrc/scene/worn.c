@@ -14,6 +14,13 @@ sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, int *par
   return SW_OK;
 }
 
+sw_extreme sw_scene_worn_sidewall(const sw_scene *s, sw_handle h) {
+  const sw_scene_wire *w = &s->wires[h.slot];
+  sw_extreme x = w->wear.sidewall;
+  x.s -= w->mesh.s[0];
+  return x;
+}
+
 sw_worn sw_scene_worn_place(const sw_scene *s, sw_handle h, size_t k) {
   const sw_scene_wire *w = &s->wires[h.slot];
   const sw_wear_place *x = &w->wear.places[k];
@@ -23,4 +30,11 @@ sw_worn sw_scene_worn_place(const sw_scene *s, sw_handle h, size_t k) {
 size_t sw_scene_worn_cycles(const sw_scene *s, sw_handle h, size_t k, int signal, sw_cycle *out) {
   const sw_wear *w = &s->wires[h.slot].wear;
   return sw_cycles_read(&w->cycles[SW_WEAR_SIGNALS * k + (size_t)signal], out);
+}
+
+size_t sw_scene_worn_open(const sw_scene *s, sw_handle h, size_t k, int signal, double *out) {
+  const sw_wear *w = &s->wires[h.slot].wear;
+  const sw_cycles *c = &w->cycles[SW_WEAR_SIGNALS * k + (size_t)signal];
+  for (int i = 0; i < c->opened; i++) out[i] = c->open[i];
+  return (size_t)c->opened;
 }

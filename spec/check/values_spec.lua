@@ -178,10 +178,11 @@ local cases = {
     return run, {}, value, 0.01
   end,
   max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,
-  -- from 0 to 100 N: half a cycle, of a curve through 100 N, 500 cycles
+  -- from 0 to 100 N, of a curve through 100 N, 500 cycles: half a cycle at first, a whole one whenever it is
+  -- gone through again
   fatigue = function()
     local curve = { { 10, 5e5 }, { 100, 500 } }
-    return pulled(), { fatigue = { curve = curve, repeats = 20 } }, 20 * 0.5 / 500, 0.01
+    return pulled(), { fatigue = { curve = curve, repeats = 20 } }, (0.5 + 19) / 500, 0.01
   end,
   friction_work = function()
     local run, value = slid()

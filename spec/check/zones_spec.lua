@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Zones: how near a wire comes to them over a whole motion, and whose temperature it has.
 local sw = require "softworld"
+local core = require "softworld.core"
 
 local RADIUS = 0.0015
 
@@ -155,7 +156,7 @@ describe("scene:zone", function()
 
   for words, args in pairs{ ["scene:zone takes one table"] = 3, ["'size'"] =
     { shape = "box", siez = { 1, 1, 1 } },
-    ["temperature = -300 degC"] = { shape = "sphere", radius = 1, temperature = -300 },
+    ["zone sphere: temperature = -300 degC"] = { shape = "sphere", radius = 1, temperature = -300 },
     ["there is no parameter 'friction'"] = { shape = "sphere", radius = 1, friction = 1 },
     ["'no.stl'"] = { shape = "mesh", file = "no.stl" } } do
     it("refuses " .. words, function()
@@ -171,6 +172,23 @@ describe("scene:zone", function()
     local fine, why = pcall(scene.zone, scene, { name = "a", shape = "sphere", radius = 0.1 })
     assert.is_false(fine)
     assert.truthy(why:find("there is another zone 'a'", 1, true), why)
+  end)
+
+  it("goes with a snapshot", function()
+    local other = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    other:zone{ name = "first", shape = "sphere", radius = 0.01, at = { 0, 0, 0.1 } }
+    other:run{ duration = 0.02, dt = 0.01 }
+    local snapshot = other:snapshot()
+    other:zone{ name = "late", shape = "sphere", radius = 0.01, at = { 0, 0, 0.2 } }
+    other:run{ duration = 0.02, dt = 0.01 }
+    assert.equal(2, #core.zones(wire))
+    other:restore(snapshot)
+    local zones = core.zones(wire)
+    assert.same({ 1, "first" }, { #zones, zones[1].name })
+    assert.is_near(0.09 - RADIUS, zones[1].gap, 1e-9)
+    assert.equal("PASS", other:run{ duration = 0.02, dt = 0.01 }:check{}:row "clearance".verdict)
+    other:zone{ name = "late", shape = "sphere", radius = 0.01 }
   end)
 
   it("is refused from inside a step", function()

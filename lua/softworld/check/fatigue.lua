@@ -39,17 +39,31 @@ local function around(sums)
   return b * math.exp((before - after) ^ 2 / (8 * (before + after)))
 end
 
+-- Miner's sum of a run that is gone through so many times: of the first time as it is counted, half cycles
+-- that wait too; of each further one what closes as the run is gone through again. Half cycles at its begin
+-- count each time, which is on the safe side. open: its reversals that wait for their cycle.
+local function repeated(cycles, open, given, curve, strength)
+  local once, most = damage(cycles, curve, strength)
+  if given.repeats <= 1 then return once * given.repeats, most end
+  local twice = table.move(open, 1, #open, #open + 1, table.move(open, 1, #open, 1, {}))
+  local waiting = damage(rainflow.flat(open), curve, strength)
+  local both, wider = damage(rainflow.flat(twice), curve, strength)
+  return once + (given.repeats - 1) * (once - 2 * waiting + both), math.max(most, wider)
+end
+
 -- Of one place: what tension takes and what bending takes, with their largest ranges.
 local function of_place(object, k, given, strength)
   local pull, pull_range, bend, bend_range = 0, 0, 0, 0
   if given.curve then
-    pull, pull_range = damage(core.worn_cycles(object, k, 0), given.curve, strength)
+    local cycles, open = core.worn_cycles(object, k, 0)
+    pull, pull_range = repeated(cycles, open, given, given.curve, strength)
   end
   if given.bending then
     local sums = {}
     for way = 1, WAYS do
       local range
-      sums[way], range = damage(core.worn_cycles(object, k, way), given.bending)
+      local cycles, open = core.worn_cycles(object, k, way)
+      sums[way], range = repeated(cycles, open, given, given.bending)
       bend_range = math.max(bend_range, range)
     end
     bend = around(sums)
@@ -61,11 +75,11 @@ local function of_steps(entry, given, places, strength)
   local best = { value = 0 }
   for k, place in ipairs(places) do
     local sum, pull, bend = of_place(entry.object, k, given, strength)
-    if sum * given.repeats > best.value then
+    if sum > best.value then
       local ranges = {}
       if given.curve then ranges[1] = ("%.4g N"):format(pull) end
       if given.bending then ranges[#ranges + 1] = ("%.4g 1/m"):format(bend) end
-      best = { value = sum * given.repeats, s = place.s,
+      best = { value = sum, s = place.s,
         note = "ranges up to " .. table.concat(ranges, " and ") }
     end
   end
@@ -91,9 +105,9 @@ local function of_frames(entry, context, strength)
   if not list then return { value = 0 / 0, note = "the wire has not the same nodes in all frames" } end
   local best = { value = 0 }
   for k, history in ipairs(list) do
-    local sum, range = damage(rainflow.flat(history), given.curve, strength)
-    if sum * given.repeats > best.value then
-      best = { value = sum * given.repeats, s = places[k], note = ("ranges up to %.4g N"):format(range) }
+    local sum, range = repeated(rainflow.flat(history), history, given, given.curve, strength)
+    if sum > best.value then
+      best = { value = sum, s = places[k], note = ("ranges up to %.4g N"):format(range) }
     end
   end
   if not stored.whole(context, count) then

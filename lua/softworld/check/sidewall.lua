@@ -1,10 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Sidewall pressure of a wire that is drawn round something: tension over the radius of the bend, T/R [N/m],
--- where it touches. Frames give the largest that is stored; the largest tension and the sharpest bend of each
--- step, which may be at two places, are a bound for what passes between frames.
+-- where it touches. With scene:run{ wear = true } that of every step; else frames give the largest that is
+-- stored, and the largest tension and the sharpest bend of each step, which may be at two places, are a bound
+-- for what passes between them.
 -- @module softworld.check.sidewall
 local bendrule = require "softworld.wire.bendrule"
 local build = require "softworld.scene.build"
+local core = require "softworld.core"
 local stored = require "softworld.check.stored"
 local tension = require "softworld.check.tension"
 
@@ -30,6 +32,9 @@ end
 
 local function value(entry, context)
   local best, data = { value = 0 }, build.data(context.scene)
+  local kept, place, when = core.worn_sidewall(entry.object)
+  if kept and kept > 0 then return { value = kept, s = place, time = when } end
+  if kept then return #data.obstacles + #data.fixings > 0 and best or nil end
   local count = stored.each(context, entry, function(values, k, time, s)
     local now = pressure(values, k)
     if now > best.value then best = { value = now, s = s, time = time } end

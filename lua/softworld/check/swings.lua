@@ -3,6 +3,8 @@
 -- @module softworld.check.swings
 local MOST = 200 -- modes that are asked for at most [-]
 local FIRST = 12
+-- A check comes before scene:settle, which begins the peaks anew.
+local ADVICE = "let the run go on until the wire rests, or give vibration = { tolerance = }"
 
 local swings = {}
 
@@ -12,7 +14,9 @@ local function ask(wire, count, args)
     tolerance = args.tolerance })
   if fine then return found, count end
   local free = tonumber(tostring(found):match "more than the (%d+) free unknowns")
-  if not free or free < 1 then error(found, 0) end
+  if not free or free < 1 then
+    error((tostring(found):gsub("call scene:settle%(%) first", ADVICE)), 0)
+  end
   return wire:frequencies{ modes = free, shapes = args.shapes, tolerance = args.tolerance }, free, true
 end
 

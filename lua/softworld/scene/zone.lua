@@ -23,7 +23,9 @@ local function make(scene, args)
     local mesh = meshfile.read(own.file)
     own.data, own.format, own.file = mesh.data, own.format or mesh.format, nil
   end
-  return core.zone(scene, own)
+  local fine, result = pcall(core.zone, scene, own)
+  if not fine then error((build.plain(result):gsub("^obstacle", "zone", 1)), 0) end
+  return result
 end
 
 --- A part of space that nothing touches: run:check tells how near wires came to it.
