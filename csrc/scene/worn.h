@@ -4,6 +4,7 @@
 #define SW_SCENE_WORN_H
 
 #include "scene/cycles.h"
+#include "scene/reading.h"
 #include "scene/scene.h"
 
 /* What is counted at each place: the tension, then the bend in so many directions [-]. */

@@ -21,13 +21,13 @@ local trust = require "softworld.run.trust"
 
 local choose = {}
 
-local MODEL = 0.6  -- of a tolerance: what rungs may leave out [-]
-local LEAST = 0.5  -- of a tolerance: what edges and steps may always take [-]
-local SAFETY = 1.25 -- of a change from one rung to the next [-]
+local MODEL = 0.75 -- of a tolerance: what rungs may leave out [-]
+local LEAST = 0.25 -- of a tolerance: what edges and steps may always take [-]
 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
 local DOUBT = 4
 local LEVELS = 3   -- coarse ones on which rungs are compared
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
+local HOPELESS = 10 -- a bar over what is asked: no other rung will mend that [-]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 local function rungs_of(context)
@@ -72,9 +72,9 @@ local function change(context, state, here, above)
     local a, b = here.values[q.name], above.values[q.name]
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
     if d ~= d then d = math.huge end
-    c.all[q.name] = SAFETY * d
+    c.all[q.name] = d
     local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_out(context, q.name, state))
-    local off = d > 0 and SAFETY * d / allowed or 0
+    local off = d > 0 and d / allowed or 0
     if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
   end
   return c
@@ -257,16 +257,21 @@ local function broken(context, result)
   return again
 end
 
--- Poses whose bars are too long, as friction makes them: dynamics may do better. True when it is to try.
+-- A bar that stays too long may be the rung's own, as friction makes bars of poses: the first choice that
+-- the quantity depends on goes up. True when it does.
 local function shorter(context, result)
-  local state = context.states[1]
-  if result.met or state.rung == state.last or state.by == "given" then return false end
   for _, q in ipairs(result:error_bars()) do
-    if not q.met and q.error > context.spread:floor(q) then
-      raise_rung(context, state, ("the bar of %s by %s stays at %s (asked for %s)"):format(q.name,
-        state.choice.rungs[1].as, number.text(q.error, q.unit), number.text(q.tolerance, q.unit)))
-      settle(context)
-      return true
+    local hopeless = q.error > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
+    for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
+      local depends = state.by == "free" and state.choice.name == "motion"
+        or state.by == "compared" and state.change[q.name] > 0
+      if state.rung < state.last and depends then
+        raise_rung(context, state, ("with %s the bar of %s stays at %s (asked for %s)"):format(
+          state.choice.rungs[state.rung].as, q.name, number.text(q.error, q.unit),
+          number.text(q.tolerance, q.unit)))
+        settle(context)
+        return true
+      end
     end
   end
   return false
@@ -275,7 +280,7 @@ end
 local function compute(context)
   local base = settle(context)
   if base then context.spread:look(rungs_of(context), base) end
-  for _ = 1, #context.states + 1 do
+  for _ = 1, 2 * #context.states do
     local result = refined(context)
     if result.refused or not broken(context, result) and not shorter(context, result) then return result end
   end
