@@ -166,7 +166,7 @@ static sw_status check_freeze(const sw_scene *s, const sw_tool *t, sw_handle wir
   if (!w) return SW_EDEAD;
   if (t->frozen)
     return sw_fail(err, SW_EINVAL, "gripper '%s' holds its wire rigidly already", t->name);
-  if (!w->strand.web || !w->strand.web->per_ring)
+  if (!sw_scene_has_sections(w))
     return sw_fail(err, SW_EINVAL,
                    "gripper '%s': wire '%s' is a %s; only a mesh has sections that pads deform",
                    t->name, w->name, w->cls->name);

@@ -116,6 +116,11 @@ static inline size_t sw_plan_axial(const sw_plan *plan) {
   return plan->web ? plan->web->links : plan->edges;
 }
 
+/* Arc length of a node from where the wire begins now; of a particle, as its web has it [m]. */
+static inline double sw_plan_place(const sw_plan *plan, size_t node) {
+  return plan->s[node] - (plan->web ? 0.0 : plan->s[0]);
+}
+
 /* How far the surface is from a node that touches something [m]. */
 static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   const sw_web *web = plan->web;
