@@ -7,7 +7,6 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
-#include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
 #include "scene/links.h"

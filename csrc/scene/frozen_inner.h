@@ -37,8 +37,6 @@ struct sw_frozen {
   sw_jaw jaw;
 };
 
-/* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
-double *sw_frozen_accelerations(const sw_scene *scene, size_t wire, size_t *count);
 /* Put the built scene where it is in balance with its accelerations; those of the wire are
  * before (count x 3), of its rings or nodes. Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *scene, size_t wire, const double *rings, size_t count,
