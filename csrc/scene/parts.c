@@ -7,14 +7,16 @@
 #include "scene/obstacle.h"
 #include "scene/world.h"
 
-#define LIST(kind, type)                                                        \
-  size_t sw_scene_##kind##_slots(const sw_scene *s) { return s->kind##_count; } \
-  type *sw_scene_##kind##_in(const sw_scene *s, size_t slot) { return &s->kind##s[slot]; }
-LIST(wire, sw_scene_wire)
-LIST(hold, sw_hold)
-LIST(tool, sw_tool)
-LIST(obstacle, sw_scene_obstacle)
-#undef LIST
+size_t sw_scene_wire_slots(const sw_scene *s) { return s->wire_count; }
+sw_scene_wire *sw_scene_wire_in(const sw_scene *s, size_t slot) { return &s->wires[slot]; }
+size_t sw_scene_hold_slots(const sw_scene *s) { return s->hold_count; }
+sw_hold *sw_scene_hold_in(const sw_scene *s, size_t slot) { return &s->holds[slot]; }
+size_t sw_scene_tool_slots(const sw_scene *s) { return s->tool_count; }
+sw_tool *sw_scene_tool_in(const sw_scene *s, size_t slot) { return &s->tools[slot]; }
+size_t sw_scene_obstacle_slots(const sw_scene *s) { return s->obstacle_count; }
+sw_scene_obstacle *sw_scene_obstacle_in(const sw_scene *s, size_t slot) {
+  return &s->obstacles[slot];
+}
 size_t sw_scene_force_slots(const sw_scene *s) { return s->force_count; }
 size_t sw_scene_join_slots(const sw_scene *s) { return s->join_count; }
 size_t sw_scene_bodies_made(const sw_scene *s) { return s->wire_count + s->gone_count; }

@@ -129,6 +129,12 @@ static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   return lines && !sw_web_is_ring(web, sw_web_ring_of(web, node)) ? web->line_skin : web->skin;
 }
 
+/* The shortest of its edges, of its links or, along a mesh of rings, between these; infinite: it
+ * has none [m]. */
+double sw_plan_spacing(const sw_plan *plan);
+/* How far out its particles are from the axis of its wire; of nodes 0 [m]. */
+double sw_plan_lever(const sw_plan *plan);
+
 /* Let the wire slide through a held node until its arc length there is s: changes all
  * that depends on the edges beside it. spare: how much longer than by their arc lengths the
  * edges before and after are [m]. */
