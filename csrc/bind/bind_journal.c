@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "bind/module.h"
-#include "softworld.h"
 
 enum { DIGITS = 16 }; /* of a sum, after a space */
 

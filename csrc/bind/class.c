@@ -299,10 +299,6 @@ lua_Integer lsw_integer(lua_State *L, int index, const char *what) {
   return value;
 }
 
-void lsw_given(lua_State *L, int index, const char *what) {
-  if (lua_isnone(L, index)) luaL_error(L, "%s", what);
-}
-
 /* Item i of the array at table, or its field name; pushed. */
 static void push_item(lua_State *L, int table, int i, const char *name) {
   if (lua_geti(L, table, i) == LUA_TNIL) {

@@ -97,9 +97,6 @@ double lsw_number(lua_State *L, int index, const char *what, const char *unit);
 /* An integer at index, named in the error. */
 lua_Integer lsw_integer(lua_State *L, int index, const char *what);
 
-/* Raise the text what when there is no argument at index, not even nil. */
-void lsw_given(lua_State *L, int index, const char *what);
-
 void lsw_push_vector(lua_State *L, sw_vec a);      /* {x, y, z} */
 void lsw_push_quaternion(lua_State *L, sw_quat q); /* {w, x, y, z} */
 

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/vec.h"
 #include "calibrate/lattice.h"
 

@@ -5,7 +5,6 @@
 #include <nlopt.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "calibrate/search_inner.h"
 
 static const struct {

@@ -2,7 +2,6 @@
 /* A drawing on a canvas: four samples a dot, each face or ball among them lit once. */
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/simd.h"
 #include "draw/light.h"
 #include "draw/show.h"

@@ -47,6 +47,13 @@ typedef struct sw_body_class {
    * and segments, by their first nodes. What is no more is left as it is. */
   void (*carry_over)(const sw_body *body, const double *s, size_t count, size_t *new_node,
                      size_t *new_edge);
+
+  /* Read, of the built scene: what a place on the wire is like; of all particles' values
+   * (points x 3) those of the middle line's nodes (n x 3), and their arc lengths [m]. */
+  void (*at)(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
+             sw_point_state *out);
+  void (*middles)(const sw_plan *plan, const double *values, double *out);
+  double (*arc)(const sw_scene_wire *wire, const sw_plan *plan, size_t node);
 } sw_body_class;
 
 extern const sw_body_class sw_body_line, sw_body_web;
@@ -65,6 +72,10 @@ static inline void sw_body_interval(const sw_mesh *m, const sw_hold_args *a, dou
   *s1 = sw_mesh_snap(m, a->s - 0.5 * a->width);
   *s2 = sw_mesh_snap(m, a->s + 0.5 * a->width);
 }
+
+/* What a place on a line is like: see at (measure.c). */
+void sw_line_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
+                sw_point_state *out);
 
 /* Both hold the same: SW_EINVAL. */
 sw_status sw_scene_held_twice(const sw_scene *scene, const sw_hold *a, const sw_hold *b,

@@ -223,6 +223,17 @@ static void carry_over(const sw_body *b, const double *s, size_t count, size_t *
   }
 }
 
+/* --- read ----------------------------------------------------------------------- */
+
+static void middles(const sw_plan *p, const double *values, double *out) {
+  memcpy(out, values, 3 * p->nodes * sizeof *out);
+}
+
+static double arc(const sw_scene_wire *w, const sw_plan *p, size_t node) {
+  (void)w;
+  return sw_plan_place(p, node);
+}
+
 /* Apart: edges between two holds, a quarter as long, must be told from nothing. */
 const sw_body_class sw_body_line = {.held = "node",
                                     .apart = 1e-6,
@@ -235,4 +246,7 @@ const sw_body_class sw_body_line = {.held = "node",
                                     .refine = refine_gaps,
                                     .add_held = add_held,
                                     .check_holds = check_holds,
-                                    .carry_over = carry_over};
+                                    .carry_over = carry_over,
+                                    .at = sw_line_at,
+                                    .middles = middles,
+                                    .arc = arc};

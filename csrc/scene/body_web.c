@@ -122,6 +122,17 @@ static void carry_over(const sw_body *b, const double *s, size_t count, size_t *
   for (size_t k = 0; k < count; k++) new_node[k] = new_edge[k] = b->first_node + k;
 }
 
+/* --- read ----------------------------------------------------------------------- */
+
+static void middles(const sw_plan *p, const double *values, double *out) {
+  for (size_t r = 0; r < p->web->rings; r++) sw_web_middle(p->web, values, r, out + 3 * r);
+}
+
+static double arc(const sw_scene_wire *w, const sw_plan *p, size_t ring) {
+  (void)p;
+  return w->mesh.s[ring];
+}
+
 const sw_body_class sw_body_web = {.held = "particles",
                                    .apart = 0.0,
                                    .state = state,
@@ -133,4 +144,7 @@ const sw_body_class sw_body_web = {.held = "particles",
                                    .refine = refine,
                                    .add_held = add_held,
                                    .check_holds = check_holds,
-                                   .carry_over = carry_over};
+                                   .carry_over = carry_over,
+                                   .at = sw_strand_at,
+                                   .middles = middles,
+                                   .arc = arc};

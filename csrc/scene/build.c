@@ -6,7 +6,6 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "base/log.h"
 #include "base/tape.h"
 #include "link/hold.h"
 #include "scene/body.h"

@@ -3,7 +3,6 @@
  * is wire that can be meshed. */
 #include <math.h>
 
-#include "base/alloc.h"
 #include "link/hold.h"
 #include "scene/body.h"
 #include "scene/hold.h"

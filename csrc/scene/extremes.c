@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/log.h"
 #include "base/simd.h"
 #include "link/hold.h"
 #include "scene/line.h"

@@ -7,7 +7,6 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
-#include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
 #include "scene/links.h"
@@ -136,18 +135,19 @@ static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
   return status;
 }
 
-static sw_status change_to_rod(sw_scene *s, sw_handle tool, sw_frozen *f, const sw_line *line,
-                               const sw_grip_end ends[2], const double *a, size_t count,
-                               sw_balance *balance, sw_freeze_report *out, sw_error *err) {
+static sw_status change_to_rod(sw_scene *s, const sw_exchange *x, const double *a, size_t count,
+                               sw_freeze_report *out, sw_error *err) {
+  sw_frozen *f = x->frozen;
   sw_vec about;
+  take_turns(x->line, x->ends);
   sw_momentum_of(s, f->wire.slot, &about, out->before);
   out->energy_before = sw_scene_total_energy(s, err);
-  SW_TRY(become_rod(s, f->wire, line, err));
-  SW_TRY(grip(s, tool, f, ends, out, err));
+  SW_TRY(become_rod(s, f->wire, x->line, err));
+  SW_TRY(grip(s, x->tool, f, x->ends, out, err));
   f->hold = out->hold;
-  SW_TRY(sw_scene_tool_pads_on(s, tool, 0, err));
+  SW_TRY(sw_scene_tool_pads_on(s, x->tool, 0, err));
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, balance));
+  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, x->balance));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
@@ -165,7 +165,7 @@ static sw_status check_freeze(const sw_scene *s, const sw_tool *t, sw_handle wir
   if (!w) return SW_EDEAD;
   if (t->frozen)
     return sw_fail(err, SW_EINVAL, "gripper '%s' holds its wire rigidly already", t->name);
-  if (!w->strand.web || !w->strand.web->per_ring)
+  if (!sw_scene_has_sections(w))
     return sw_fail(err, SW_EINVAL,
                    "gripper '%s': wire '%s' is a %s; only a mesh has sections that pads deform",
                    t->name, w->name, w->cls->name);
@@ -176,8 +176,6 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
                                sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
   sw_grip_end ends[2];
-  sw_snapshot *before = NULL;
-  sw_error ignored;
   *out = (sw_freeze_report){0};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
@@ -195,25 +193,17 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   }
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
   if (status == SW_OK) status = keep(s, t, wire, f, &line, ends, err);
-  if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
-  size_t count = 0;
-  double *a = status == SW_OK ? sw_frozen_accelerations(s, wire.slot, &count) : NULL;
-  if (status == SW_OK && !a) status = SW_ENOMEM;
-  if (status == SW_OK) take_turns(&line, ends);
-  if (status == SW_OK) status = change_to_rod(s, tool, f, &line, ends, a, count, balance, out, err);
-  sw_free(a);
+  const sw_exchange exchange = {tool, wire.slot, f, &line, ends, balance, change_to_rod};
+  if (status == SW_OK) status = sw_frozen_exchange(s, &exchange, out, err);
   sw_line_free(&line);
   if (status == SW_OK) {
     sw_scene_tool_in(s, tool.slot)->frozen = f;
-    sw_course_go_on(sw_scene_course(s));
     sw_tool_state *now = &sw_scene_tool_in(s, tool.slot)->now;
     now->margin = sw_frozen_margin(f, sw_unrotate(f->pose.q, out->force),
                                    sw_unrotate(f->pose.q, out->moment));
     now->lost_time = NAN;
   } else {
-    if (before) sw_scene_restore(s, before, &ignored);
     sw_frozen_release(f);
   }
-  sw_snapshot_free(before);
   return status == SW_ENOMEM ? sw_fail(err, status, "gripper: out of memory") : status;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/parts.h"
 
@@ -65,7 +66,7 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
 }
 
 /* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
-double *sw_frozen_accelerations(const sw_scene *s, size_t wire, size_t *count) {
+static double *accelerations(const sw_scene *s, size_t wire, size_t *count) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[wire];
   const sw_web *web = b->plan->web;
@@ -79,4 +80,21 @@ double *sw_frozen_accelerations(const sw_scene *s, size_t wire, size_t *count) {
       sw_store(out + 3 * r, sw_vec_at(a, r));
   }
   return out;
+}
+
+sw_status sw_frozen_exchange(sw_scene *s, const sw_exchange *x, sw_freeze_report *out,
+                             sw_error *err) {
+  sw_snapshot *before = NULL;
+  sw_error ignored;
+  size_t count = 0;
+  SW_TRY(sw_scene_snapshot(s, &before, err));
+  double *a = accelerations(s, x->wire, &count);
+  const sw_status status = a ? x->change(s, x, a, count, out, err) : SW_ENOMEM;
+  sw_free(a);
+  if (status == SW_OK)
+    sw_course_go_on(sw_scene_course(s));
+  else
+    sw_scene_restore(s, before, &ignored);
+  sw_snapshot_free(before);
+  return status;
 }

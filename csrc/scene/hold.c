@@ -19,7 +19,6 @@
 #include "state/field.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
-#include "system/system.h"
 
 static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t wire,
                              const sw_hold_args *a, sw_error *err) {

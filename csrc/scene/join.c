@@ -13,7 +13,6 @@
 #include "scene/links.h"
 #include "scene/world.h"
 #include "state/mesh.h"
-#include "system/join.h"
 
 /* How far from each other the ends may be, of the shortest segment there [-]. */
 static const double LARGEST_GAP = 0.02;

@@ -69,6 +69,11 @@ static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
   return wire->strand.web && !wire->strand.web->per_ring;
 }
 
+/* 1: a wire that is a mesh of particles, with sections along it. */
+static inline int sw_scene_has_sections(const sw_scene_wire *wire) {
+  return wire->strand.web && wire->strand.web->per_ring;
+}
+
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
 /* May it touch others? Wires that are lines and objects of particles do, sections of meshes do not.

@@ -158,19 +158,10 @@ double sw_scene_torque(const sw_system *s, const sw_body *b, double at) {
   return 0.0;
 }
 
-sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
-                           sw_error *err) {
-  sw_scene_wire *w;
+void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, double at,
+                sw_point_state *out) {
   sw_vec t0, t1;
   double k0, k1, f;
-  SW_TRY(sw_scene_open_wire(s, h, &w, err));
-  SW_TRY(sw_scene_check_place(w, place, err));
-  const double at = place + w->mesh.s[0];
-  const sw_body *b = &s->system.bodies[h.slot];
-  if (b->plan->web) {
-    sw_strand_at(s, w, b, at, out);
-    return SW_OK;
-  }
   const size_t e = sw_plan_locate(b->plan, at, &f);
   const double *x = s->system.x + 3 * (b->first_node + e);
   const double *v = s->system.v + 3 * (b->first_node + e);
@@ -195,6 +186,14 @@ sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_stat
   out->strain = out->elastic / w->beam.EA + bent;
   out->least_strain = out->elastic / w->beam.EA - bent;
   out->twist_moment = sw_scene_torque(&s->system, b, at);
+}
+
+sw_status sw_scene_wire_at(sw_scene *s, sw_handle h, double place, sw_point_state *out,
+                           sw_error *err) {
+  sw_scene_wire *w;
+  SW_TRY(sw_scene_open_wire(s, h, &w, err));
+  SW_TRY(sw_scene_check_place(w, place, err));
+  sw_body_class_of(w)->at(s, w, &s->system.bodies[h.slot], place + w->mesh.s[0], out);
   return SW_OK;
 }
 
@@ -203,17 +202,11 @@ sw_status sw_scene_wire_copy(sw_scene *s, sw_handle h, double *positions, double
   sw_scene_wire *w;
   SW_TRY(sw_scene_open_wire(s, h, &w, err));
   const sw_body *b = &s->system.bodies[h.slot];
-  const size_t n = b->plan->nodes, at = 3 * b->first_node;
-  const sw_web *web = b->plan->web;
-  for (size_t r = 0; web && r < web->rings; r++) {
-    if (positions) sw_web_middle(web, s->system.x + at, r, positions + 3 * r);
-    if (velocities) sw_web_middle(web, s->system.v + at, r, velocities + 3 * r);
-    if (arc) arc[r] = w->mesh.s[r];
-  }
-  if (web) return SW_OK;
-  if (positions) memcpy(positions, s->system.x + 3 * b->first_node, 3 * n * sizeof(double));
-  if (velocities) memcpy(velocities, s->system.v + 3 * b->first_node, 3 * n * sizeof(double));
-  for (size_t i = 0; arc && i < n; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
+  const sw_body_class *body = sw_body_class_of(w);
+  const size_t at = 3 * b->first_node;
+  if (positions) body->middles(b->plan, s->system.x + at, positions);
+  if (velocities) body->middles(b->plan, s->system.v + at, velocities);
+  for (size_t i = 0; arc && i < w->mesh.n; i++) arc[i] = body->arc(w, b->plan, i);
   return SW_OK;
 }
 

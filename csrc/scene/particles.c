@@ -14,7 +14,6 @@
 #include "scene/scene.h"
 #include "scene/world.h"
 #include "state/mesh.h"
-#include "system/system.h"
 
 static const sw_param rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_particles_args, name),

@@ -24,7 +24,6 @@ typedef struct sw_system sw_system;
 typedef struct sw_contact sw_contact;
 typedef struct sw_pairs sw_pairs;
 typedef struct sw_grains sw_grains;
-typedef struct sw_crowd sw_crowd;
 
 /* Slots of each kind [-], and what is in one; some may be empty. */
 size_t sw_scene_wire_slots(const sw_scene *scene);
@@ -36,9 +35,7 @@ sw_tool *sw_scene_tool_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_obstacle_slots(const sw_scene *scene);
 sw_scene_obstacle *sw_scene_obstacle_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_force_slots(const sw_scene *scene);
-sw_scene_force *sw_scene_force_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_join_slots(const sw_scene *scene);
-sw_joint *sw_scene_join_in(const sw_scene *scene, size_t slot);
 /* How many bodies were made so far, those that are gone too: frames have a number for each. */
 size_t sw_scene_bodies_made(const sw_scene *scene);
 
@@ -47,9 +44,6 @@ sw_system *sw_scene_system(const sw_scene *scene);
 sw_contact *sw_scene_contact(const sw_scene *scene);
 sw_pairs *sw_scene_pairs(const sw_scene *scene);
 sw_grains *sw_scene_grains(const sw_scene *scene);
-sw_crowd *sw_scene_crowd(const sw_scene *scene);
-/* The hold that is number k of the system. */
-sw_hold *sw_scene_hold_of(const sw_scene *scene, size_t k);
 
 /* What it remembers of its steps, of their energy, and of what happened. */
 sw_course *sw_scene_course(const sw_scene *scene);

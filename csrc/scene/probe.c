@@ -4,7 +4,6 @@
  * direction. For specs, and for anyone who wants to look inside. */
 #include "scene/line.h"
 #include "scene/parts.h"
-#include "system/linear.h"
 
 /* Node forces out of what the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {

@@ -14,12 +14,6 @@ typedef struct sw_point_state {
   double strain, least_strain;        /* of the fibres outside and inside the bend [-] */
 } sw_point_state;
 
-typedef struct sw_extreme {
-  double value; /* [its unit] */
-  double s;     /* where [m] */
-  double time;  /* when [s] */
-} sw_extreme;
-
 sw_status sw_scene_wire_length(sw_scene *scene, sw_handle wire, double *length, sw_error *err);
 sw_status sw_scene_wire_nodes(sw_scene *scene, sw_handle wire, size_t *nodes, sw_error *err);
 sw_status sw_scene_wire_beam(sw_scene *scene, sw_handle wire, sw_beam *out, sw_error *err);

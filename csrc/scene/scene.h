@@ -21,6 +21,13 @@ typedef struct sw_handle {
   uint32_t slot, generation; /* generation 0 = no object */
 } sw_handle;
 
+/* The largest of some values. */
+typedef struct sw_extreme {
+  double value; /* [its unit] */
+  double s;     /* where [m] */
+  double time;  /* when [s] */
+} sw_extreme;
+
 typedef struct sw_scene_args {
   char name[SW_NAME_SIZE];
   sw_vec gravity; /* [m/s2] */

@@ -3,12 +3,9 @@
  * the forces that its sections carry, and their deformation. */
 #include <math.h>
 
-#include "base/alloc.h"
 #include "force/solid.h"
 #include "scene/line.h"
 #include "scene/world.h"
-#include "state/mesh.h"
-#include "system/system.h"
 
 /* --- sections -------------------------------------------------------------------- */
 

@@ -13,7 +13,7 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_
   sw_scene_wire *wire;
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
   *body = &sw_scene_system(s)->bodies[h.slot];
-  if (wire->strand.web && wire->strand.web->per_ring) return SW_OK;
+  if (sw_scene_has_sections(wire)) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "wire:%s: wire '%s' is a %s, which has no surface of its own; it is known of "
                  "meshes of particles (model = 'tube', 'radial', 'cubic', ...)",

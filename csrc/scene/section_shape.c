@@ -40,7 +40,7 @@ static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out
   SW_TRY(sw_scene_open_wire(s, h, &wire, err));
   const sw_body *b = &sw_scene_system(s)->bodies[h.slot];
   *out = (spot){.wire = wire, .web = b->plan->web, .x = sw_scene_system(s)->x + 3 * b->first_node};
-  if (out->web && out->web->per_ring) return SW_OK;
+  if (sw_scene_has_sections(wire)) return SW_OK;
   sw_fail(err, SW_EINVAL,
           "wire:%s: wire '%s' is a %s, whose section does not change; it is known of meshes of "
           "particles (model = 'tube', 'radial', 'cubic', ...)",

@@ -6,7 +6,6 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
-#include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
 #include "scene/links.h"
@@ -103,10 +102,11 @@ static sw_status become_mesh(sw_scene *s, const sw_frozen *f, const sw_motion_st
   return sw_scene_replace_wire(s, f->wire.slot, &next, err);
 }
 
-static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f, sw_line *line,
-                                const double *a, size_t count, sw_balance *balance,
+static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double *a, size_t count,
                                 sw_freeze_report *out, sw_error *err) {
-  const sw_tool *t = sw_scene_tool_in(s, tool.slot);
+  const sw_tool *t = sw_scene_tool_in(s, x->tool.slot);
+  const sw_frozen *f = x->frozen;
+  sw_line *line = x->line;
   size_t pads[SW_TOOL_PADS];
   sw_motion_state now;
   sw_vec about;
@@ -117,13 +117,13 @@ static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f,
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(sw_scene_release_hold(s, f->hold, err));
   SW_TRY(become_mesh(s, f, &now, line, err));
-  SW_TRY(sw_scene_tool_pads_on(s, tool, 1, err));
+  SW_TRY(sw_scene_tool_pads_on(s, x->tool, 1, err));
   SW_TRY(sw_scene_build(s, err));
   for (size_t k = 0; k < t->pads; k++) pads[k] = t->pad[k].obstacle;
   const size_t first = sw_scene_system(s)->bodies[f->wire.slot].first_node;
   SW_TRY(sw_contact_add_memory(sw_scene_contact(s), f->memory, f->bytes, f->node,
                                f->node + f->nodes, first, pads, t->pads));
-  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, balance));
+  SW_TRY(sw_frozen_balance(s, f->wire.slot, a, count, x->balance));
   SW_TRY(sw_momentum_match(s, f->wire.slot, about, out->before));
   sw_momentum_about(s, f->wire.slot, about, out->after);
   out->energy_after = sw_scene_total_energy(s, err);
@@ -133,8 +133,6 @@ static sw_status change_to_mesh(sw_scene *s, sw_handle tool, const sw_frozen *f,
 sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
-  sw_snapshot *before = NULL;
-  sw_error ignored;
   *out = (sw_freeze_report){0};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
@@ -147,25 +145,17 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
     return sw_fail(err, SW_EINVAL, "gripper '%s': wire '%s' was remodelled while it was held",
                    t->name, sw_scene_wire_in(s, f->wire.slot)->name);
   SW_TRY(sw_scene_build(s, err));
+  const sw_exchange exchange = {tool, f->wire.slot, f, &line, NULL, balance, change_to_mesh};
   sw_status status = sw_scene_tool_force(s, tool, NULL, &out->force, &out->moment, err);
-  if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
-  size_t count = 0;
-  double *a = status == SW_OK ? sw_frozen_accelerations(s, f->wire.slot, &count) : NULL;
-  if (status == SW_OK && !a) status = SW_ENOMEM;
-  if (status == SW_OK) status = change_to_mesh(s, tool, f, &line, a, count, balance, out, err);
-  sw_free(a);
+  if (status == SW_OK) status = sw_frozen_exchange(s, &exchange, out, err);
   sw_line_free(&line);
   if (status == SW_OK) {
     sw_tool *thawed = sw_scene_tool_in(s, tool.slot);
     thawed->jaw = f->jaw;
     thawed->jaw.since = sw_scene_time(s), thawed->jaw.speed = 0;
     thawed->frozen = NULL;
-    sw_course_go_on(sw_scene_course(s));
     thawed->now.lost_time = NAN;
     sw_frozen_release(f);
-  } else if (before) {
-    sw_scene_restore(s, before, &ignored);
   }
-  sw_snapshot_free(before);
   return status == SW_ENOMEM ? sw_fail(err, status, "gripper: out of memory") : status;
 }

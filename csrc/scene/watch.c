@@ -54,7 +54,7 @@ static sw_status add(sw_scene *s, int kind, sw_handle of, const double *row, con
 sw_status sw_watch_wire(sw_scene *s, size_t slot, const sw_wire_extremes *now, sw_error *err) {
   const sw_scene_wire *w = &s->wires[slot];
   const double row[SW_LOG_WIRE_SIZE] = {s->time, now->tension.value, now->curvature.value};
-  if (w->strand.web && !w->strand.web->per_ring) return SW_OK; /* an object of particles */
+  if (sw_scene_is_loose(w)) return SW_OK; /* an object of particles */
   return add(s, OF_WIRE, (sw_handle){(uint32_t)slot, w->generation}, row, w->name, err);
 }
 

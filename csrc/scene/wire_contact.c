@@ -60,17 +60,15 @@ static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, doubl
   const sw_body *b = &s->system.bodies[p->body[k]];
   const size_t i = p->node[k] - b->first_node;
   const double *x = s->system.x + 3 * p->node[k];
-  if (b->plan->web) {
-    *arc = b->plan->web->s[i];
-    return sw_load(x);
-  }
-  *arc = b->plan->s[i] - b->plan->s[0] + p->at[k] * b->plan->rest[i];
+  *arc = sw_plan_place(b->plan, i);
+  if (i >= b->plan->edges) return sw_load(x); /* a particle, or where the wire ends */
+  *arc += p->at[k] * b->plan->rest[i];
   return sw_lerp(sw_load(x), sw_load(x + 3), p->at[k]);
 }
 
-static double touching_radius(const sw_scene *s, size_t body) {
-  const sw_plan *p = s->system.bodies[body].plan;
-  return p->web ? p->web->skin : p->beam.radius;
+static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) {
+  const sw_body *b = &s->system.bodies[p->body[k]];
+  return sw_plan_skin(b->plan, p->node[k] - b->first_node);
 }
 
 /* Of a wire and an object of particles the object comes first, whichever has the edge there. */
@@ -95,7 +93,7 @@ void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
     at[k] = touched_at(s, &p, k, &out->s[k]);
     memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
   }
-  const double r1 = touching_radius(s, p.body[0]), r2 = touching_radius(s, p.body[1]);
+  const double r1 = touching_radius(s, &p, 0), r2 = touching_radius(s, &p, 1);
   out->point = sw_lerp(at[1], at[0], r2 / (r1 + r2));
   out->normal = p.normal;
   out->force = sw_madd(p.friction, p.normal, p.normal_force);

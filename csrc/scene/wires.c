@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/log.h"
 #include "scene/line.h"
 #include "scene/world.h"
 #include "state/mesh.h"

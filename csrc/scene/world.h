@@ -13,6 +13,8 @@
 #include "scene/zone.h"
 #include "system/system.h"
 
+typedef struct sw_crowd sw_crowd;
+
 struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;              /* generation of the object made last */

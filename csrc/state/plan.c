@@ -216,6 +216,20 @@ sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_p
   return SW_OK;
 }
 
+double sw_plan_spacing(const sw_plan *p) {
+  const sw_web *web = p->web;
+  double shortest = HUGE_VAL;
+  for (size_t e = 0; e < p->edges; e++) shortest = fmin(shortest, p->rest[e]);
+  if (!web) return shortest;
+  for (size_t e = 0; !web->per_ring && e < web->links; e++)
+    shortest = fmin(shortest, web->link[e].rest);
+  return web->rings > 1 ? fmin(shortest, p->length / (double)(web->rings - 1)) : shortest;
+}
+
+double sw_plan_lever(const sw_plan *p) {
+  return p->web && p->web->rings > 1 ? p->beam.radius : 0.0;
+}
+
 void sw_plan_slide(sw_plan *p, size_t node, double s, const double spare[2]) {
   const size_t from = node > 0 ? node - 1 : 0, to = node + 1 < p->nodes ? node + 1 : node;
   p->s[node] = s;

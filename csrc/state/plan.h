@@ -116,6 +116,11 @@ static inline size_t sw_plan_axial(const sw_plan *plan) {
   return plan->web ? plan->web->links : plan->edges;
 }
 
+/* Arc length of a node from where the wire begins now; of a particle, as its web has it [m]. */
+static inline double sw_plan_place(const sw_plan *plan, size_t node) {
+  return plan->s[node] - (plan->web ? 0.0 : plan->s[0]);
+}
+
 /* How far the surface is from a node that touches something [m]. */
 static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   const sw_web *web = plan->web;
@@ -123,6 +128,12 @@ static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   const int lines = web->per_ring && web->particles != web->rings * web->per_ring;
   return lines && !sw_web_is_ring(web, sw_web_ring_of(web, node)) ? web->line_skin : web->skin;
 }
+
+/* The shortest of its edges, of its links or, along a mesh of rings, between these; infinite: it
+ * has none [m]. */
+double sw_plan_spacing(const sw_plan *plan);
+/* How far out its particles are from the axis of its wire; of nodes 0 [m]. */
+double sw_plan_lever(const sw_plan *plan);
 
 /* Let the wire slide through a held node until its arc length there is s: changes all
  * that depends on the edges beside it. spare: how much longer than by their arc lengths the

@@ -40,9 +40,8 @@ static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *w
   if (sw_scene_is_loose(sw_scene_wire_in(s, b)))
     return sw_fail(err, SW_EDIVERGED, "%s of particle %zu of '%s' is no finite number", what,
                    node + 1, name);
-  const double at = body->plan->web ? body->plan->web->s[node] : body->plan->s[node];
   return sw_fail(err, SW_EDIVERGED, "%s of wire '%s' near s = %.4g m is no finite number", what,
-                 name, at - body->plan->s[0]);
+                 name, body->plan->s[node] - body->plan->s[0]);
 }
 
 /* Which node it is whose place or velocity is out of the numbers. */

@@ -3,7 +3,6 @@
  * accepted. */
 #include <math.h>
 
-#include "base/alloc.h"
 #include "contact/grains.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"

@@ -206,9 +206,7 @@ void sw_ledger_retry(const sw_scene *s, sw_retries *r, double time, double exces
   if (!(excess > r->largest)) return;
   const size_t node = fastest_gain(s), body = sw_system_body_of(&s->system, node);
   const sw_body *b = &s->system.bodies[body];
-  const sw_plan *p = b->plan;
-  const double *arc = p->web ? p->web->s : p->s;
   r->largest = excess, r->time = time;
-  r->s = arc[node - b->first_node] - (p->web ? 0.0 : arc[0]);
+  r->s = sw_plan_place(b->plan, node - b->first_node);
   snprintf(r->object, sizeof r->object, "%s", s->wires[body].name);
 }

@@ -38,24 +38,16 @@ static void find_from_poses(sw_statics *p) {
 
 static double shortest_edge(const sw_system *s) {
   double shortest = HUGE_VAL;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_plan *p = s->bodies[b].plan;
-    if (p->web && p->web->rings > 1)
-      shortest = fmin(shortest, p->length / (double)(p->web->rings - 1));
-    for (size_t e = 0; p->web && !p->web->per_ring && e < p->web->links; e++)
-      shortest = fmin(shortest, p->web->link[e].rest);
-    for (size_t e = 0; e < p->edges; e++) shortest = fmin(shortest, p->rest[e]);
-  }
+  for (size_t b = 0; b < s->body_count; b++)
+    shortest = fmin(shortest, sw_plan_spacing(s->bodies[b].plan));
   return shortest;
 }
 
 /* How far out particles of a mesh are from the axis about which a hold turns them [m]. */
 static double widest_mesh(const sw_system *s) {
   double widest = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_plan *p = s->bodies[b].plan;
-    if (p->web && p->web->rings > 1) widest = fmax(widest, p->beam.radius);
-  }
+  for (size_t b = 0; b < s->body_count; b++)
+    widest = fmax(widest, sw_plan_lever(s->bodies[b].plan));
   return widest;
 }
 

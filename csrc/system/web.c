@@ -9,7 +9,6 @@
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
-#include "system/assemble.h"
 
 /* --- the matrix -------------------------------------------------------------------- */
 
