@@ -290,7 +290,8 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .held = all_held(s, n),
                  .reach = sum,
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
-                               p->rate2 * lighter_mass(s, n))};
+                               p->rate2 * lighter_mass(s, n)),
+                 .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
   for (uint32_t i = 0; i < 2 && !k->held; i++)
     for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_bridge(s, k->one + i, k->two + j));
   return SW_OK;
