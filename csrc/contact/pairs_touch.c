@@ -301,15 +301,6 @@ sw_status sw_pairs_eval(sw_pairs *p, sw_system *s, const double *y, unsigned wan
 
 /* --- after the solve -------------------------------------------------------------- */
 
-static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
-  const sw_pair *k = &p->pairs[t->pair];
-  const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
-  const int agrees =
-      sw_press_update(&t->press, sw_pair_rule_of(p, k->body)->friction, shift, scale);
-  if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach) return 0;
-  return agrees;
-}
-
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
   const int small = sw_press_is_short(p->regime == SW_CONTACT_STATIC, p->h, p->nominal);
@@ -342,6 +333,39 @@ static double scale_of(const sw_pairs *p, const sw_pair_touch *t) {
   return fmin(p->largest[body[0]], p->largest[body[1]]);
 }
 
+typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
+
+static verdict update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
+  const sw_pair *k = &p->pairs[t->pair];
+  const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
+  const double friction = sw_pair_rule_of(p, k->body)->friction;
+  const int agrees = sw_press_update(&t->press, friction, shift, scale);
+  for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &p->rubbing[k->body[i]]);
+  if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach)
+    return GOES_ON;
+  return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
+}
+
+/* Is what friction is off by little for each wire? */
+static int rubs_enough(const sw_pairs *p) {
+  if (p->regime != SW_CONTACT_IMPLICIT || p->updates <= SW_PATIENCE) return 0;
+  for (size_t b = 0; b < p->bodies; b++)
+    if (!sw_press_enough(&p->rubbing[b])) return 0;
+  return 1;
+}
+
+static int update_all(sw_pairs *p, const double *delta) {
+  verdict all = AGREES;
+  find_scales(p);
+  p->updates++;
+  memset(p->rubbing, 0, p->bodies * sizeof *p->rubbing);
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const verdict one = update(p, &p->touches[i], delta, scale_of(p, &p->touches[i]));
+    all = one < all ? one : all;
+  }
+  return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(p));
+}
+
 void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
   p->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &p->spots);
@@ -361,10 +385,7 @@ void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
 }
 
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
-  int fine = 1;
-  find_scales(p);
-  for (size_t i = 0; i < p->touch_count; i++)
-    fine &= update(p, &p->touches[i], delta, scale_of(p, &p->touches[i]));
+  const int fine = update_all(p, delta);
   if (fine && stiffen(p, s)) return 0;
   for (size_t i = 0; fine && i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];
