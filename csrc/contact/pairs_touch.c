@@ -343,6 +343,7 @@ static verdict update(const sw_pairs *p, sw_pair_touch *t, const double *delta, 
   for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &p->rubbing[k->body[i]]);
   if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach)
     return GOES_ON;
+  if (t->far && t->press.normal_force > 0) return GOES_ON;
   return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
 }
 
