@@ -65,16 +65,14 @@ static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_me
  * the radii's sum [-]. */
 static const double STILL_NEAR = 0.02;
 
-/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
-static const double SMALL_SHIFT = 0.05;
-
 /* A force that turns with its normal is a stiffness below zero. From a predicted place, as deep as
  * a wire has flown in the step, it would be thousands of weights, and throw wires about: it is left
- * out until the touch is known to be near where it stays. */
+ * out until the last update shifted the touch by no more than this share of the radii [-]. */
+static const double NEAR_SHIFT = 0.02;
 static int is_far(const sw_pairs *p, const sw_pair *k, const sw_pair_touch *last, int pressed) {
   if (p->regime != SW_CONTACT_IMPLICIT) return 0;
   if (!last) return !pressed;
-  return last->stage == p->stage && sw_norm(last->press.shift) > SMALL_SHIFT * k->reach;
+  return last->stage == p->stage && sw_norm(last->press.shift) > NEAR_SHIFT * k->reach;
 }
 
 /* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
@@ -332,6 +330,9 @@ static double scale_of(const sw_pairs *p, const sw_pair_touch *t) {
   const uint32_t *body = p->pairs[t->pair].body;
   return fmin(p->largest[body[0]], p->largest[body[1]]);
 }
+
+/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
+static const double SMALL_SHIFT = 0.05;
 
 typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
 
