@@ -67,19 +67,22 @@ static const double STILL_NEAR = 0.02;
 
 /* A force that turns with its normal is a stiffness below zero. From a predicted place, as deep as
  * a wire has flown in the step, it would be thousands of weights, and throw wires about: it is left
- * out until the last update shifted the touch by no more than this share of the radii [-]. */
+ * out until the last update shifted the touch by no more than this share of the radii [-]. What was
+ * placed in each other, or is held so, is as deep as it looks; crossings of a knot wander. */
 static const double NEAR_SHIFT = 0.02;
-static int is_far(const sw_pairs *p, const sw_pair *k, const sw_pair_touch *last, int pressed) {
-  if (p->regime != SW_CONTACT_IMPLICIT) return 0;
+static int is_far(const sw_pairs *p, const sw_pair *k, const sw_pair_touch *t,
+                  const sw_pair_touch *last, int pressed) {
+  if (p->regime != SW_CONTACT_IMPLICIT || t->kind == SW_CROSSING || t->forgiven > 0) return 0;
   if (!last) return !pressed;
   return last->stage == p->stage && sw_norm(last->press.shift) > NEAR_SHIFT * k->reach;
 }
 
 /* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
  * would be thousands of weights; then what stops the lighter wire there by itself [N]. */
-static double first_force(const sw_press *press, const sw_pair *k) {
-  const double depth = fmax(0.0, -press->gap);
-  return depth * (sw_press_was_put(depth, 0) ? fmin(press->k, k->stops) : press->k);
+static double first_force(const sw_pair_touch *t, const sw_pair *k) {
+  const double depth = fmax(0.0, -t->press.gap), stiffness = t->press.k;
+  const int flown = sw_press_was_put(depth, 0) && !(t->forgiven > 0) && t->kind != SW_CROSSING;
+  return depth * (flown ? fmin(stiffness, k->stops) : stiffness);
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -97,7 +100,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   press->gap_after = press->gap;
   sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
   const int pressed = m && m->normal_force > 0;
-  t.far = is_far(p, k, last, pressed);
+  t.far = is_far(p, k, &t, last, pressed);
   if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
     press->active |= press->gap < STILL_NEAR * k->reach;
   sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
@@ -106,7 +109,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
-  press->lag = pressed ? m->normal_force : first_force(press, k);
+  press->lag = pressed ? m->normal_force : first_force(&t, k);
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
