@@ -143,7 +143,8 @@ int sw_scene_was_struck(const sw_scene *s) { return s->pairs && sw_pairs_impacts
 sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const double *v1,
                                            double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
-  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h);
+  const int dull = s->pairs && !sw_pairs_idle(s->pairs) && s->course.stepper.plastic;
+  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h, dull);
   if (verdict == SW_CONTACT_SOONER) return verdict;
   if (s->pairs && verdict != SW_CONTACT_SMALLER) {
     const sw_contact_verdict other =
