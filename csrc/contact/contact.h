@@ -118,7 +118,8 @@ void sw_contact_ask_again(sw_contact *contact);
 /* 1: an obstacle is not where it was at the step's start, as last placed. */
 int sw_contact_moves(const sw_contact *contact);
 
-/* What is to be done with a trial step to positions x1 and velocities v1. */
+/* What is to be done with a trial step to positions x1 and velocities v1. dull: one of wires that
+ * strike each other, which does not bounce. */
 typedef enum sw_contact_verdict {
   SW_CONTACT_ACCEPT,
   SW_CONTACT_REDO,   /* impacts or crossings that the step did not know of: the
@@ -130,7 +131,7 @@ typedef enum sw_contact_verdict {
   SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
-                                     const double *v1, double h);
+                                     const double *v1, double h, int dull);
 
 double sw_contact_soonest(const sw_contact *contact); /* after the step's start [s] */
 /* A step that began is not to be cut shorter than this [s]. */

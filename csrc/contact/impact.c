@@ -284,6 +284,14 @@ static int any_strikes(sw_contact *c, sw_system *s, double h) {
   return any;
 }
 
+/* In a step that does not bounce only what rebounds strikes: the rest comes to rest by itself. */
+static void leave_dull(sw_contact *c) {
+  size_t kept = 0;
+  for (size_t i = 0; i < c->pressed_count; i++)
+    if (c->obstacles[c->pressed[i].obstacle].restitution > 0) c->pressed[kept++] = c->pressed[i];
+  c->pressed_count = kept;
+}
+
 /* What meets its obstacle first strikes first, and what does so at once, the fastest first,
  * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
@@ -433,7 +441,7 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
 }
 
 sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
-                                     const double *v1, double h) {
+                                     const double *v1, double h, int dull) {
   sw_error err;
   if (went_too_far(c, s, x1)) {
     c->pressed_count = 0;
@@ -444,6 +452,7 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
   c->soonest = HUGE_VAL;
   const int crossed = sw_contact_cross(c, s, x1, h);
+  if (dull) leave_dull(c);
   const int struck = review_touches(c, s, h);
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;

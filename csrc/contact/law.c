@@ -241,13 +241,13 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->next_pulls = pulled(p, u, moved, most);
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
+  p->off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   /* one that turned round in the iterate: its friction, which came from lag, must not matter */
   if (p->sliding && along < 0) return fmax(most, friction * p->lag) <= small;
   if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
   /* a change of state matters when the force does */
-  const double off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;
-  if (off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
+  if (p->off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
   if (!p->sliding || !beyond) return 1;
   if (p->lag_at_first > DROWNED * (p->normal_force + force_scale)) return 0;
   return lag_agrees(p, p->normal_force, force_scale);
@@ -260,9 +260,17 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
   p->next_sliding = 1; /* what does not touch moves freely */
   p->slip = sw_v(0, 0, 0);
+  p->off = 0;
   const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
   return agrees && sw_press_apart(p);
 }
+
+void sw_press_weigh(const sw_press *p, double friction, sw_rubbing *sum) {
+  sum->off += p->off;
+  sum->most += friction * p->normal_force;
+}
+
+int sw_press_enough(const sw_rubbing *sum) { return sum->off <= FORCE_TOLERANCE * sum->most; }
 
 sw_vec sw_press_borne(const sw_press *p, double friction) {
   if (!p->active && !p->opened) return sw_v(0, 0, 0);

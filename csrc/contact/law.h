@@ -31,6 +31,7 @@ typedef struct sw_press {
   int alternations;  /* of normal_force - lag until the last iterate [-] */
   int by_place;      /* 1: friction's direction is that of the place, no unknown of its own */
   int reversals;     /* then: of the slide in this stage, or where a static solve is dragged [-] */
+  double off;        /* friction that the last solve reckoned with, less that of the law [N] */
   int active;        /* pushes in this iterate */
   int let_go;        /* 1: not active in the next iterate, whatever its gap */
   int take_on;       /* 1: active in the next iterate, whatever its gap */
@@ -118,6 +119,16 @@ double sw_press_let_out(double depth, double explained, double forgiven);
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
 int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
+
+/* Friction of some touches after an update: how far off it is in all, and what it can be [N]. Many
+ * touches may never agree one by one. 1: all of it is off by no more than that of one may be. */
+typedef struct sw_rubbing {
+  double off, most;
+} sw_rubbing;
+void sw_press_weigh(const sw_press *press, double friction, sw_rubbing *sum);
+int sw_press_enough(const sw_rubbing *sum);
+/* After so many updates of a stage that is what counts [-]. */
+enum { SW_PATIENCE = 6 };
 
 /* Force on the wire that the last solve reckoned with, which is what moved it: it may differ from
  * that of the law by what does not keep an iteration going [N]. */

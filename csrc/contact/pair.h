@@ -32,6 +32,7 @@ typedef struct sw_pair {
   double reach;       /* sum of the radii [m] */
   double usual;       /* stiffness of a new touch [N/m] */
   size_t last, last_end; /* its touches of the iterate before */
+  double stops; /* stiffness that stops the lighter one within the step, by its mass alone [N/m] */
 } sw_pair;
 
 /* Where wires cross they touch at their nearest places; where they lie along each other, nodes of
@@ -44,6 +45,7 @@ typedef struct sw_pair_touch {
   size_t stage;    /* in which it was found */
   double at[2];    /* along the segments [-] */
   int slides[2];   /* 1: the place along that segment follows the nearest points */
+  int far;         /* 1: too far from its last place for its force to be known */
   int barred;      /* kept on its side by a barrier */
   int emerges;     /* the wires were placed in each other here, and still come out */
   double stiffer;  /* its stiffness from the next iterate on [N/m] */
@@ -79,6 +81,8 @@ struct sw_pairs {
   size_t stage;           /* number of the stage, counted all along */
   double first;           /* share of the step's first stage in what this one begins from [-] */
   double *base_stiffness; /* (bodies) for the forces of each [N/m] */
+  sw_rubbing *rubbing;    /* (bodies) of each one's touches, after an update */
+  int updates;            /* of the stage so far [-] */
   double *largest;        /* (bodies) normal force that its friction takes as given [N] */
   double rate2;           /* stiffness per mass [1/s2] */
 

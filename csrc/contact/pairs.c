@@ -14,7 +14,8 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) 
   p->rules = sw_alloc(count * count, sizeof *p->rules);
   p->base_stiffness = sw_alloc(count, sizeof *p->base_stiffness);
   p->largest = sw_alloc(count, sizeof *p->largest);
-  if (!p->rules || !p->base_stiffness || !p->largest) {
+  p->rubbing = sw_alloc(count, sizeof *p->rubbing);
+  if (!p->rules || !p->base_stiffness || !p->largest || !p->rubbing) {
     sw_pairs_free(p);
     return SW_ENOMEM;
   }
@@ -39,6 +40,7 @@ void sw_pairs_free(sw_pairs *p) {
   sw_free(p->rules);
   sw_free(p->base_stiffness);
   sw_free(p->largest);
+  sw_free(p->rubbing);
   sw_free(p->near);
   sw_free(p->listed_at);
   sw_free(p->grid);
@@ -96,6 +98,7 @@ sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regim
 
 void sw_pairs_begin_stage(sw_pairs *p, double first) {
   p->stage++;
+  p->updates = 0;
   p->first = first;
 }
 

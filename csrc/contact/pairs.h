@@ -40,7 +40,11 @@ sw_status sw_pairs_eval(sw_pairs *pairs, sw_system *system, const double *y, uns
 /* As sw_contact_refine, with what linked bodies touch besides (contact; NULL: nothing). */
 void sw_pairs_refine(sw_pairs *pairs, sw_contact *contact, sw_system *system);
 int sw_pairs_settled(sw_pairs *pairs, sw_system *system, const double *delta);
-sw_contact_verdict sw_pairs_review(sw_pairs *pairs, sw_system *system, const double *x1, double h);
+/* Will something strike in a step of size h that begins now, as far as velocities tell? */
+int sw_pairs_expect(const sw_pairs *pairs, const sw_system *system, double h);
+/* dull: the trial was one that does not bounce, whatever struck. */
+sw_contact_verdict sw_pairs_review(sw_pairs *pairs, sw_system *system, const double *x1, double h,
+                                   int dull);
 /* 1 = solve again. */
 int sw_pairs_review_static(sw_pairs *pairs, sw_system *system, const double *x1);
 void sw_pairs_commit(sw_pairs *pairs, sw_system *system);

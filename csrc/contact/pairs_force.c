@@ -110,7 +110,7 @@ sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, co
   if (!K) return SW_OK;
   add_law(&b, w, K);
   const double d = t->press.gap - t->forgiven + k->reach;
-  if (d > WELL_APART * k->reach && !t->barred) {
+  if (d > WELL_APART * k->reach && !t->barred && !t->far) {
     const sw_vec a0 = sw_vec_at(y, k->one), b0 = sw_vec_at(y, k->two);
     add_turning(&b, w, sw_sub(sw_vec_at(y, k->one + 1u), a0), sw_sub(sw_vec_at(y, k->two + 1u), b0),
                 t->press.normal, d, -t->press.lag / d, t->slides);

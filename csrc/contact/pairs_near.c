@@ -280,6 +280,11 @@ static double fastest(const sw_system *s) {
   return sqrt(most);
 }
 
+/* Segments further apart than they come in the step and this are no part of the matrix until they
+ * touch: zeros of a bundle's second neighbours made its factor twice as long. Of the radii's
+ * sum [-]. */
+static const double TO_BRIDGE = .03;
+
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
   SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
   sw_pair *k = &p->pairs[p->pair_count++];
@@ -290,7 +295,9 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .held = all_held(s, n),
                  .reach = sum,
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
-                               p->rate2 * lighter_mass(s, n))};
+                               p->rate2 * lighter_mass(s, n)),
+                 .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
+  if (n->distance - sum > TO_BRIDGE * sum + p->h * speed_between(s, n)) return SW_OK;
   for (uint32_t i = 0; i < 2 && !k->held; i++)
     for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_bridge(s, k->one + i, k->two + j));
   return SW_OK;

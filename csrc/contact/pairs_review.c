@@ -45,6 +45,35 @@ static size_t strikes(const sw_pairs *p, const sw_system *s, double h) {
   return count;
 }
 
+/* The fastest that nodes of two segments go against each other [m/s]. */
+static double fastest_between(const sw_system *s, const sw_pair *k) {
+  double most = 0;
+  for (uint32_t i = 0; i < 2; i++)
+    for (uint32_t j = 0; j < 2; j++)
+      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->v, k->one + i), sw_vec_at(s->v, k->two + j))));
+  return sqrt(most);
+}
+
+/* Ends of segments along each other may be nearest aslant, where they do not touch. */
+static sw_vec square_to(const sw_system *s, const sw_pair *k, sw_vec apart) {
+  const sw_vec u = sw_sub(sw_vec_at(s->x, k->one + 1u), sw_vec_at(s->x, k->one));
+  return k->parallel ? sw_madd(apart, u, -sw_dot(apart, u) / fmax(sw_norm2(u), 1e-300)) : apart;
+}
+
+int sw_pairs_expect(const sw_pairs *p, const sw_system *s, double h) {
+  for (size_t i = 0; i < p->pair_count; i++) {
+    const sw_pair *k = &p->pairs[i];
+    double at[2];
+    if (k->held || !(fastest_between(s, k) > SW_SLOWEST_IMPACT)) continue;
+    sw_segments_nearest(sw_vec_at(s->x, k->one), sw_vec_at(s->x, k->one + 1u),
+                        sw_vec_at(s->x, k->two), sw_vec_at(s->x, k->two + 1u), at);
+    const sw_vec normal =
+        sw_unit_or(square_to(s, k, sw_pair_apart(s->x, k->one, k->two, at)), sw_v(0, 0, 1));
+    if (excess(s, k, at, normal, h) > SW_SLOWEST_IMPACT) return 1;
+  }
+  return 0;
+}
+
 /* The largest change of the distance between two segments from positions x0 to x1. */
 static double approach_bound(const double *x0, const double *x1, uint32_t one, uint32_t two) {
   double most = 0;
@@ -177,7 +206,8 @@ static int cuts_deep(const sw_pairs *p, const sw_system *s, const double *x1, do
   return 0;
 }
 
-sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, double h) {
+sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, double h,
+                                   int dull) {
   const int wider = widen(p, s, x1);
   if (wider) {
     p->pressed_count = 0;
@@ -191,7 +221,7 @@ sw_contact_verdict sw_pairs_review(sw_pairs *p, sw_system *s, const double *x1, 
   const size_t struck = strikes(p, s, h);
   p->impact_count += struck;
   p->pressed_count = 0;
-  if (crossed || struck) return SW_CONTACT_STRIKE;
+  if (crossed || (struck && !dull)) return SW_CONTACT_STRIKE;
   return cuts_deep(p, s, x1, h) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
 }
 

@@ -65,6 +65,26 @@ static double stiffness_of(const sw_pairs *p, const sw_pair *k, const sw_pair_me
  * the radii's sum [-]. */
 static const double STILL_NEAR = 0.02;
 
+/* A force that turns with its normal is a stiffness below zero. From a predicted place, as deep as
+ * a wire has flown in the step, it would be thousands of weights, and throw wires about: it is left
+ * out until the last update shifted the touch by no more than this share of the radii [-]. What was
+ * placed in each other, or is held so, is as deep as it looks; crossings of a knot wander. */
+static const double NEAR_SHIFT = 0.02;
+static int is_far(const sw_pairs *p, const sw_pair *k, const sw_pair_touch *t,
+                  const sw_pair_touch *last, int pressed) {
+  if (p->regime != SW_CONTACT_IMPLICIT || t->kind == SW_CROSSING || t->forgiven > 0) return 0;
+  if (!last) return !pressed;
+  return last->stage == p->stage && sw_norm(last->press.shift) > NEAR_SHIFT * k->reach;
+}
+
+/* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
+ * would be thousands of weights; then what stops the lighter wire there by itself [N]. */
+static double first_force(const sw_pair_touch *t, const sw_pair *k) {
+  const double depth = fmax(0.0, -t->press.gap), stiffness = t->press.k;
+  const int flown = sw_press_was_put(depth, 0) && !(t->forgiven > 0) && t->kind != SW_CROSSING;
+  return depth * (flown ? fmin(stiffness, k->stops) : stiffness);
+}
+
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                            sw_pair_touch t, double gap, sw_vec normal, const sw_pair_memory *m,
                            const sw_pair_touch *last) {
@@ -80,6 +100,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   press->gap_after = press->gap;
   sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
   const int pressed = m && m->normal_force > 0;
+  t.far = is_far(p, k, &t, last, pressed);
   if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
     press->active |= press->gap < STILL_NEAR * k->reach;
   sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
@@ -88,7 +109,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
-  press->lag = pressed ? m->normal_force : press->k * fmax(0.0, -press->gap);
+  press->lag = pressed ? m->normal_force : first_force(&t, k);
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
@@ -281,18 +302,6 @@ sw_status sw_pairs_eval(sw_pairs *p, sw_system *s, const double *y, unsigned wan
 
 /* --- after the solve -------------------------------------------------------------- */
 
-/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
-static const double SMALL_SHIFT = 0.05;
-
-static int update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
-  const sw_pair *k = &p->pairs[t->pair];
-  const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
-  const int agrees =
-      sw_press_update(&t->press, sw_pair_rule_of(p, k->body)->friction, shift, scale);
-  if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach) return 0;
-  return agrees;
-}
-
 /* Make touches that sink in too deep stiffer; 1 = there were some. */
 static int stiffen(sw_pairs *p, const sw_system *s) {
   const int small = sw_press_is_short(p->regime == SW_CONTACT_STATIC, p->h, p->nominal);
@@ -325,6 +334,43 @@ static double scale_of(const sw_pairs *p, const sw_pair_touch *t) {
   return fmin(p->largest[body[0]], p->largest[body[1]]);
 }
 
+/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
+static const double SMALL_SHIFT = 0.05;
+
+typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
+
+static verdict update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
+  const sw_pair *k = &p->pairs[t->pair];
+  const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
+  const double friction = sw_pair_rule_of(p, k->body)->friction;
+  const int agrees = sw_press_update(&t->press, friction, shift, scale);
+  for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &p->rubbing[k->body[i]]);
+  if (t->press.gap_after < 0.5 * k->reach && sw_norm(shift) > SMALL_SHIFT * k->reach)
+    return GOES_ON;
+  if (t->far && t->press.normal_force > 0) return GOES_ON;
+  return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
+}
+
+/* Is what friction is off by little for each wire? */
+static int rubs_enough(const sw_pairs *p) {
+  if (p->regime != SW_CONTACT_IMPLICIT || p->updates <= SW_PATIENCE) return 0;
+  for (size_t b = 0; b < p->bodies; b++)
+    if (!sw_press_enough(&p->rubbing[b])) return 0;
+  return 1;
+}
+
+static int update_all(sw_pairs *p, const double *delta) {
+  verdict all = AGREES;
+  find_scales(p);
+  p->updates++;
+  memset(p->rubbing, 0, p->bodies * sizeof *p->rubbing);
+  for (size_t i = 0; i < p->touch_count; i++) {
+    const verdict one = update(p, &p->touches[i], delta, scale_of(p, &p->touches[i]));
+    all = one < all ? one : all;
+  }
+  return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(p));
+}
+
 void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
   p->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &p->spots);
@@ -344,10 +390,7 @@ void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
 }
 
 int sw_pairs_settled(sw_pairs *p, sw_system *s, const double *delta) {
-  int fine = 1;
-  find_scales(p);
-  for (size_t i = 0; i < p->touch_count; i++)
-    fine &= update(p, &p->touches[i], delta, scale_of(p, &p->touches[i]));
+  const int fine = update_all(p, delta);
   if (fine && stiffen(p, s)) return 0;
   for (size_t i = 0; fine && i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];

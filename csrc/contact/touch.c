@@ -301,6 +301,13 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
   t->let_out = sw_press_let_out(depth, explained, left);
 }
 
+/* Where wires press on each other, friction on what they lie on finds its direction as theirs does:
+ * by its place alone, wires of a bundle that are thrown about turn round in every other iterate. */
+static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
+  const int apart = s->coupling.part != NULL;
+  return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
+}
+
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
@@ -334,7 +341,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
                 .press = {.normal = sw_contact_leaning(c, s, k, place, steady),
                           .gap = near->gap - k->skin,
                           .k = stiffness,
-                          .by_place = 1}};
+                          .by_place = goes_by_place(c, s, k)}};
   if (c->softer) t.press.k = sw_contact_softer(c, s, k, stiffness);
   t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
   if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);

@@ -134,13 +134,21 @@ sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t
   return sw_grains_begin_step(s->grains, &s->system, regime, h, nominal, err);
 }
 
+int sw_scene_expects_strike(const sw_scene *s, double h) {
+  return s->pairs && sw_pairs_expect(s->pairs, &s->system, h);
+}
+
+int sw_scene_was_struck(const sw_scene *s) { return s->pairs && sw_pairs_impacts(s->pairs) > 0; }
+
 sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const double *v1,
                                            double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
-  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h);
+  const int dull = s->pairs && !sw_pairs_idle(s->pairs) && s->course.stepper.plastic;
+  if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h, dull);
   if (verdict == SW_CONTACT_SOONER) return verdict;
   if (s->pairs && verdict != SW_CONTACT_SMALLER) {
-    const sw_contact_verdict other = sw_pairs_review(s->pairs, &s->system, x1, h);
+    const sw_contact_verdict other =
+        sw_pairs_review(s->pairs, &s->system, x1, h, s->course.stepper.plastic);
     if (other != SW_CONTACT_ACCEPT) verdict = other;
   }
   if (s->grains && verdict != SW_CONTACT_SMALLER) {

@@ -30,6 +30,10 @@ void sw_scene_inform_contact(sw_scene *scene);
 /* The life of a step or an equilibrium for what touches: it begins, is reviewed and taken. */
 sw_status sw_scene_begin_contact(sw_scene *scene, sw_contact_regime regime, double t, double h,
                                  double nominal, sw_error *err);
+/* Will wires strike each other in a step of size h that begins now, as far as velocities tell? And
+ * have they in the last trial? */
+int sw_scene_expects_strike(const sw_scene *scene, double h);
+int sw_scene_was_struck(const sw_scene *scene);
 sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, const double *v1,
                                            double h);
 int sw_scene_review_static(sw_scene *scene, const double *x1);

@@ -162,7 +162,7 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
     const uint32_t pi = s->place[pairs[k].i], pj = s->place[pairs[k].j];
     s->slot[k] = pi < pj ? 2 * find_slot(s, pi, pj) + 1 : 2 * find_slot(s, pj, pi);
   }
-  return find_targets(s);
+  return SW_OK;
 }
 
 /* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
@@ -197,6 +197,7 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs,
   if (status == SW_OK && block == 3 && s->fill > DENSE * nodes) {
     status = use_fronts(s, pairs, count);
   } else if (status == SW_OK) {
+    status = find_targets(s);
     s->x = sw_alloc(bb * (s->n + s->fill + s->widest) + 2 * block * s->n, sizeof *s->own);
     if (!s->x) status = SW_ENOMEM;
   }

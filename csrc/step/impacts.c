@@ -21,6 +21,20 @@ static double shortest_cut(const sw_ladder *p) {
   return p->cuts < MOST_CUTS ? SAME_TIME * p->args->dt : HUGE_VAL;
 }
 
+/* Where wires come at each other fast enough to meet within the step, it is tried at once in the
+ * way in which steps are redone that struck. 1: it is, for that alone. */
+static int begin_dully(const sw_ladder *p, double h) {
+  sw_stepper *stepper = &p->s->course.stepper;
+  if (!(p->s->course.method->flags & SW_INTEGRATOR_IMPLICIT) || stepper->plastic) return 0;
+  return stepper->plastic = sw_scene_expects_strike(p->s, h);
+}
+
+/* They did not meet: the step is redone as the method would have it. */
+static int was_mistaken(const sw_scene *s, sw_contact_verdict verdict) {
+  const int over = verdict == SW_CONTACT_ACCEPT || verdict == SW_CONTACT_SMALLER;
+  return over && !sw_scene_was_struck(s);
+}
+
 /* One step of size h, redone as long as contact finds impacts. */
 sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
@@ -33,13 +47,19 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
       s->course.method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
       s->time, h, sw_blow_part(s, p->args->dt), err);
   if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
+  int expected = status == SW_OK && begin_dully(p, h);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = sw_rung_go(p, below, h, err);
     if (status != SW_OK) break;
     const sw_contact_verdict verdict =
         sw_scene_review_contact(s, s->course.stepper.trial_x, s->course.stepper.trial_v, h);
-    if (verdict == SW_CONTACT_ACCEPT) return SW_OK;
+    const int mistaken = expected && was_mistaken(s, verdict);
+    if (verdict == SW_CONTACT_ACCEPT && !mistaken) return SW_OK;
     sw_stepper_reject(&s->course.stepper, &s->system);
+    if (mistaken) {
+      s->course.stepper.plastic = expected = 0;
+      continue;
+    }
     if (verdict == SW_CONTACT_SOONER) {
       p->soonest = sw_contact_soonest(s->contact);
       status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");

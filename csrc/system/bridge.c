@@ -39,7 +39,7 @@ static struct sw_bridges *bridges_of(sw_system *s) {
 }
 
 sw_status sw_system_begin_plan(sw_system *s) {
-  if (s->bridges) s->bridges->planned_count = 0;
+  if (s->bridges) s->bridges->planned_count = 0, s->bridges->anew = 1;
   return sw_joins_plan(s);
 }
 
@@ -114,10 +114,13 @@ static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   return SW_OK;
 }
 
-/* The pattern that was planned, unless it is the present one. */
+/* The pattern that was planned, unless it is the present one. What came besides in a step is
+ * forgotten with it: the next one's rounding would depend on more than the scene's state. */
 static sw_status take_plan(struct sw_bridges *l) {
   const size_t n = l->planned_count;
-  if (n == l->taken_count && (!n || !memcmp(l->planned, l->taken, n * sizeof *l->planned)))
+  const int more = l->anew && l->known_count > l->from_plan;
+  l->anew = 0;
+  if (!more && n == l->taken_count && (!n || !memcmp(l->planned, l->taken, n * sizeof *l->planned)))
     return SW_OK;
   SW_TRY(sw_grow((void **)&l->taken, &l->taken_capacity, n, sizeof *l->taken));
   if (n) memcpy(l->taken, l->planned, n * sizeof *l->taken);
@@ -125,6 +128,7 @@ static sw_status take_plan(struct sw_bridges *l) {
   l->known_count = 0;
   if (l->table_size) memset(l->table, 0, l->table_size * sizeof *l->table);
   for (size_t k = 0; k < n; k++) SW_TRY(add_known(l, l->planned[k].i, l->planned[k].j));
+  l->from_plan = l->known_count;
   sw_sparse_free(l->matrix);
   l->matrix = NULL;
   return SW_OK;

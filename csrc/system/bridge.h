@@ -27,7 +27,9 @@ struct sw_bridges {
   size_t known_count, known_capacity;
   sw_sparse_pair *planned, *taken; /* for the present step; for the pattern */
   size_t planned_count, planned_capacity, taken_count, taken_capacity;
-  uint32_t *table; /* hash: number in known + 1, 0 = empty */
+  size_t from_plan; /* so many of those known are of the plan */
+  int anew;         /* 1: a step was planned since the pattern was looked at */
+  uint32_t *table;  /* hash: number in known + 1, 0 = empty */
   size_t table_capacity, table_size;
   uint32_t *number; /* (system's nodes) in the matrix, or NONE */
   size_t *first;    /* (bodies) first node in the matrix */
