@@ -6,6 +6,8 @@ local rows = require "softworld.rows"
 
 local answer = {}
 
+local COARSE = 1 / 8 -- of what was asked for: levels that stop there tell no more of their error [-]
+
 rows.calls{
   { "run:why", "", "which model was chosen and why, of a run with model = 'auto'; print it", "run.model",
     example = "print(run:why())" },
@@ -52,7 +54,8 @@ local function widen(result, model)
   for _, q in ipairs(model.quantities) do
     local sum = 0
     for _, c in ipairs(model.choices) do sum = sum + (c.by == "compared" and c.error[q.name] or 0) end
-    q.discretisation, q.model_error, q.error = q.error, sum, q.error + sum
+    q.discretisation, q.model_error = math.max(q.error, COARSE * q.tolerance), sum
+    q.error = q.discretisation + sum
     q.met = q.error <= q.tolerance
     met = met and q.met
   end

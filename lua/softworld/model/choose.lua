@@ -27,7 +27,7 @@ local LEAST = 0.25 -- of a tolerance: what edges and steps may always take [-]
 local DOUBT = 4
 local LEVELS = 3   -- coarse ones on which rungs are compared
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
-local HOPELESS = 10 -- a bar over what is asked: no other rung will mend that [-]
+local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 local function rungs_of(context)
@@ -72,9 +72,9 @@ local function change(context, state, here, above)
     local a, b = here.values[q.name], above.values[q.name]
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
     if d ~= d then d = math.huge end
-    c.all[q.name] = d
+    c.all[q.name] = state.choice.safety * d
     local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_out(context, q.name, state))
-    local off = d > 0 and d / allowed or 0
+    local off = d > 0 and c.all[q.name] / allowed or 0
     if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
   end
   return c

@@ -8,9 +8,10 @@ local number = require "softworld.output.number"
 local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
 local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
 local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be [-]
+local SAFETY = 3     -- coarse steps do not see all that swings [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
-local motion = { name = "motion", rungs = {
+local motion = { name = "motion", safety = SAFETY, rungs = {
   { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
   { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 

@@ -3,6 +3,7 @@
 --
 -- A choice: { name =, rungs = { { name =, as = in a sentence, leaves = what it leaves out }, ... } from
 -- cheap to dear, and functions of the context { scene =, data =, args =, job =, ... }:
+--   safety: of the change that the next rung makes, where it is another than usual
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
 --   apply(context, rung, changes): sets the scene, or options of its run, before a computation
@@ -16,9 +17,15 @@
 -- @module softworld.model.registry
 local registry = {}
 
+local SAFETY = 1.5 -- of a change from one rung to the next, on coarse edges and steps [-]
+
 local files = { "motion", "twist", "contact", "grip", "section" }
 
 registry.list = {}
-for i, file in ipairs(files) do registry.list[i] = require("softworld.model." .. file) end
+for i, file in ipairs(files) do
+  local choice = require("softworld.model." .. file)
+  choice.safety = choice.safety or SAFETY
+  registry.list[i] = choice
+end
 
 return registry
