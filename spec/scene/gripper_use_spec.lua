@@ -71,7 +71,7 @@ describe("a gripper with pads", function()
     for text, args in pairs{
       ["s = 0.3 m is not allowed; it must be at least 0 m and at most 0.2 m"] =
         { s = 0.3, approach = "plates", force = 1 },
-      ["approach = 'plate' is not one of: imposed mixed plates; did you mean 'plates'?"] =
+      ["approach = 'plate' is not one of: auto imposed mixed plates; did you mean 'plates'?"] =
         { approach = "plate" },
       ["how far? give force [N], distance [m] or speed [m/s]"] = { s = 0.1, approach = "plates" },
       ["force goes with approach = 'plates' or 'mixed'"] = { s = 0.1, force = 1 },

@@ -311,6 +311,7 @@ end
 
 --- Is a model to be chosen? Raises where it cannot be.
 function choose.wanted(scene, args)
+  if type(args) ~= "table" then return false end
   local word = args.model
   if word ~= nil and word ~= "auto" then
     error(("scene:run: model = %s is not allowed; it must be 'auto', or left out: each wire has its own "
