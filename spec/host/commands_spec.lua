@@ -85,6 +85,8 @@ describe("softworld lint", function()
         "30 kg/m with a radius of 2.5 mm is a density" },
     { "holds side by side", wire:format(100) .. "s:clamp(w, { s = 0, name = '50%s' })\n"
       .. "s:pin(w, { s = 0.001 })", "s = 0.001 m is beside clamp '50%s' at s = 0 m, nearer than" },
+    { "wires that roll where nothing rubs", "s:wire{ E = 5e7, density = 1500, radius = 0.0025, rolls = true, "
+      .. "from = {0, 0, 9}, to = {1, 0, 9} }", "s.lua:3: wire 'wire1': rolls = true costs twice as much" },
     { "units", "s:wire{ E = 5e7, density = 1500, radius = 2.5, from = {0, 0, 9}, to = {50, 0, 9} }",
       "s.lua:3: wire 'wire1': radius = 2.5 m is above 0.1 m; did you mean sw.units.mm(2.5)?" },
   }
