@@ -202,6 +202,23 @@ describe("model = 'auto'", function()
     end
   end)
 
+  it("stands in the summary and on the page", function()
+    local run = hung(2)
+    local words = {}
+    run:summary { write = function(_, ...)
+      for _, word in ipairs { ... } do words[#words + 1] = word end
+    end }
+    local said = table.concat(words)
+    assert.truthy(said:find "model: motion %a+, twist held, contact none", said)
+    local path = os.tmpname() .. ".html"
+    run:report(path)
+    local file = assert(io.open(path))
+    local text = file:read "a"
+    file:close()
+    os.remove(path)
+    assert.truthy(text:find("no friction torque: nothing with friction touches a wire", 1, true))
+  end)
+
   it("gives the same bits twice, and leaves nothing behind", function()
     local one, two = hung(2), hung(2)
     assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))

@@ -173,7 +173,8 @@ end
 -- Without what it has of its time: film, events, numbers.
 local function outline_of(page, run)
   return json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
-    start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, gravity = run.gravity,
+    start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, model = run.model,
+    gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
     obstacles = obstacles_of(page, run) }
 end

@@ -18,6 +18,8 @@ local function status(run)
       plain(run.name or "run"), plain(run.reason or "ended"), time)
     if run.steps then line = line .. string.format(", %d steps", run.steps) end
     if run.wall then line = line .. ", took " .. number.duration(run.wall) end
+    if run.model then line = line .. "\n  " .. plain(run.model:match "^[^\n]*")
+      .. "; run:why() tells more" end
     if run.unmet then line = line .. "\n  ! " .. plain(run.unmet) end
     return line
   end
@@ -66,7 +68,7 @@ end
 -- First the state of the run, then one aligned row per entry: label, value
 -- with four significant digits, unit, place and time; last what happened. A run
 -- that diverged gives its reason and no numbers.
--- @tparam table run with `name, ok, reason, time [s], steps, wall [s], events, unmet` and
+-- @tparam table run with `name, ok, reason, time [s], steps, wall [s], events, unmet, model` and
 -- `summary = { { label=, value= number or text, unit=, where=, when= [s] }, ... }`
 -- @treturn string lines, each ended by a newline
 function summary.text(run)

@@ -258,6 +258,8 @@ export function resultsPanel(host, data, state) {
     box.append(h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Result"), h("th.number", { scope: "col" }, "Value"),
       h("th", { scope: "col" }, "Unit"), h("th.when", { scope: "col" }, "When"))), body));
     if (run.quantities) box.append(asked(run));
+    if (run.model) box.append(h("h4", {}, "Why this model"), ...run.model.split("\n").map((line) =>
+      h(/^ {6}/.test(line) ? "p.hint" : "p", {}, line.trim())));
     host.append(box);
   }
 }

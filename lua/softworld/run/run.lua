@@ -358,6 +358,7 @@ local function outline(self)
   if not self.ok then return doc end
   doc.series, doc.summary = self:series(), summary_of(self)
   local unmet = trust.unmet(self)
+  doc.model = self.model and tostring(self.model)
   doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}
