@@ -395,7 +395,6 @@ describe("example", function()
   -- (boundary-value solver, error 1e-9), by a camera that looks askew, off by normal noise of 0.6 mm and by
   -- rounding to pixels; twists at which a clamped rod buckles at T L^2 / EI = 20 and 100 (determinant, error
   -- 1e-10), off by noise of 0.2 rad, GJ = 0.0032 N m2; a pull of EA = 140 kN, off by noise of 3 um.
-
   it("22: what a cable is made of", function()
     local out = example "22_calibration"
     for name, truth in pairs { EI = 0.0268 * g / 100, GJ = 0.0032, EA = 1.4e5 } do
