@@ -172,6 +172,8 @@ sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) 
     return status;
   }
   seen_from(&new, pose);
+  if (h->cls->hold->direction) /* what it holds it holds as before, however edges lie */
+    memcpy(new.director, h->director, sizeof new.director);
   new.alive = 1, new.drive = h->drive, new.last_pose = h->last_pose, new.turn = pose.q;
   new.shape = ++s->serial;
   sw_free(h->s);
