@@ -172,8 +172,7 @@ static int mod_remesh(lua_State *L) {
   return 0;
 }
 
-/* core.redraw(wire, rolls, EA, EI, GJ): a rod that has not moved, with other stiffnesses (factors).
- */
+/* core.redraw(wire, rolls, EA, EI, GJ): a rod with other stiffnesses (factors), or that rolls. */
 static int mod_redraw(lua_State *L) {
   sw_scene *scene;
   sw_error err = {""};

@@ -150,7 +150,7 @@ describe("model = 'auto'", function()
     assert.truthy(tostring(firm:why()):find("of what their friction holds (limit 50 %)", 1, true))
     local loose, hand = carry(0.02)
     assert.equal("plates", loose.model.grip, tostring(loose:why()))
-    assert.equal("plates", hand.way or "plates")
+    assert.is_true(hand:over(0).slip > 0) -- it is held by friction, which gives a little
   end)
 
   it("says when no section that stays round suffices", function()

@@ -69,7 +69,7 @@ end
 --- Give the result its model.
 function answer.add(context, result)
   local model = setmetatable({ choices = {}, short = {}, unchecked = {}, probes = context.probe_count,
-    cost = context.spent.cpu, run_cost = result.cpu, spread = context.spread:text() }, Model)
+    cost = context.spent, run_cost = result.cpu, spread = context.spread:text() }, Model)
   for _, state in ipairs(context.states) do
     if state.by ~= "idle" then
       local c = choice_of(state)

@@ -290,7 +290,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
-    probe_count = 0, spent = { wall = 0, cpu = 0 }, states = {}, given_up = {},
+    probe_count = 0, spent = 0, states = {}, given_up = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)
   return context

@@ -27,8 +27,8 @@ local function room(a, b)
   return most
 end
 
-function contact.look(context, run)
-  local boxes, turning = facts.swept(context.scene, run.start)
+function contact.look(context)
+  local boxes, turning = facts.swept()
   local least = math.huge
   for i, a in ipairs(boxes) do
     for j = i + 1, #boxes do

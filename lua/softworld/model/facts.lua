@@ -26,26 +26,33 @@ function facts.rubbing(scene, start)
   return names
 end
 
---- Call look(frame, number) for the frames of a run, in order. Returns how many there were.
-function facts.frames(scene, start, look)
-  local count = 0
+local kept -- frames of the run that is looked at, read once for all choices
+
+--- f(...) while the frames of a run are kept.
+function facts.reading(scene, start, f, ...)
+  kept = {}
   for i = 1, scene:frame_count() do
     local frame = scene:frame(i)
-    if frame.t >= start then
-      count = count + 1
-      look(frame, count)
-    end
+    if frame.t >= start then kept[#kept + 1] = frame end
   end
-  return count
+  local fine, result = pcall(f, ...)
+  kept = nil
+  if not fine then error(result, 0) end
+  return result
+end
+
+--- Call look(frame) for these frames, in order.
+function facts.frames(look)
+  for _, frame in ipairs(kept) do look(frame) end
 end
 
 local function change(x, before, i) return x[i] - before[i] end
 
 --- Largest acceleration of what moves along the frames, by second differences over equal spans [m/s2]; nil
 -- where there are less than three.
-function facts.acceleration(scene, start)
+function facts.acceleration()
   local a, b, most = nil, nil, nil
-  facts.frames(scene, start, function(c)
+  facts.frames(function(c)
     if a and b then
       local first, second = b.t - a.t, c.t - b.t
       for w, x in ipairs(first > 0 and second > 0 and c.wires or {}) do
@@ -89,9 +96,9 @@ end
 
 --- Swept boxes of the wires { x1, y1, z1, x2, y2, z2 } [m], grown by how far points move between frames; and
 -- the largest angle by which one turns along its length [rad].
-function facts.swept(scene, start)
+function facts.swept()
   local boxes, most, before = {}, 0, nil
-  facts.frames(scene, start, function(frame)
+  facts.frames(function(frame)
     for w, x in ipairs(frame.wires) do
       local box = boxes[w] or { math.huge, math.huge, math.huge, -math.huge, -math.huge, -math.huge,
         step = 0 }

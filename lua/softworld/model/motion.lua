@@ -57,10 +57,9 @@ end
 
 function motion.look(context, run)
   local scene = context.scene
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(scene,
-    run.start),
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(),
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
-    period = context.period, iterations = run.iterations }
+    period = context.period }
 end
 
 --- The first period, of the scene at rest as it begins [s].

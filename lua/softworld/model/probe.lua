@@ -5,6 +5,7 @@
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local facts = require "softworld.model.facts"
 local quantity = require "softworld.quantity"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
@@ -42,28 +43,30 @@ function probe.arrange(context, rungs, factors)
   end
 end
 
-local function facts_of(context, run)
-  local facts = {}
+local function look(context, run)
+  local found = {}
   for _, choice in ipairs(registry.list) do
-    facts[choice.name] = choice.look and choice.look(context, run) or {}
+    found[choice.name] = choice.look and choice.look(context, run) or {}
   end
-  return facts
+  return found
 end
-probe.facts = facts_of
+
+--- What a run tells to the choices, by their names.
+function probe.facts(context, run) return facts.reading(context.scene, run.start, look, context, run) end
 
 local function compute(context, rungs, k, factors)
   local job, scene = context.job, context.scene
   job.restore()
   local steps = probe.arrange(context, rungs, factors)
   core.remesh(scene, trust.counts(job, k))
-  local run = refine.computer(job, steps, context.run_once, context.spent)(k, "choosing a model")
+  local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
   if not run.ok then return result end
   result.values = {}
   for _, q in ipairs(job.quantities) do
     result.values[q.name] = (q.sample or quantity.read(q, run.start)).value
   end
-  result.facts, result.contact = facts_of(context, run), trust.touches(scene)
+  result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
   result.level = { segments = trust.counts(job, k), ok = true, cpu = run.cpu }
   return result
 end
@@ -83,7 +86,9 @@ function probe.of(context, rungs, k, factors, label)
   local key = key_of(rungs, k, label)
   local known = context.probes[key]
   if known then return known end
+  local begun = os.clock()
   local fine, result = pcall(compute, context, rungs, k, factors)
+  context.spent = context.spent + os.clock() - begun
   if not fine then
     if checks.is_interrupt(result) then error(result, 0) end
     result = { ok = false, reason = build.plain(tostring(result)), raised = result }

@@ -12,7 +12,8 @@
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
 --     suffice without another computation; else nil, and perhaps why not. share: the tightest of the
 --     tolerances over its value
---   costly(rung, facts, above): a sentence where the rung costs no less than the next one; above: facts of it
+--   costly(rung, here, above): a sentence where the rung costs no less than the next one; here and above:
+--     coarse computations by both, with iterations =
 --   short(context, facts, share): a sentence where even the dearest rung leaves out too much
 -- @module softworld.model.registry
 local registry = {}

@@ -47,9 +47,9 @@ local function at_pads(context, wire, s, spacing)
 end
 
 -- Largest force per length of touches, of the stored frames [N/m].
-local function line_load(context, wire, w, start)
+local function line_load(context, wire, w)
   local most = 0
-  facts.frames(context.scene, start, function(frame)
+  facts.frames(function(frame)
     local values, x = frame.values[w], frame.wires[w]
     local spacing = values and x and #x > 3
       and ((x[4] - x[1]) ^ 2 + (x[5] - x[2]) ^ 2 + (x[6] - x[3]) ^ 2) ^ 0.5 or 0
@@ -61,11 +61,11 @@ local function line_load(context, wire, w, start)
   return most
 end
 
-function section.look(context, run)
+function section.look(context)
   local worst = { q = 0, share = 0 }
   for i, w in ipairs(context.data.wires) do
     if w.object.model == "rod" or w.object.model == "string" then
-      local q = line_load(context, w.object, i, run.start)
+      local q = line_load(context, w.object, i)
       local share, of = section.flattening(w.object, q)
       if not share and q > 0 then worst.unknown = w.name end
       if share and share > worst.share then worst = { q = q, share = share, wire = w.name, of = of,
