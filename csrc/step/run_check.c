@@ -44,6 +44,8 @@ static sw_param run_rows[] = {
      "true lets an explicit integrator take steps above its stable one"},
     {"wear", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, wear),
      "true: what wears wires is kept of all steps, for run:check of fatigue and abrasion"},
+    {"check", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "what run:check is asked, for error bars that decide its rows; see help 'check'"},
     {"progress", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "true shows a progress bar (default: when on a terminal and longer than a second)"},
     {"save", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,

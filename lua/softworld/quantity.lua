@@ -261,9 +261,13 @@ end
 
 local function is_vector(v) return type(v) == "table" and type(v[1]) == "number" end
 
---- How far two values of the same shape are apart: numbers, vectors (norm), lists of vectors (largest).
+--- How far two values of the same shape are apart: numbers, vectors (norm), lists of vectors (largest). What
+-- is not a number is nowhere near a number.
 function quantity.distance(a, b)
-  if type(a) == "number" then return a == b and 0 or math.abs(a - b) end
+  if type(a) == "number" then
+    if a ~= a or b ~= b then return a ~= a and b ~= b and 0 or math.huge end
+    return a == b and 0 or math.abs(a - b)
+  end
   local sum, most = 0, 0
   for i, x in ipairs(a) do
     local d = quantity.distance(x, b[i])

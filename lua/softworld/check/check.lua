@@ -306,8 +306,19 @@ local function make(run, args)
   return self
 end
 
+--- Raise what is wrong with the arguments of a check, before there is a run.
+function check.early(scene, args)
+  local own_args, context = read({ scene = scene }, args)
+  limits.read(own_args.limits, context)
+  own.read(own_args.checks, registry.by_name)
+end
+
+--- The rows of a run that is one of several.
+function check.rows(run, args) return make(run, args).rows end
+
 --- run:check{ use =, limits =, checks =, landing =, trial = }: see help "run:check".
 function check.check(run, args)
+  if args == nil then args = sealed.fields(run).checked end
   local self = build.call(3, make, run, args)
   if not self.trial then unread.judged(self.verdict) end
   self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"

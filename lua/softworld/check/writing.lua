@@ -36,6 +36,14 @@ local function line_of(row)
     cells.plain(table.concat(place, ", ")), note = row.note }
 end
 
+-- Does any row tell how far edges and steps let its value be off?
+local function has_bars(list)
+  for _, row in ipairs(list) do
+    if row.error then return true end
+  end
+  return false
+end
+
 function Check:__tostring()
   local own = sealed.fields(self)
   local lines = { ("check of '%s', t = %s to %s: %s (%s)"):format(cells.plain(own.name),
@@ -43,6 +51,9 @@ function Check:__tostring()
   local list = {}
   for i, row in ipairs(own.rows) do list[i] = line_of(row) end
   cells.add_table(lines, list)
+  if not own.no_numbers and #own.rows > 0 and not has_bars(own.rows) then
+    lines[#lines + 1] = "  edges and steps have no error bars: scene:run{ check = {...} } gives them"
+  end
   if #own.skipped > 0 then
     lines[#lines + 1] = "  left out by the script: " .. cells.plain(table.concat(own.skipped, ", "))
   end

@@ -17,9 +17,8 @@ local Model = { __name = "model" }
 Model.__index = Model
 
 local function quantity_line(q)
-  return ("  %s = %s: edges and steps +- %s, model +- %s, asked for %s: %s"):format(q.name, q:text(),
-    number.text(q.discretisation, q.unit), number.text(q.model_error, q.unit),
-    number.text(q.tolerance, q.unit), q.met and "met" or "NOT met")
+  return ("  %s = %s: edges and steps +- %s, model +- %s, %s"):format(q.name, q:text(),
+    number.text(q.discretisation, q.unit), number.text(q.model_error, q.unit), q:asked())
 end
 
 --- The reasons as lines of text.
@@ -53,8 +52,8 @@ local function widen(result, model)
   local met = #model.short == 0 and not model.blind
   for _, q in ipairs(model.quantities) do
     local sum = 0
-    for _, c in ipairs(model.choices) do sum = sum + (c.by == "compared" and c.error[q.name] or 0) end
-    q.discretisation, q.model_error = math.max(q.error, COARSE * q.tolerance), sum
+    for _, c in ipairs(model.choices) do sum = sum + (c.by == "compared" and (c.error[q.name] or 0) or 0) end
+    q.discretisation, q.model_error = q.row and q.error or math.max(q.error, COARSE * q.tolerance), sum
     q.error = q.discretisation + sum
     q.met = q.error <= q.tolerance
     met = met and q.met

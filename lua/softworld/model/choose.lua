@@ -28,6 +28,7 @@ local DOUBT = 4
 local LEVELS = 3   -- coarse ones on which rungs are compared
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
+local NONE = 0 / 0 -- the value of a check's row that a computation has not
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 local function rungs_of(context)
@@ -47,7 +48,8 @@ end
 local function tightest(context, values)
   local share = 1
   for _, q in ipairs(context.job.quantities) do
-    local size, asked = quantity.size(values[q.name]), quantity.asked(q, values[q.name])
+    local value = values[q.name] or NONE
+    local size, asked = quantity.size(value), quantity.asked(q, value)
     if size > 0 and size < math.huge then share = math.min(share, asked / size) end
   end
   return share
@@ -59,7 +61,7 @@ end
 local function left_out(context, name, but)
   local sum = 0
   for _, state in ipairs(context.states) do
-    sum = sum + (state.by == "compared" and state ~= but and state.change[name] or 0)
+    sum = sum + (state.by == "compared" and state ~= but and (state.change[name] or 0) or 0)
   end
   return sum
 end
@@ -69,7 +71,7 @@ end
 local function change(context, state, here, above)
   local c = { worst = -1, all = {} }
   for _, q in ipairs(context.job.quantities) do
-    local a, b = here.values[q.name], above.values[q.name]
+    local a, b = here.values[q.name] or NONE, above.values[q.name] or NONE
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
     if d ~= d then d = math.huge end
     c.all[q.name] = state.choice.safety * d
@@ -210,7 +212,7 @@ local function refined(context)
   for k = 1, LEVELS do -- what was computed on the way is not computed again
     local known = probe.known(context, rungs_of(context), k)
     if not known or not known.ok then break end
-    for name, value in pairs(known.values) do job.values[name][k] = value end
+    for name, values in pairs(job.values) do values[k] = known.values[name] or NONE end
     if suffices(job, k, known.contact) then break end -- the scene is to end there
     job.levels[k], job.begun = known.level, k
   end
@@ -264,7 +266,7 @@ local function shorter(context, result)
     local hopeless = q.error > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
     for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
       local depends = state.by == "free" and state.choice.name == "motion"
-        or state.by == "compared" and state.change[q.name] > 0
+        or state.by == "compared" and (state.change[q.name] or 0) > 0
       if state.rung < state.last and depends then
         raise_rung(context, state, ("with %s the bar of %s stays at %s (asked for %s)"):format(
           state.choice.rungs[state.rung].as, q.name, number.text(q.error, q.unit),
@@ -321,8 +323,9 @@ function choose.wanted(scene, args)
   local named
   for _, w in ipairs(build.data(scene).wires) do named = named or core.data(w.object).auto and w.name end
   if word == nil and not named then return false end
-  if type(args.tolerance) ~= "table" then
-    error(("scene:run: %s needs to know what for: give tolerance = { quantity = value }, see help 'auto'")
+  if type(args.tolerance) ~= "table" and args.check == nil then
+    error(("scene:run: %s needs to know what for: give tolerance = { quantity = value } or check = {...}, "
+      .. "see help 'auto'")
       :format(word and "model = 'auto'" or ("wire '%s' has model = 'auto', which"):format(named)), 0)
   end
   return true

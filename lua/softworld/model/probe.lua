@@ -6,7 +6,6 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
-local quantity = require "softworld.quantity"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
 local trust = require "softworld.run.trust"
@@ -63,9 +62,7 @@ local function compute(context, rungs, k, factors)
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
   if not run.ok then return result end
   result.values = {}
-  for _, q in ipairs(job.quantities) do
-    result.values[q.name] = (q.sample or quantity.read(q, run.start)).value
-  end
+  for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
   result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
   result.level = { segments = trust.counts(job, k), ok = true, cpu = run.cpu }
   return result

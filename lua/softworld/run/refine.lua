@@ -4,6 +4,7 @@
 -- @module softworld.run.refine
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
 local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
 local trust = require "softworld.run.trust"
@@ -39,6 +40,9 @@ local function steps_of(job, args)
     return options
   end
 end
+
+--- Does the argument table of a run ask for error bars?
+function refine.wanted(args) return trust.wanted(args) or checks.field(args, "check") ~= nil end
 
 local function positions_of(scene)
   local list = {}

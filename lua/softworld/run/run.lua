@@ -186,8 +186,8 @@ end
 
 -- The files that it is to be written to and to go on from.
 local function check_files(scene, args)
-  if trust.wanted(args) and build.data(scene).from_file then
-    error(("scene:run: tolerance: error bars need the whole computation, and scene '%s' goes on from the "
+  if refine.wanted(args) and build.data(scene).from_file then
+    error(("scene:run: error bars need the whole computation, and scene '%s' goes on from the "
       .. "file '%s'; give dt [s], or tolerance as a number [m]"):format(scene.name,
       build.data(scene).from_file), 0)
   end
@@ -197,9 +197,9 @@ local function check_files(scene, args)
       error(("scene:run: %s: the name of a file is wanted, got %s"):format(key,
         file == "" and "''" or type(file)), 0)
     end
-    if file ~= nil and trust.wanted(args) then
-      error(("scene:run: %s does not go with a table of quantities as tolerance, which runs the scene "
-        .. "several times; give dt [s], or tolerance as a number [m]"):format(key), 0)
+    if file ~= nil and refine.wanted(args) then
+      error(("scene:run: %s does not go with a table of quantities as tolerance, or with check, which run "
+        .. "the scene several times; give dt [s], or tolerance as a number [m]"):format(key), 0)
     end
   end
 end
@@ -225,7 +225,7 @@ function core.class.scene.run(scene, args)
   if build.call(3, choose.wanted, scene, args) then
     return hide_failure(build.call(3, choose.run, scene, args, check_start, run_once))
   end
-  if trust.wanted(args) then
+  if refine.wanted(args) then
     local job = build.call(3, refine.job, scene, args, check_start)
     return hide_failure(build.call(3, refine.run, job, run_once))
   end

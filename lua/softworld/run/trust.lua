@@ -41,7 +41,8 @@ function trust.wanted(args) return type(checks.field(args, "tolerance")) == "tab
 
 --- How far the last of the values of a quantity may be off, one value per level, each
 -- level with edges and steps half as long as before.
--- @tparam table q the quantity: plain or own = true when its order is not known
+-- @tparam table q the quantity: plain or own = true when its order is not known; row = true: of a check,
+--   which may be exactly its limit, so that equal values have no bar
 -- @tparam table values of the levels, coarsest first
 -- @tparam boolean contact does the wire touch anything, or were steps redone?
 -- @treturn number error, in the quantity's unit
@@ -51,7 +52,7 @@ function trust.estimate(q, values, contact)
   if n < 2 then return math.huge, second_order end
   local last = quantity.distance(values[n - 1], values[n])
   local size = quantity.size(values[n]) -- infinite: the bend radius of a straight wire
-  local floor = size < math.huge and rounding * size or 0
+  local floor = size < math.huge and not q.row and rounding * size or 0
   if n == 2 then
     local rate = (q.plain or q.own or contact) and 2 or second_order
     return safety * last / (rate - 1) + floor, rate
@@ -97,13 +98,21 @@ function Quantity:text() return text_of(self.value, self.unit) end
 local Bars = { __name = "error bars" }
 Bars.__index = Bars
 
+--- What was asked for in words: by the script, or by the row of a check for its verdict.
+function Quantity:asked()
+  local q = self
+  local asked = q.tolerance < math.huge and number.text(q.tolerance, q.unit) or nil
+  if not q.row then return ("asked for %s: %s"):format(asked, q.met and "met" or "NOT met") end
+  if not asked then return "no verdict depends on it" end
+  return ("up to its limit %s: %s"):format(asked, q.met and "decided" or "NOT decided")
+end
+
 function Bars:__tostring()
   local lines = {}
   for i, q in ipairs(self) do
     local place = (q.where and (", s = %.4g m"):format(q.where) or "")
       .. (q.when and (", t = %.4g s"):format(q.when) or "") .. (q.note and (" (%s)"):format(q.note) or "")
-    lines[i] = ("%s = %s (asked for %s: %s)%s"):format(q.name, tostring(q),
-      number.text(q.tolerance, q.unit), q.met and "met" or "NOT met", place)
+    lines[i] = ("%s = %s (%s)%s"):format(q.name, tostring(q), q:asked(), place)
   end
   return table.concat(lines, "\n")
 end
@@ -115,7 +124,7 @@ function trust.error_bars(result)
   end
   local asked = result.quantities
   if not asked then
-    error("no error bars were asked for: give tolerance = { quantity = value }", 2)
+    error("no error bars were asked for: give tolerance = { quantity = value }, or check = {...}", 2)
   end
   local list = {}
   for i, name in ipairs(result.asked) do list[i] = asked[name] end
@@ -197,7 +206,12 @@ function trust.job(scene, what, args)
     data.process_count = count -- the same numbers again
     process.renew(scene, bodies)
   end
-  job.quantities = quantity.list(scene, args.tolerance, what)
+  local asked, check = args.tolerance, what == "scene:run" and args.check or nil
+  if check and asked ~= nil and type(asked) ~= "table" then
+    error(("%s: check is decided by error bars, with which tolerance is a table of quantities; leave it out, "
+      .. "got %s"):format(what, checks.got(asked)), 0)
+  end
+  job.quantities = asked and quantity.list(scene, asked, what) or {}
   if #data.particles > 0 then
     error(("%s: error bars go with wires only, and '%s' is an object of particles; give dt, or tolerance "
       .. "as a number"):format(what, data.particles[1].name), 0)
@@ -206,6 +220,7 @@ function trust.job(scene, what, args)
   job.most = take_levels(what, args)
   job.first, job.share = first_counts(scene)
   for _, q in ipairs(job.quantities) do job.values[q.name] = {} end
+  if check then require("softworld.check.bars").take(job, args) end
   return job
 end
 
@@ -228,24 +243,32 @@ function trust.touches(scene)
   return false
 end
 
+--- Read the quantities' values of a computation: by their names.
+function trust.read(job, result)
+  local found = {}
+  if job.rows then job.rows(result) end
+  for _, q in ipairs(job.quantities) do found[q.name] = q.sample or quantity.read(q, result.start) end
+  return found
+end
+
 -- Take the quantities' values on the level just computed. Returns the largest bar over its tolerance: at 1
--- or less all tolerances are met.
-local function judge(job, result)
+-- or less all tolerances are met. A row of a check whose bar is more than hopeless times too long, for it
+-- is all but its limit, keeps nobody waiting.
+local function judge(job, result, hopeless)
   local worst = 0
   job.contact = job.contact or trust.touches(job.scene) or was_redone(job.scene)
-  job.read = {}
+  job.read = trust.read(job, result)
   for _, q in ipairs(job.quantities) do
-    local now = q.sample or quantity.read(q, result.start)
-    local values = job.values[q.name]
+    local now, values = job.read[q.name], job.values[q.name]
     if #values > 0 and not quantity.alike(values[#values], now.value) then
       error(("quantity '%s': its list is not as long on every mesh; compare at the same places"):format(
         q.name), 0)
     end
     values[#values + 1] = now.value
     now.error, now.rate = trust.estimate(q, values, job.contact)
-    job.read[q.name] = now
     local asked = quantity.asked(q, now.value)
-    worst = math.max(worst, now.error / (q.aim and q.aim(asked) or asked))
+    local share = now.error > 0 and now.error / (q.aim and q.aim(asked) or asked) or 0
+    if not (q.row and share > hopeless) then worst = math.max(worst, share) end
   end
   return worst
 end
@@ -288,11 +311,13 @@ local function climb(job, compute)
     job.levels[#job.levels + 1] = { segments = trust.counts(job, k), ok = result.ok, reason = result.reason,
       cpu = os.clock() - begun }
     if result.ok then
-      good, bad, job.finest = good + 1, 0, k
-      local worst = judge(job, result)
-      if good >= least_levels and (worst <= 1 or worst > hoped ^ (job.most - k)) then break end
+      local most = hoped ^ (job.most - k)
+      job.known = good
+      local worst = judge(job, result, most)
+      good, bad, job.finest, job.known = good + 1, 0, k, good + 1
+      if good >= least_levels and (worst <= 1 or worst > most) then break end
     else
-      good, bad, job.failure = 0, bad + 1, result.reason
+      good, bad, job.known, job.failure = 0, bad + 1, 0, result.reason
       for name in pairs(job.values) do job.values[name] = {} end
       if bad == failures then break end
     end
@@ -305,7 +330,7 @@ local function advice_of(job)
   local worst, slow = 0, nil
   for _, q in ipairs(job.quantities) do
     local now = job.read[q.name]
-    local levels = math.log(now.error / q.tolerance) / math.log(now.rate)
+    local levels = now.error > 0 and math.log(now.error / q.tolerance) / math.log(now.rate) or 0
     if levels > worst then worst, slow = levels, q end
   end
   if not slow then return nil end
@@ -313,20 +338,20 @@ local function advice_of(job)
   local k = job.finest + more
   local reached = ("%s has a bar of %s on %s; "):format(slow.name, number.text(now.error, slow.unit),
     describe(job, job.finest))
+  local less = slow.row and "leave more room up to its limit" or "ask for less"
   if now.rate <= 1 then
-    return reached .. "it does not converge: look at what jumps there, or ask for less"
+    return ("%sit does not converge: look at what jumps there, or %s"):format(reached, less)
   end
   local asked = number.text(slow.tolerance, slow.unit)
   if k > finest_level then
-    return reached .. ("%s needs more than levels = %d: ask for less"):format(asked, finest_level)
+    return reached .. ("%s needs more than levels = %d: %s"):format(asked, finest_level, less)
   end
   return reached .. ("%s needs about levels = %d (%s)"):format(asked, k, describe(job, k))
 end
 
 local function conclude(job, result)
-  result.asked, result.levels = {}, job.levels
-  for i, q in ipairs(job.quantities) do result.asked[i] = q.name end
-  if not result.ok or #job.values[job.quantities[1].name] < 2 then
+  result.asked, result.levels, result.checked = {}, job.levels, job.check
+  if not result.ok or job.known < 2 then
     if result.ok then result.reason = "all levels but the last failed: " .. job.failure end
     result.ok, result.refused, result.met = false, true, false
     result.where = ("%s: %s"):format(describe(job, #job.levels), result.reason)
@@ -336,11 +361,13 @@ local function conclude(job, result)
   result.quantities, result.met = {}, true
   for _, q in ipairs(job.quantities) do
     local now = job.read[q.name]
-    local met = now.error <= q.tolerance
-    result.met = result.met and met
-    result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
-      unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when, note = now.note,
-      levels = job.values[q.name] }, Quantity)
+    if now.value == now.value then -- else there is nothing to measure
+      local met = now.error <= q.tolerance
+      result.met, result.asked[#result.asked + 1] = result.met and met, q.name
+      result.quantities[q.name] = setmetatable({ name = q.name, value = now.value, error = now.error,
+        unit = q.unit, tolerance = q.tolerance, met = met, where = now.where, when = now.when,
+        note = now.note, row = q.row, levels = job.values[q.name] }, Quantity)
+    end
   end
   if not result.met then result.advice = advice_of(job) end
   return result

@@ -1,0 +1,167 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- scene:run{ check = {...} }: rows with error bars, refined until no verdict depends on edges and steps.
+local sw = require "softworld"
+
+-- A wire clamped at one end, which falls; segments: how many the script gives it.
+local function falling(segments)
+  local scene = sw.scene{}
+  local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 },
+    segments = segments }
+  scene:clamp(wire, { s = 0 })
+  return scene, wire
+end
+
+local function droop(wire, limit, side)
+  return { name = "droop", unit = "m", [side or "max"] = limit,
+    of = function() return -wire:position(wire.length)[3] end }
+end
+
+local off = { max_tension = false, min_bend_radius = false, max_sidewall = false, kinks = false,
+  events = false }
+
+describe("a run that is asked for a check", function()
+  local truth
+
+  setup(function()
+    local scene, wire = falling(200)
+    scene:run{ duration = 0.2, dt = 5e-4 } -- 10 times finer than what is judged below, errors fall as squares
+    truth = -wire:position(0.3)[3]
+  end)
+
+  it("refines until the verdict is that of a far finer run, or says that it is not known", function()
+    local decided = 0
+    for _, share in ipairs{ 0.8, 0.95, 0.99, 0.9998, 1.0002, 1.01, 1.05, 1.2 } do
+      for _, side in ipairs{ "max", "min" } do
+        local scene, wire = falling(20)
+        local run = scene:run{ duration = 0.2, dt = 5e-3, check = { limits = off,
+          checks = { droop(wire, share * truth, side) } } }
+        local row = run:check():row "droop"
+        local wanted = (share > 1) == (side == "max") and "PASS" or "FAIL"
+        assert.is_true(math.abs(row.value - truth) <= row.error, tostring(row.value))
+        assert.equal(row.verdict ~= "OPEN", run.met)
+        if row.verdict == "OPEN" then assert.truthy(run.advice:find("levels = ", 1, true), run.advice) end
+        if row.verdict ~= "OPEN" then
+          decided = decided + 1
+          assert.equal(wanted, row.verdict)
+        end
+      end
+    end
+    assert.is_true(decided >= 12, tostring(decided)) -- limits that are 1 % off the value or more
+  end)
+
+  it("computes no finer than its verdicts need", function()
+    local counts = {}
+    for i, share in ipairs{ 2, 1.0001 } do
+      local scene, wire = falling(20)
+      local run = scene:run{ duration = 0.2, dt = 5e-3, check = { limits = off,
+        checks = { droop(wire, share * truth) } } }
+      counts[i] = #run.levels
+    end
+    assert.equal(3, counts[1])
+    assert.is_true(counts[2] > counts[1])
+  end)
+
+  it("meets a limit that is exactly the value", function()
+    local scene = falling(20)
+    local run = scene:run{ duration = 0.2, check = { limits = { cycle_time = 0.2 } } }
+    local check = run:check()
+    assert.same({ "PASS", 0 }, { check:row "cycle_time".verdict, check:row "cycle_time".error })
+    assert.same({ "PASS", 0 }, { check:row "kinks".verdict, check:row "kinks".error })
+  end)
+
+  it("leaves open what a level has and the one before had not", function()
+    local scene, wire = falling(20)
+    local run = scene:run{ duration = 0.1, levels = 3, check = { limits = off, checks = { { name = "late",
+      unit = "m", max = 1, of = function()
+        if wire.segments < 20 then error "there is nothing yet" end
+        return 0.5
+      end } } } }
+    local check = run:check()
+    assert.equal("OPEN", check:row "late".verdict)
+    assert.equal(math.huge, check:row "late".error)
+    assert.is_false(run.met)
+  end)
+
+  it("checks the same afterwards, unless it is asked for something else", function()
+    local scene = falling(20)
+    local given = { limits = { max_tension = 5 } }
+    local run = scene:run{ duration = 0.1, check = given }
+    given.limits = nil
+    assert.equal(5, run:check():row "max_tension".limit)
+    local other = run:check{ limits = { max_tension = 7 } }:row "max_tension"
+    assert.equal(7, other.limit)
+    assert.is_true(other.error > 0) -- its bar is of the value
+    assert.truthy(tostring(run:check()):find(" +- ", 1, true))
+    assert.is_nil(tostring(run:check()):find("no error bars", 1, true))
+    local plain = falling(20):run{ duration = 0.1 }
+    assert.truthy(tostring(plain:check()):find("no error bars", 1, true))
+  end)
+
+  it("goes with quantities of one's own and with a model to be chosen", function()
+    local scene, wire = falling(20)
+    local run = scene:run{ duration = 0.1, model = "auto", tolerance = { tip = { relative = 0.05 } },
+      check = { limits = { max_tension = 5 }, checks = { droop(wire, 0.4) } } }
+    assert.is_true(run.met, run.advice)
+    assert.is_true(run.quantities.tip.met)
+    assert.equal("PASS", run:check():row "droop".verdict)
+    assert.is_true(run:check():row "droop".error > 0)
+    assert.truthy(tostring(run:why()):find("droop = ", 1, true))
+  end)
+
+  it("refuses what run:check would refuse before anything is computed", function()
+    local scene, wire = falling(20)
+    local function refused(words, args)
+      args.duration = 0.1
+      local fine, why = pcall(scene.run, scene, args)
+      assert.is_false(fine)
+      assert.truthy(why:find(words, 1, true), why)
+      assert.equal(0, scene.time)
+    end
+    refused("check must be a table", { check = 5 })
+    refused("did you mean 'max_tension'?", { check = { limits = { max_tensoin = 5 } } })
+    refused("did you mean 'use'?", { check = { usee = "fixed" } })
+    refused("fatigue: a curve is missing", { check = { fatigue = {} } })
+    refused("unit is required", { check = { checks = { { name = "x", of = print } } } })
+    refused("tolerance is a table of quantities", { check = {}, tolerance = 1e-4 })
+    refused("several times", { check = {}, save = "file" })
+    assert.equal(0.3, wire.length)
+  end)
+end)
+
+-- Drawn over a third of a cylinder: tension T_in exp(mu angle), friction work of a place T_out - T_in of the
+-- part that it has gone, largest at the end: T exp(mu angle) (1 - exp(-mu way / R)).
+describe("bars of wear", function()
+  it("hold the friction work of the capstan, and its sidewall pressure", function()
+    local R, radius, mu, angle, way = 0.05, 0.0015, 0.4, 2 * math.pi / 3, 0.01
+    local Rw = R + radius
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local function at(a) return { -Rw * math.cos(a), 0, Rw * math.sin(a) } end
+    local from, to, path = at(math.pi / 2 - angle / 2), at(math.pi / 2 + angle / 2), {}
+    local c, s = math.cos(angle / 2), math.sin(angle / 2)
+    for i = 8, 1, -1 do path[#path + 1] = { from[1] - 0.01 * i * c, 0, from[3] - 0.01 * i * s } end
+    for i = 0, 60 do path[#path + 1] = at(math.pi / 2 - angle / 2 + angle * i / 60) end
+    for i = 1, 8 do path[#path + 1] = { to[1] + 0.01 * i * c, 0, to[3] - 0.01 * i * s } end
+    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-9, mass_per_length = 0.1, radius = radius,
+      path = path, model = "string", segments = 100 }
+    scene:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
+      rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+    scene:force{ kind = "point", on = wire, s = 0, force = { -c, 0, -s } }
+    scene:force{ kind = "damping", mass = 20, on = wire }
+    scene:pin(wire, { s = wire.length }):follow{ points = { { 0, 0, 0 }, { way * c, 0, -way * s } },
+      relative = true, duration = 0.5 }
+    local width = 1e-3
+    local work = math.exp(mu * angle) * (1 - math.exp(-mu * way / Rw)) / width
+    local side = math.exp(mu * angle) / Rw
+    local run = scene:run{ duration = 0.5, dt = 0.004, levels = 4, check = { abrasion = { coefficient = 1e-12,
+      width = width }, limits = { wear_depth = 1e-6, friction_work = 1.3 * work,
+        max_sidewall = 1.3 * side } } }
+    local check = run:check()
+    for name, wanted in pairs{ friction_work = work, max_sidewall = side } do
+      local row = check:row(name)
+      print(("measured: %s %.6g +- %.2g, by the capstan %.6g"):format(name, row.value, row.error, wanted))
+      assert.is_true(math.abs(row.value - wanted) <= row.error)
+      assert.is_true(row.error < 0.2 * wanted)
+      assert.equal("PASS", row.verdict)
+    end
+  end)
+end)
