@@ -25,7 +25,7 @@ local columns = writing.columns
 local sign = { max = "<= ", min = ">= " }
 
 local function line_of(row)
-  local bar = row.error and (" +- %s"):format(cells.number(row.error, row.unit)) or ""
+  local bar = row.error and row.error > 0 and (" +- %s"):format(cells.number(row.error, row.unit)) or ""
   local limit = row.side and sign[row.side] .. cells.number(row.limit, row.unit) or ""
   local place = {}
   if row.s then place[1] = "s = " .. cells.number(row.s, "m") end

@@ -60,7 +60,7 @@ export class CheckPanel {
     const { shown } = row;
     const cells = h("tr", {}, h("td", {}, badge(row.verdict)),
       h("th", { scope: "row" }, nameOf(row), row.what && row.what !== row.name ? h("small", {}, row.what) : null),
-      h("td.number", { title: exact(row.value, row.unit) }, shown.value || "–", shown.error ? h("small", {}, `± ${shown.error}`) : null),
+      h("td.number", { title: exact(row.value, row.unit) }, shown.value || "–", row.error !== 0 && shown.error ? h("small", {}, `± ${shown.error}`) : null),
       h("td", { title: exact(row.limit, row.unit) }, shown.limit ? `${row.side === "max" ? "≤" : "≥"} ${shown.limit}` : "–",
         row.from ? h("small", {}, row.source && row.source !== row.from ? `${row.from}: ${row.source}` : row.from) : null),
       h("td.number", { title: exact(row.margin, row.unit) }, shown.margin || "–", this.bar(row)),

@@ -306,7 +306,7 @@ local function summary_of(self)
       "see frames = { memory = }")
   end
   for _, q in ipairs(self.quantities and self:error_bars() or {}) do
-    rows[#rows + 1] = { label = q.name, value = type(q.value) == "number" and q.value or q:text(),
+    rows[#rows + 1] = { label = q:label(), value = type(q.value) == "number" and q.value or q:text(),
       unit = type(q.value) == "number" and q.unit or "",
       where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)")
         .. (q.note and (" (%s)"):format(q.note) or "") }
@@ -362,7 +362,7 @@ local function outline(self)
   doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)
   for i, q in ipairs(self.quantities and self:error_bars() or {}) do
     doc.quantities = doc.quantities or {}
-    doc.quantities[i] = { name = q.name, value = q.value, error = q.error, unit = q.unit,
+    doc.quantities[i] = { name = q:label(), value = q.value, error = q.error, unit = q.unit,
       asked = q.tolerance, met = q.met, where = q.where, when = q.when }
   end
   return doc

@@ -95,6 +95,9 @@ end
 --- The value for people: a vector as one text.
 function Quantity:text() return text_of(self.value, self.unit) end
 
+--- Its name; of a row of a check, which may judge something else than a quantity of that name, with a word.
+function Quantity:label() return self.row and "check: " .. self.name or self.name end
+
 local Bars = { __name = "error bars" }
 Bars.__index = Bars
 
