@@ -40,7 +40,7 @@ static void blank_wire(sw_scene_wire *w) {
   w->window.room = NULL, w->window.edges = 0;
   if (!w->window.marks) memset(&w->window, 0, sizeof w->window);
   w->zones.past = NULL, w->zones.gaps = w->zones.x = NULL;
-  w->wear.places = NULL, w->wear.cycles = NULL;
+  w->wear.places = NULL, w->wear.cycles = NULL, w->wear.across = NULL;
   w->strand.rate = NULL, w->twisted = NULL;
 }
 

@@ -15,6 +15,7 @@
 void sw_wear_free(sw_wear *w) {
   sw_free(w->places);
   sw_free(w->cycles);
+  sw_free(w->across);
   *w = (sw_wear){0};
 }
 
@@ -175,7 +176,8 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
   sw_wear *wear = &s->wires[w].wear;
   const sw_body *b = &s->system.bodies[w];
   const sw_plan *p = b->plan;
-  sw_vec *across = sw_alloc(p->edges, sizeof *across);
+  if (!wear->across) wear->across = sw_alloc(wear->count, sizeof *wear->across);
+  sw_vec *across = wear->across;
   if (!across) return SW_ENOMEM;
   const sw_wear_place *start = &wear->places[0];
   const sw_vec t0 = tangent_of(b, 0);
@@ -196,7 +198,6 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
     x->load = tension * sw_norm(bend), x->touches = 0;
   }
   wear->holds = holds;
-  sw_free(across);
   return SW_OK;
 }
 
@@ -317,7 +318,7 @@ static void tape_place(sw_tape *t, sw_wear_place *x) {
 
 void sw_tape_wear(sw_tape *t, sw_wear *w) {
   size_t count = w->count, nodes = w->nodes;
-  SW_TAPE_STRUCT(t, sw_wear, 72);
+  SW_TAPE_STRUCT(t, sw_wear, 80); /* across is room for work */
   sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
   sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
   if (!sw_tape_good(t)) return;

@@ -34,6 +34,7 @@ typedef struct sw_wear {
   size_t count, nodes;   /* places: nodes, then clamps */
   sw_wear_place *places; /* (count) */
   sw_cycles *cycles;     /* (count x SW_WEAR_SIGNALS) */
+  sw_vec *across;        /* (count) room for a step's work; NULL until the first */
   uint64_t holds;        /* a number for what holds its direction where */
   sw_extreme sidewall;   /* largest pressure T/R where it touches [N/m] */
   int partial;           /* 1: it was a mesh of particles for a while, of which nothing is kept */

@@ -8,6 +8,7 @@ local checks = require "softworld.checks"
 local choose = require "softworld.model.choose"
 local grasp = require "softworld.grip.grasp"
 local leave = require "softworld.scene.leave"
+local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
 local process = require "softworld.run.process"
 local number = require "softworld.output.number"
@@ -30,6 +31,7 @@ local progress = require "softworld.output.progress"
 
 local Run = { __name = "run" }
 local readable = runfiles.readable
+local summary_of -- of a run, as long as its scene stays as it is
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
 local frames_rows = tables.list{
@@ -125,6 +127,7 @@ local function run_once(scene, args, level)
     smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time,
     wall = 0, cpu = 0 }
   process.check_steps(scene)
+  kept.begin(scene)
   data.origin = data.origin or save.origin(scene)
   if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
   data.going = nil
@@ -154,7 +157,9 @@ local function run_once(scene, args, level)
   total.restores, total.cut = data.restores, cut
   data.runs = (data.runs or 0) + 1
   total.number = data.runs
-  return sealed.new(Run, total)
+  local run = sealed.new(Run, total)
+  kept.ended(scene, run, summary_of)
+  return run
 end
 
 
@@ -257,7 +262,7 @@ local told = {
   crash = function(e) return ("%s RUNS INTO %s at"):format(e.part, e.obstacle) end,
 }
 
-local function summary_of(self)
+function summary_of(self)
   local data, rows = build.data(self.scene), {}
   local function add(label, value, unit, s, t, note)
     local where = s and ("s = %.4g m"):format(s) or nil
@@ -356,7 +361,7 @@ local function outline(self)
     steps = self.steps, wall = self.wall, cpu = self.cpu, gravity = self.scene:gravity(),
     wires = {}, obstacles = {}, grips = {}, clamps = {}, frames = {} }
   if not self.ok then return doc end
-  doc.series, doc.summary = self:series(), summary_of(self)
+  doc.series, doc.summary = self:series(), kept.rows(self) or summary_of(self)
   local unmet = trust.unmet(self)
   doc.model = self.model and tostring(self.model)
   doc.met, doc.unmet = self.met, unmet and ("%s (%s)"):format(unmet, self.advice)

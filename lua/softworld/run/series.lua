@@ -24,12 +24,13 @@ end
 
 local function norm(x, y, z) return (x * x + y * y + z * z) ^ 0.5 end
 
--- Flat rows from the run's start on as a list of their first places (0: before the row), and times.
-local function places(rows, count, width, start)
-  local list, times = {}, {}
+-- Flat rows of the run, from its start to its end, as a list of their first places (0: before the row), and
+-- times.
+local function places(rows, count, width, run)
+  local list, times, from, to = {}, {}, run.start, run.time
   for i = 0, count - 1 do
     local t = rows[width * i + 1]
-    if t >= start then list[#list + 1], times[#times + 1] = width * i, t end
+    if t >= from and t <= to then list[#list + 1], times[#times + 1] = width * i, t end
   end
   return list, times
 end
@@ -46,20 +47,20 @@ local function add_vectors(one, vectors)
   end
 end
 
-local function add_hold(list, name, object, start)
+local function add_hold(list, name, object, run)
   local rows, count = object:log()
   if count == 0 then return end
-  local at, times = places(rows, count, 10, start)
+  local at, times = places(rows, count, 10, run)
   add_vectors(source(list, name, times), {
     { what = "force", unit = "N", at = function(i, k) return rows[at[i] + 1 + k] end },
     { what = "moment", unit = "N m", at = function(i, k) return rows[at[i] + 4 + k] end } })
 end
 
 -- All grasps of a gripper as one.
-local function add_gripper(list, gripper, start)
-  local rows, times = {}, {}
+local function add_gripper(list, gripper, run)
+  local rows, times, from, to = {}, {}, run.start, run.time
   for _, r in ipairs(measures.records(gripper)) do
-    if r.t >= start then rows[#rows + 1], times[#times + 1] = r, r.t end
+    if r.t >= from and r.t <= to then rows[#rows + 1], times[#times + 1] = r, r.t end
   end
   if #rows == 0 then return end
   local one = source(list, gripper.name, times)
@@ -72,9 +73,9 @@ local function add_gripper(list, gripper, start)
   end
 end
 
-local function add_obstacle(list, entry, start)
+local function add_obstacle(list, entry, run)
   local rows, count = entry.object:log()
-  local at, times = places(rows, count, 5, start)
+  local at, times = places(rows, count, 5, run)
   local one = source(list, entry.name, times)
   add(one, "contact_force", "N", function(i)
     return norm(rows[at[i] + 2], rows[at[i] + 3], rows[at[i] + 4])
@@ -82,18 +83,18 @@ local function add_obstacle(list, entry, start)
 end
 
 -- Clips, ties.
-local function add_fixing(list, it, start)
+local function add_fixing(list, it, run)
   local rows, count = it.object:log()
   if count == 0 then return end
-  local at, times = places(rows, count, 4, start)
+  local at, times = places(rows, count, 4, run)
   add_vectors(source(list, it.name, times),
     { { what = "force", unit = "N", at = function(i, k) return rows[at[i] + 1 + k] end } })
 end
 
-local function add_wire(list, wire, name, start)
+local function add_wire(list, wire, name, run)
   local rows, count = wire:log()
   if count == 0 then return end
-  local at, times = places(rows, count, 3, start)
+  local at, times = places(rows, count, 3, run)
   local one = source(list, name, times)
   add(one, "tension", "N", function(i) return rows[at[i] + 2] end)
   add(one, "bend_radius", "m", function(i)
@@ -106,23 +107,23 @@ local function sources(self)
   local data, list, theirs = build.data(self.scene), {}, {}
   for _, g in ipairs(data.grippers) do
     for _, hold in ipairs(g.past) do theirs[hold] = true end
-    add_gripper(list, g, self.start)
+    add_gripper(list, g, self)
   end
   for _, h in ipairs(data.holds) do
-    if not theirs[h.object] then add_hold(list, h.name, h.object, self.start) end
+    if not theirs[h.object] then add_hold(list, h.name, h.object, self) end
   end
-  for _, o in ipairs(data.obstacles) do add_obstacle(list, o, self.start) end
+  for _, o in ipairs(data.obstacles) do add_obstacle(list, o, self) end
   for _, f in ipairs(data.fixings) do
-    if core.exists(f.object) then add_fixing(list, f.fixing, self.start) end
+    if core.exists(f.object) then add_fixing(list, f.fixing, self) end
   end
   local taken = {}
   for _, w in ipairs(data.wires) do
-    add_wire(list, w.object, w.name, self.start)
+    add_wire(list, w.object, w.name, self)
     taken[w.name] = true
   end
   for _, g in ipairs(data.gone or {}) do -- another one may have its name by now
     local name = taken[g.label] and ("%s until %.6g s"):format(g.label, g.time) or g.label
-    if g.kind == "wire" then add_wire(list, g.body, name, self.start) end
+    if g.kind == "wire" then add_wire(list, g.body, name, self) end
     taken[name] = true
   end
   return list

@@ -15,6 +15,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local kept = require "softworld.run.kept"
 local number = require "softworld.output.number"
 local process = require "softworld.run.process"
 local quantity = require "softworld.quantity"
@@ -379,6 +380,7 @@ end
 --- Take down where the job begins. job.restore() goes back there.
 function trust.open(job)
   local scene, data = job.scene, build.data(job.scene)
+  kept.begin(scene)
   local start, restores = scene:snapshot(), data.restores
   function job.restore()
     scene:restore(start)

@@ -4,6 +4,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local kept = require "softworld.run.kept"
 local process = require "softworld.run.process"
 local trust = require "softworld.run.trust"
 
@@ -44,6 +45,7 @@ end
 local function settle(scene, args)
   build.check(scene, "scene:settle", 4)
   local before, data = kinks(scene), build.data(scene)
+  kept.begin(scene)
   data.runs = (data.runs or 0) + 1 -- peaks begin anew, as in a run
   local rest = build.call(3, core_settle, scene, args)
   for tube, e in pairs(rest.ok and kinks(scene) or {}) do

@@ -1,0 +1,31 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The summary of a run once the scene goes on. Peaks begin anew with the next run and settle, so it is taken
+-- down before that, where the script still has the run.
+-- @module softworld.run.kept
+local build = require "softworld.scene.build"
+local sealed = require "softworld.sealed"
+
+local kept = {}
+
+local weak = { __mode = "v" }
+local last = setmetatable({}, { __mode = "k" }) -- scene -> its last run, and what gives its summary
+
+--- A run has ended; summary(run) gives its rows as long as the scene stays as it is.
+function kept.ended(scene, run, summary)
+  last[scene] = { run = setmetatable({ run }, weak), summary = summary }
+end
+
+--- The scene goes on.
+function kept.begin(scene)
+  local before = last[scene]
+  local run = before and before.run[1]
+  last[scene] = nil
+  if not run then return end
+  local own = sealed.fields(run)
+  if own.ok and own.restores == build.data(scene).restores then own.summary_rows = before.summary(run) end
+end
+
+--- The rows that were taken down, or nil.
+function kept.rows(run) return sealed.fields(run).summary_rows end
+
+return kept
