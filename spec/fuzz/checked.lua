@@ -252,7 +252,7 @@ function Case:call(text)
   self.doing = text:sub(1, 300)
   local written = tonumber(text:match "^v%[(%d+)%]%.[%w_]+ = ")
   if written then self.written[self.v[written] or 0] = true end -- what the case writes may be no number
-  local before = whole(text) and picture(self)
+  local before, acted = whole(text) and picture(self), hostile.acted
   local began = os.clock()
   local results = table.pack(pcall(chunk))
   core.fail_allocation(0)
@@ -262,7 +262,7 @@ function Case:call(text)
     local message = results[2]
     local bad = poor(message, self.memory)
     if bad then self.report("error", ("%s: %s"):format(bad, tostring(message))) end
-    if before then
+    if before and hostile.acted == acted then -- else a function of the script's own did it
       local after = picture(self)
       for i = 1, #after < #before and 0 or #after do -- a callback may forget its objects
         if before[i] ~= after[i] then

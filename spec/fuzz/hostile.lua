@@ -4,7 +4,7 @@
 local sw = require "softworld"
 local core = sw.core
 
-local hostile = {}
+local hostile = { acted = 0 } -- how often a function that was called back did something to an object
 
 local function raises() error("raised by the caller", 0) end
 
@@ -78,7 +78,10 @@ local function with_objects(F, v)
       local left = 3
       return function()
         left = left - 1
-        if left >= 0 then act(object) end
+        if left >= 0 then
+          hostile.acted = hostile.acted + 1
+          act(object)
+        end
         return 0.01
       end
     end

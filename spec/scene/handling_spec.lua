@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Grippers over a day of handling: several grasps, several wires, moves while empty.
 local sw = require "softworld"
+local core = require "softworld.core"
 local vec = require "softworld.vec"
 
 local G = 9.81
@@ -282,6 +283,20 @@ describe("an empty gripper", function()
     local grips = run:document().frames
     assert.near(0.3, grips[1].grips[1].position[3], 0.3 * 2 ^ -24) -- frames have 32 bits
     assert.is_false(grips[1].grips[1].held)
+  end)
+
+  -- An imposed grip may hold one point; a finger is a body.
+  it("makes no fingers without a width, and leaves nothing half made", function()
+    for _, shape in ipairs{ "flat", "v" } do
+      local scene = scene_with(1)
+      local hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.3 }, on_crash = function() end,
+        pads = { width = -0.0, shape = shape } }
+      local before = core.items(scene)
+      local fine, why = pcall(hand.retreat, hand, { distance = 0.1 })
+      assert.is_false(fine)
+      assert.truthy(why:find("'hand': pads.width = -0 m", 1, true), why)
+      assert.same(before, core.items(scene))
+    end
   end)
 
   it("may begin anywhere by an approach", function()
