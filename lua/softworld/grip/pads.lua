@@ -117,8 +117,8 @@ end
 function pads.make(scene, gripper, at, rotation, radius)
   local name, p = gripper.name, gripper.pads
   if (p.shape == "flat" or p.shape == "v") and p.width <= 0 then
-    error(("gripper '%s': pads.width = %g m is that of an imposed grip; fingers need a width above 0 m"):format(
-      name, p.width), 0)
+    error(("gripper '%s': pads.width = %g m is that of an imposed grip; fingers need a width above 0 m")
+      :format(name, p.width), 0)
   end
   radius = radius or 0.005
   local opening = p.opening or 4 * radius
