@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Zones: how near a wire comes to them over a whole motion, and whose temperature it has.
+local solid = require "softworld.output.solid"
 local sw = require "softworld"
 local core = require "softworld.core"
 
@@ -209,5 +210,40 @@ describe("scene:zone", function()
     os.remove(path)
     local row = again:run{ duration = 0.02, dt = 0.01 }:check{}:row "clearance"
     assert.is_near(0.04 - RADIUS, row.value, 1e-6)
+  end)
+
+  -- Eight corners of the box, at its pose; the others have their triangles.
+  it("is drawn where it is, also after a snapshot and from a file", function()
+    local path = os.tmpname() .. ".html"
+    local other = sw.scene{ gravity = { 0, 0, 0 } }
+    other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    other:zone{ name = "post", shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0.1, 0, 0.2 },
+      rotation = { axis = { 0, 0, 2 }, angle = math.pi / 2 } }
+    local snapshot = other:snapshot()
+    for i, z in ipairs{ { shape = "plane", at = { 0, 0, -1 } }, { shape = "sphere", radius = 0.02 },
+      { shape = "torus", radius = 0.1, tube = 0.01, temperature = 40 },
+      { shape = "hull", points = { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 0, 0, 2 } } } } do
+      z.name = "zone" .. i
+      other:zone(z)
+    end
+    local zones = other:run{ duration = 0.01, dt = 0.01 }:document().zones
+    assert.equal(5, #zones)
+    assert.same({ { 0.1, 0, 0.2 }, 36 }, { zones[1].position, #zones[1].indices })
+    assert.is_near(math.sqrt(0.5), zones[1].rotation[4], 1e-15)
+    for _, z in ipairs(zones) do assert.is_true(#z.vertices >= 12, z.name) end
+    assert.same({ 72, 36 }, { #solid.edges(zones[1]), #solid.edges(zones[5]) }) -- 12 and 6 edges
+    local picture = path .. ".svg"
+    other:picture{ path = picture, technique = "wireframe" }
+    other:restore(snapshot)
+    local run = other:run{ duration = 0.01, dt = 0.01 }
+    assert.equal(1, #run:document().zones)
+    run:report(path)
+    local file = assert(io.open(path))
+    assert.truthy(file:read "a":find('"zones":[{"at":[0.1', 1, true))
+    file:close()
+    other:save(path)
+    assert.equal(1, #sw.load(path):run{ duration = 0.01, dt = 0.01 }:document().zones)
+    os.remove(path)
+    os.remove(picture)
   end)
 end)

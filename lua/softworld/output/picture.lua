@@ -68,6 +68,22 @@ local function add_obstacles(drawing, run, frame, look)
   end
 end
 
+local EDGE = 8e-4 -- radius of the edges of zones, of the size of what is seen [-]
+
+-- Zones by their edges, for they are seen through.
+local function add_zones(drawing, run, look)
+  for _, z in ipairs(run.zones or {}) do
+    local ends, colour = solid.place(solid.edges(z), z), povscene.colours[z.temperature and "heat" or "zone"]
+    if look.technique == "wireframe" then
+      drawing:lines(ends, colour)
+    else
+      for i = 1, #ends, 6 do
+        drawing:tube(table.move(ends, i, i + 5, 1, {}), EDGE * look.size, colour, 0)
+      end
+    end
+  end
+end
+
 -- Flat list of the ends of straight lines from point to point.
 local function chain(points)
   local out = {}
@@ -184,6 +200,7 @@ end
 function picture.drawing(run, frame, look)
   local drawing = core.drawing()
   add_obstacles(drawing, run, frame, look)
+  add_zones(drawing, run, look)
   add_wires(drawing, run, frame, look)
   add_particles(drawing, run, frame, look)
   return drawing

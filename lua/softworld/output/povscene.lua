@@ -33,9 +33,10 @@ local obstacle_colour = { 0.52, 0.69, 0.87 }
 local table_colour = { 0.82, 0.80, 0.765 }
 local jaw_colour, palm_colour = { 0.33, 0.37, 0.43 }, { 0.70, 0.73, 0.77 }
 
---- Colours, sRGB: of wires one after the other, obstacles, planes, jaws, palms and stems of grippers.
+--- Colours, sRGB: of wires one after the other, obstacles, planes, jaws, palms and stems of grippers, zones
+-- to be kept out of, and zones that have a temperature.
 povscene.colours = { wires = wire_colours, obstacle = obstacle_colour, plane = table_colour,
-  jaw = jaw_colour, palm = palm_colour }
+  jaw = jaw_colour, palm = palm_colour, zone = { 0.84, 0.24, 0.24 }, heat = { 0.90, 0.58, 0.10 } }
 
 -- Finishes: how much of the light of all around, of the lamps, and which gloss.
 local matt = "finish { ambient 0.13 diffuse 0.72 }"
@@ -190,6 +191,13 @@ local function obstacle(add, o, pose, camera, size)
   opener(add, o)
   add(format("texture { pigment { %s transmit %.3g } %s }\n%s }\n", colour(c), o.transparency or 0.1, satin,
     matrix(pose)))
+end
+
+-- Seen through, for wires are to be seen in it.
+local function zone(add, z)
+  triangles(add, z)
+  add(format("no_shadow texture { pigment { %s transmit 0.75 } }\n%s }\n",
+    colour(povscene.colours[z.temperature and "heat" or "zone"]), matrix(z)))
 end
 
 -- Neighbours closer than a tenth of the radius are left out of the union.
@@ -352,6 +360,7 @@ function povscene.text(run, frame, look)
     local pose = (frame.obstacles or {})[i]
     if pose ~= false then obstacle(add, o, pose, look.camera, look.size) end
   end
+  for _, z in ipairs(run.zones or {}) do zone(add, z) end
   for i, points in ipairs(frame.wires) do
     local w = run.wires[i]
     local c, surface = w.color or wire_colours[(i - 1) % #wire_colours + 1], (frame.surfaces or {})[i]

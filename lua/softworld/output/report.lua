@@ -113,6 +113,15 @@ local function obstacles_of(page, run)
   return list
 end
 
+local function zones_of(page, run)
+  local list = {}
+  for i, z in ipairs(run.zones or {}) do
+    list[i] = json.object{ name = z.name, kind = z.kind, temperature = z.temperature, at = z.position,
+      rotation = z.rotation, shape = add_shape(page, z) }
+  end
+  return list
+end
+
 local function summary_of(run)
   local list = {}
   for i, row in ipairs(run.summary or {}) do
@@ -176,7 +185,7 @@ local function outline_of(page, run)
     start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, model = run.model,
     gravity = run.gravity,
     wires = run.wires, particles = particles_of(page, run), grips = run.grips, holds = run.holds,
-    obstacles = obstacles_of(page, run) }
+    obstacles = obstacles_of(page, run), zones = zones_of(page, run) }
 end
 
 local function add_run(page, run)

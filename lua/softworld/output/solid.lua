@@ -7,6 +7,7 @@
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local sink = require "softworld.output.sink"
+local vec = require "softworld.vec"
 
 local solid = {}
 
@@ -47,6 +48,40 @@ function solid.place(vertices, pose)
   for i = 1, #vertices, 3 do
     local x, y, z = solid.rotate(q, vertices[i], vertices[i + 1], vertices[i + 2])
     out[i], out[i + 1], out[i + 2] = x + p[1], y + p[2], z + p[3]
+  end
+  return out
+end
+
+local FLAT = 0.999 -- cosine of the angle between two triangles up to which they are one face [-]
+
+local function normal_of(v, i, j, k)
+  local function point(c) return { v[3 * c + 1], v[3 * c + 2], v[3 * c + 3] } end
+  local a = point(i)
+  return vec.unit(vec.cross(vec.sub(point(j), a), vec.sub(point(k), a)))
+end
+
+--- The edges of a solid of triangles, without those within a flat face.
+-- @tparam table shape `vertices` flat [m], `indices` of corners from 0
+-- @treturn table flat list of their ends [m]
+function solid.edges(shape)
+  local v, normals, ends, order, out = shape.vertices, {}, {}, {}, {}
+  local function key_of(c) return ("%.9g %.9g %.9g"):format(v[3 * c + 1], v[3 * c + 2], v[3 * c + 3]) end
+  for t = 1, #shape.indices, 3 do
+    local corners = { shape.indices[t], shape.indices[t + 1], shape.indices[t + 2] }
+    local n = normal_of(v, corners[1], corners[2], corners[3])
+    for e = 1, n and 3 or 0 do
+      local a, b = corners[e], corners[e % 3 + 1]
+      local ka, kb = key_of(a), key_of(b)
+      local key = ka < kb and ka .. "|" .. kb or kb .. "|" .. ka
+      if not normals[key] then normals[key], ends[key], order[#order + 1] = {}, { a, b }, key end
+      table.insert(normals[key], n)
+    end
+  end
+  for _, key in ipairs(order) do
+    local n = normals[key]
+    if #n ~= 2 or vec.dot(n[1], n[2]) < FLAT then
+      for _, c in ipairs(ends[key]) do table.move(v, 3 * c + 1, 3 * c + 3, #out + 1, out) end
+    end
   end
   return out
 end

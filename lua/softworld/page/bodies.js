@@ -108,6 +108,23 @@ export class Obstacle extends Posed {
   }
 }
 
+/** A part of space that is watched: to be kept out of, or with a temperature. Seen through, and never in the way. */
+export class Zone extends Actor {
+  constructor(run, index, given) {
+    super(run, "zone", index, given.name, given.temperature === undefined ? "to be kept out of" : `${given.temperature} °C`);
+    const color = given.temperature === undefined ? "#d63d3d" : "#e6941a";
+    const mesh = shapeMesh(given.shape, solid(color));
+    Object.assign(mesh.material, { transparent: true, opacity: 0.13, depthWrite: false, side: THREE.DoubleSide });
+    mesh.castShadow = mesh.receiveShadow = false;
+    this.group.add(mesh, new THREE.LineSegments(new THREE.EdgesGeometry(mesh.geometry, 35),
+      new THREE.LineBasicMaterial({ color: new THREE.Color(color).convertSRGBToLinear(), transparent: true, opacity: 0.7 })));
+    const [x, y, z] = given.at, [w, a, b, c] = given.rotation;
+    this.group.position.set(x, y, z);
+    this.group.quaternion.set(a, b, c, w).normalize();
+  }
+  update(at, look, hidden) { this.show(true, hidden); }
+}
+
 /** Along the wire nearest to a point in the first frame in which something holds it. */
 function directionNear(run, reader, frame, point) {
   const best = new THREE.Vector3(1, 0, 0), a = new THREE.Vector3(), b = new THREE.Vector3();

@@ -38,7 +38,7 @@ async function readShape(cache, shape, read = blob) {
 
 /** What a run has in its scene: shapes of obstacles, edges of particles; read(n): bytes of blob n. */
 export async function readThings(run, shapes, read) {
-  for (const o of run.obstacles) o.shape = await readShape(shapes, o.shape, read);
+  for (const o of [...run.obstacles, ...run.zones]) o.shape = await readShape(shapes, o.shape, read);
   for (const p of run.particles) {
     if (p.blob !== undefined) p.pairs = new Uint32Array(await read(p.blob));
   }

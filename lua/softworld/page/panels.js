@@ -5,7 +5,7 @@ import { format, knownQuantities } from "./model.js";
 import { RUNS } from "./colours.js";
 
 const GROUPS = [["wire", "Wires"], ["particles", "Particles"], ["gripper", "Grippers"], ["hold", "Holds"],
-  ["pad", "Grippers' parts"], ["clip", "Clips"], ["obstacle", "Obstacles"]];
+  ["pad", "Grippers' parts"], ["clip", "Clips"], ["obstacle", "Obstacles"], ["zone", "Zones"]];
 
 const groupOf = (actor) => (actor.kind !== "obstacle" ? actor.kind : actor.fixed ? "clip" : actor.given.part ? "pad"
   : actor.kind);

@@ -6,7 +6,7 @@ import { knownQuantities } from "./model.js";
 import { scaleOf, linear } from "./colours.js";
 import { Stage } from "./stage.js";
 import { Wire, Particles, Reader } from "./actors.js";
-import { Obstacle, Hold, Gripper, Way } from "./bodies.js";
+import { Obstacle, Zone, Hold, Gripper, Way } from "./bodies.js";
 import { Arrows } from "./arrows.js";
 
 /** The box around all wires at all times, and some of their points. */
@@ -108,6 +108,7 @@ export class View {
       const actor = add(new Obstacle(run, i, o, reader, this.stage));
       if (!actor.plane && !actor.fixed && !o.part) this.addWay(actor, () => [actor.places]);
     });
+    run.zones.forEach((zone, i) => add(new Zone(run, i, zone)));
     run.holds.forEach((hold, i) => {
       const actor = add(new Hold(run, i, hold, reader, this.radius, up));
       this.addWay(actor, () => [actor.places]);

@@ -345,7 +345,7 @@ end
 -- What pictures show, of frames of these numbers; nil: of all.
 local function draw(self, doc, wires, numbers)
   doc.wires = wires
-  doc.obstacles = obstacles_of(build.data(self.scene))
+  doc.obstacles, doc.zones = obstacles_of(build.data(self.scene)), build.data(self.scene).zones
   for i = 1, numbers and #numbers or self.scene:frame_count() do
     doc.frames[i] = self.scene:frame(numbers and numbers[i] or i)
     doc.frames[i].number = numbers and numbers[i] or i
@@ -385,6 +385,7 @@ end
 local function describe(scene, doc, wires)
   local data = build.data(scene)
   doc.scene, doc.wires, doc.obstacles = scene, wires or wires_of(scene), obstacles_of(data)
+  doc.zones = data.zones
   drawn.describe(scene, doc)
   for _, f in ipairs(fixing.all(scene)) do
     for _, one in ipairs(f:solids()) do
@@ -422,7 +423,7 @@ end
 -- The same of a scene as it is now.
 function runfiles.present(scene)
   local doc = { name = scene.name, ok = true, time = scene.time, gravity = scene:gravity(),
-    wires = wires_of(scene), obstacles = obstacles_of(build.data(scene)),
+    wires = wires_of(scene), obstacles = obstacles_of(build.data(scene)), zones = build.data(scene).zones,
     frames = { core.frame_now(scene) }, seen = {} }
   drawn.add(scene, doc)
   drawn.add_particles(scene, doc)
