@@ -62,6 +62,13 @@ function leaving.line(scene, m)
   return ("scene:remove %s"):format(source(name))
 end
 
+--- What an order takes away, for people.
+function leaving.name(scene, m)
+  if m.made ~= nil then return "a force" end
+  if m.force ~= nil then return ("the force '%s'"):format(force_of(scene, m.force).kind) end
+  return ("'%s'"):format(m.object)
+end
+
 -- --- making it anew ------------------------------------------------------------------------------------
 
 -- The call of the script that made an object, or nil.
