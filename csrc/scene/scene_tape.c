@@ -124,6 +124,7 @@ sw_status sw_scene_take_place(sw_scene *s, sw_scene *other, const sw_live *live,
                               const sw_snapshot *restoring, sw_error *err) {
   sw_scene old = *s;
   *s = *other;
+  s->frame_memory = old.frame_memory; /* of the run that may be under way */
   s->restoring =
       restoring; /* placing the holds may call a user's function, which may close others */
   if (restoring) s->snapshots = old.snapshots;

@@ -52,10 +52,11 @@ sw_status sw_ladder_record(sw_ladder *p, double h, sw_error *err);
 int sw_ladder_hopeless(sw_status status);
 
 /* Full step to time t1, of fixed size, in parts where needed; an adaptive one of at most left [s];
- * one of slow handling. */
+ * one of slow handling; one of any kind where there is no wire. */
 sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err);
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err);
 sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err);
+sw_status sw_step_empty(sw_ladder *p, double t1, sw_error *err);
 
 static const double SW_SMALLEST_SHARE = 1.0 / 4096; /* of a step, before giving up [-] */
 

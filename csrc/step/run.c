@@ -27,13 +27,21 @@ static void next_frame(sw_scene *s, double every, double t) {
   if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
 }
 
+/* A step towards t1, or as long as its error allows, by the run's kind of steps. */
+static sw_status one_step(sw_ladder *p, double t1, double until, sw_error *err) {
+  const sw_scene *s = p->s;
+  if (!s->wire_count) return sw_step_empty(p, t1, err);
+  if (p->args->quasistatic) return sw_step_poses(p, t1, err);
+  if (isfinite(p->args->tolerance)) return sw_step_adaptive(p, until - s->time, until, err);
+  return sw_step_fixed(p, t1 - s->time, t1, err);
+}
+
 static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
   const double t0 = s->time, span = until - t0;
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
   if (span > 0 && span < SW_SHORTEST_STEP) s->time = until;
-  const int adaptive = isfinite(p->args->tolerance);
-  s->course.stepper.wants_error = adaptive;
+  s->course.stepper.wants_error = isfinite(p->args->tolerance);
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
   for (size_t k = 1; s->time < until - slack;) {
@@ -42,11 +50,9 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
     if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
     double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     int cut = 0;
-    if (p->args->quasistatic) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
+    if (p->args->quasistatic && s->wire_count) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
     if (!cut) k++;
-    SW_TRY(p->args->quasistatic ? sw_step_poses(p, t1, err)
-           : adaptive           ? sw_step_adaptive(p, until - s->time, until, err)
-                                : sw_step_fixed(p, t1 - s->time, t1, err));
+    SW_TRY(one_step(p, t1, until, err));
     if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
       SW_TRY(sw_scene_store_frame(s, err));
     if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
@@ -78,6 +84,7 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
 sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
+  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   sw_scene_reset_extremes(s);
   s->wears = wear;
   sw_events_clear(&s->events);

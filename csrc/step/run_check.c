@@ -78,7 +78,8 @@ static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error
 
 sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err) {
   const sw_integrator *m = sw_integrator_all()[args->integrator];
-  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
+  if (!s->wire_count && !s->gone_count)
+    return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   for (size_t w = 0; w < s->wire_count; w++)
     if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
       return sw_fail(

@@ -325,6 +325,18 @@ describe("a view that begins with nothing", function()
     page:run [[player.link.order("set", { object: "", values: { gravity: [0, 0, -5] } })]]
     page:wait [[return /gravity = { 0, 0, -5 }/.test(player.panel.build.script)]]
     steps(3)
+    local before = page:run "return player.state.get('time')" -- the gripper is on its way
+    for _, name in ipairs { "cord", "hand" } do
+      click(("[aria-label='Remove %s']"):format(name))
+      page:wait(([[return !document.querySelector("[aria-label='Remove %s']")]]):format(name))
+      steps(2)
+      click "[aria-label='Undo']"
+      page:wait(([[return Boolean(document.querySelector("[aria-label='Remove %s']"))]]):format(name))
+      page:wait(([[return /^back to t = [0-9.]+ s, before '%s' was removed$/.test(
+        document.getElementById("say").innerText)]]):format(name))
+      page:wait(("return Math.abs(player.state.get('time') - %.12f) < 1e-9"):format(before))
+    end
+    assert.is_nil(page:run("return player.panel.build.script"):find("scene:remove", 1, true))
     page:run [[player.link.order("stop")]]
     page:wait "return player.state.get('run').done"
   end)

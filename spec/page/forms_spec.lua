@@ -419,9 +419,6 @@ describe("objects added and removed while they move", function()
       assert.is_false(fine)
       assert.truthy(tostring(message):find(words), message)
     end
-    sw.core.data(scene).running = true
-    refused({ ["do"] = "remove", object = "cord" }, "'cord' is the last wire, and a run is under way")
-    sw.core.data(scene).running = nil
     refused({ ["do"] = "remove", force = 1 }, "there is no such force")
     refused({ ["do"] = "remove", force = "1)] os.exit(3) --" }, "there is no such force")
     refused({ ["do"] = "lead", gripper = "cord", to = { 0, 0, 0 }, speed = 1 }, "'cord' is no gripper")

@@ -121,14 +121,25 @@ describe("a run that is touched", function()
     steps(2)
   end)
 
-  it("refuses the last wire at its button, and goes on", function()
+  it("loses its last wire, goes on without, and has it again by undo", function()
     click "[aria-label='Remove b']"
     gone "b"
     steps(1)
+    local before = time()
     click "[aria-label='Remove a']"
-    page:wait [[return /'a' is the last wire/.test(document.body.innerText)]]
+    gone "a"
+    steps(2)
+    assert.is_false(is_there("wire", "a"))
+    assert.is_true(is_there("gripper", "hand"))
+    assert.truthy(page:run "return player.state.get('events').some((e) => /no wire is left/.test(e.text))")
+    page:run [[player.transport.go(0)]]
+    page:wait [[return player.view.actors.find((a) => a.name === "a").there]]
+    page:keys "End"
+    click "[aria-label='Undo']"
+    page:wait "return player.panel.build.things('wire').includes('a')"
+    page:wait(("return Math.abs(player.state.get('time') - %.12f) < 1e-9"):format(before))
+    page:wait [[return player.view.actors.find((a) => a.name === "a").there]]
     steps(1)
-    assert.is_true(is_there("wire", "a"))
   end)
 
   it("has its gripper led by the pointer, not faster than told, in events and energy", function()

@@ -201,14 +201,134 @@ describe("scene:remove", function()
     assert.are.same((c:positions()), (copy:find("c"):positions()))
   end)
 
-  it("of the last wire is refused while a run goes on, and leaves an empty scene otherwise", function()
+  -- Without wires nothing is solved: obstacles and grippers follow their motions, functions of time, whatever
+  -- the method of the run, and it ends when it would have ended.
+  for _, how in ipairs{ { dt = 0.005 }, { tolerance = 1e-5 }, { dt = 0.005, quasistatic = true },
+    { dt = 0.005, wear = true }, { dt = 0.005, integrator = "bdf2" },
+    { dt = 2e-5, integrator = "velocity-verlet" }, { dt = 2e-5, integrator = "gsl-rk4" } } do
+    local words = how.quasistatic and "quasi-static" or how.wear and "with wear" or how.integrator
+      or how.tolerance and "with a tolerance" or "of fixed steps"
+    it("of the last wire leaves a run that goes on to its end, " .. words, function()
+      local scene = sw.scene{ name = "left" }
+      scene:obstacle{ shape = "plane", friction = 0.3 }
+      local box = scene:obstacle{ name = "box", shape = "box", size = { 0.1, 0.1, 0.1 },
+        at = { 0.3, 0, 0.05 } }
+      box:follow(sw.trajectory{ points = { { 0.3, 0, 0.05 }, { 0.3, 0, 0.15 } }, times = { 0, 0.1 },
+        law = "linear" })
+      local a = rod(scene, "a", 0)
+      local clamp, force = scene:clamp(a, { s = 0 }), scene:force{ kind = "damping", mass = 1 }
+      local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.3 },
+        pads = { friction = 0.5, opening = 0.01 } }
+      scene:wire_contact{}
+      local looks, when = 0
+      scene:observe{ every = 0.01, call = function() looks = looks + 1 end }
+      scene:process(function(p)
+        p:wait(0.02)
+        scene:remove(a)
+        when = p.time
+        hand:move{ by = { 0, 0, 0.01 }, duration = 0.05 }
+        hand:close_jaws{ distance = 0.008, speed = 0.1 }
+        p:wait_until({ force = 1, on = box }, { timeout = 0.01 })
+      end)
+      local run = scene:run(how)
+      assert.is_true(run.ok, run.reason)
+      assert.are.same({ false, false }, { clamp.held, a.present })
+      assert.is_true(force.held) -- it is of all wires that there are
+      assert.are.near(when + 0.05 + 0.02 + 0.01, run.time, 2 * (how.dt or 0.01))
+      assert.are.near(0.31, hand:position()[3], 1e-9)
+      assert.are.near(0.05 + math.min(run.time, 0.1), (box:pose()[3]), 1e-9)
+      assert.are.same({ 0, 0, 0 }, box:force())
+      assert.is_true(looks >= 8)
+      assert(run.events[1].text:find("wire 'a' is taken away; no wire is left", 1, true))
+      -- what it was until then stays, and what reads it now is told that it is gone
+      local doc, ledger = run:document(), run:ledger()
+      assert.are.equal(0, #doc.frames[#doc.frames].wires[1])
+      assert.are.equal(63, #doc.frames[1].wires[1])
+      assert.are.same({ 0, 0, 0 }, { ledger.kinetic, ledger.stored, ledger.gravity })
+      assert.is_true(math.abs(ledger.gap) < 1e-4 * ledger.play)
+      refused("'a' was taken away from scene 'left' at t =", function() a:max_tension() end)
+      local check = run:check{}
+      assert.are.same({ "OPEN", "OPEN" }, { check.verdict, check:row "removed".verdict })
+      assert.are.equal(run.time, run:series().time[#run:series().time])
+      assert.are.equal(0, scene:energy().total)
+      -- and a wire that comes is moved as ever: it falls, damped by 1/s: v' = -g - v
+      local b = rod(scene, "b", 0.2)
+      local more = { duration = 0.02, dt = how.dt, integrator = how.integrator or "tr-bdf2" }
+      local next = scene:run(more)
+      assert.is_true(next.ok, next.reason)
+      assert.are.near(0.1 - 9.81 * (0.02 - 1 + math.exp(-0.02)), b:position(0)[3], 3e-6)
+    end)
+  end
+
+  it("of the last wire, and a wire that comes later in the same run", function()
+    local scene = sw.scene()
+    local a, b = rod(scene, "a", 0), nil
+    at(scene, 0.02, function() scene:remove(a) end)
+    at(scene, 0.05, function() b = rod(scene, "b", 0.1) end)
+    local run = scene:run{ duration = 0.1, dt = 0.005, integrator = "tr-bdf2" }
+    assert.is_true(run.ok, run.reason)
+    assert.are.near(0.1, scene.time, 1e-12)
+    assert.are.near(0.1 - 0.5 * 9.81 * 0.05 ^ 2, b:position(0.25)[3], 1e-6) -- it fell for 0.05 s
+    assert.are.near(0.1, b:position(0.25)[2], 1e-12)
+  end)
+
+  it("of the last wire is undone by a snapshot, and goes through a file", function()
     local scene = sw.scene()
     local a = rod(scene, "a", 0)
-    at(scene, 0.005, function() scene:remove(a) end)
-    refused("'a' is the last wire, and a run is under way", function()
-      scene:run{ duration = 0.01, dt = 0.005 }
-    end)
-    scene:remove(a)
+    local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 0, 1 }, name = "box" }
+    box:follow(sw.trajectory{ points = { { 0, 0, 1 }, { 0, 0, 2 } }, times = { 0, 0.1 }, law = "linear" })
+    scene:run{ duration = 0.01, dt = 0.005 }
+    local before, path = scene:snapshot(), os.tmpname()
+    at(scene, 0.02, function() scene:remove(a) end)
+    scene:run{ duration = 0.03, dt = 0.005 }
+    scene:save(path)
+    local none = scene:snapshot()
+    local copy = sw.load(path)
+    os.remove(path)
+    assert.are.near(0.04, copy.time, 1e-12)
+    assert.are.equal("box", table.concat(copy:names(), " "))
+    assert.are.near(1.4, copy:find("box"):pose()[3], 1e-9)
+    refused("there is no wire", function() copy:run{ duration = 0.01 } end)
+    rod(copy, "c", 0)
+    assert.is_true(copy:run{ duration = 0.01, dt = 0.005 }.ok)
+    scene:restore(before)
+    assert.is_true(a.present)
+    assert.is_true(scene:run{ duration = 0.01, dt = 0.005 }.ok)
+    scene:restore(none)
+    assert.are.equal("box", table.concat(scene:names(), " "))
+    refused("there is no wire", function() scene:settle() end)
+  end)
+
+  it("of the last wire in a run that is written, and goes on from its file", function()
+    local path = os.tmpname()
+    os.remove(path)
+    local function made(stops)
+      local scene = sw.scene{ name = "written" }
+      local a, hand = rod(scene, "a", 0), scene:gripper{ name = "hand", at = { 0, 0, 1 } }
+      scene:process(function(p)
+        p:step("leave", function()
+          p:wait(0.01)
+          scene:remove(a)
+        end)
+        p:step("rest", function() p:wait(0.02) end)
+        if stops then error "here it stops" end
+        p:step("go", function() hand:move{ by = { 0, 0, 0.1 }, duration = 0.05 } end)
+      end)
+      return scene, hand
+    end
+    local scene = made(true)
+    refused("here it stops", function() scene:run{ dt = 0.005, save = path } end)
+    local again, hand = made(false)
+    local run = again:run{ dt = 0.005, save = path, resume = path }
+    os.remove(path)
+    assert.is_true(run.ok, run.reason)
+    assert.are.near(0.08, again.time, 1e-9)
+    assert.are.near(1.1, hand:position()[3], 1e-9)
+  end)
+
+  it("of the last wire between runs leaves an empty scene, in which none begins", function()
+    local scene = sw.scene()
+    scene:remove(rod(scene, "a", 0))
     refused("there is no wire", function() scene:run{ duration = 0.01 } end)
     local b = rod(scene, "b", 0)
     assert.is_true(scene:run{ duration = 0.01, dt = 0.005 }.ok)
@@ -263,11 +383,11 @@ describe("scene:remove", function()
 end)
 
 describe("scene:remove with grippers", function()
-  local function table_with(approach, work)
+  local function table_with(approach, work, alone)
     local scene = sw.scene{ name = approach }
     scene:obstacle{ shape = "plane", friction = 0.3 }
     local a = rod(scene, "a", 0, { E = 5e6, from = { 0, 0, R }, to = { -0.3, 0, R } })
-    rod(scene, "b", 0.1, { E = 5e6, from = { 0, 0.1, R }, to = { -0.3, 0.1, R } })
+    if not alone then rod(scene, "b", 0.1, { E = 5e6, from = { 0, 0.1, R }, to = { -0.3, 0.1, R } }) end
     local pads = approach ~= "imposed"
     local hand = scene:gripper{ name = "hand", pads = pads and { friction = 0.6 } or nil }
     scene:process(function(p)
@@ -298,19 +418,23 @@ describe("scene:remove with grippers", function()
       assert.is_false(frames[#frames].grips[1] or false)
     end)
 
-    it("a gripper whose wire is taken away goes on with nothing, " .. approach, function()
-      local run, _, hand = table_with(approach, function(scene, hand, a, p)
-        scene:remove(a)
-        p:wait(0.02)
-        assert.is_nil(hand.wire)
-        hand:release()
-        hand:move{ by = { 0, 0, 0.02 }, speed = 0.2 }
+    for _, alone in ipairs{ false, true } do
+      local title = ("a gripper whose %swire is taken away goes on with nothing, %s"):format(
+        alone and "only " or "", approach)
+      it(title, function()
+        local run, _, hand = table_with(approach, function(scene, hand, a, p)
+          scene:remove(a)
+          p:wait(0.02)
+          assert.is_nil(hand.wire)
+          hand:release()
+          hand:move{ by = { 0, 0, 0.02 }, speed = 0.2 }
+        end, alone)
+        assert.is_true(run.ok, run.reason)
+        assert.are.same({}, hand.wires)
+        assert.are.same({ 0, 0, 0 }, hand:force())
+        refused("holds nothing", function() hand:release() end)
       end)
-      assert.is_true(run.ok, run.reason)
-      assert.are.same({}, hand.wires)
-      assert.are.same({ 0, 0, 0 }, hand:force())
-      refused("holds nothing", function() hand:release() end)
-    end)
+    end
   end
 
   it("ends a process from under which its gripper is taken, and the run goes on", function()

@@ -296,7 +296,9 @@ local function make(run, args)
   judge_gone(self)
   if #context.wires == 0 and #own_list == 0 then
     local row = start_row(self, "wires", nil, "there is no wire", "-", {})
-    row.verdict, row.note = "OPEN", "nothing of the scene is judged: it has no wire; give checks of your own"
+    local left = #(build.data(self.scene).gone or {}) > 0 and " any more" or ""
+    row.verdict, row.note = "OPEN",
+      ("nothing of the scene is judged: it has no wire%s; give checks of your own"):format(left)
   end
   for _, one in ipairs(own_list) do
     judge_own(self, one)

@@ -229,6 +229,16 @@ export class Gripper extends OnWire {
     return -1;
   }
 
+  /** Where it let go of its last wire before this frame, if nothing has carried it since: [place, turn]. */
+  leftAt(at) {
+    const over = (this.given.tool ?? this.given.carrier) !== undefined ? null : this.spans.filter((s) => s.to <= at.time + 1e-9).pop();
+    for (let f = at.frame; over && f >= 0; f--) {
+      const then = { frame: f, part: 0 }, p = this.reader.read(over.places, then);
+      if (p) return [p, this.reader.read(over.turns, then)];
+    }
+    return [];
+  }
+
   update(at, look, hidden) {
     const t = at.time, i = this.spanAt(t), span = this.spans[i];
     if (t > this.given.left + 1e-9) { // it was taken away
@@ -244,6 +254,7 @@ export class Gripper extends OnWire {
       p = this.reader.read(places, next);
       q = this.reader.read(turns, next);
     }
+    if (!p) [p, q] = this.leftAt(at);
     if (p && q) {
       this.group.position.set(p[0], p[1], p[2]);
       this.group.quaternion.set(q[1], q[2], q[3], q[0]).normalize();

@@ -3,6 +3,7 @@
 // script, what is added is done at once; before, it is a line of the script that will be run.
 import { h, icon, iconButton, download } from "./dom.js";
 import { Form } from "./forms.js";
+import { undoByHand } from "./hand.js";
 
 const CLASSES = [["wire", "Wire"], ["particles", "Particles"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
   ["fixing", "Fixing"], ["contact", "Contact"]];
@@ -11,7 +12,7 @@ export class Build {
   constructor(host, state, link, forms, say) {
     Object.assign(this, { host, state, link, say, kinds: forms.kinds, cables: forms.cables, items: [], objects: [], made: [], forms: [], draft: null,
       script: null });
-    this.undo = iconButton("back", "Undo", () => (this.planned ? this.order("undo") : this.link.order("undo")), { disabled: true });
+    this.undo = iconButton("back", "Undo", () => (this.planned ? this.order("undo") : undoByHand(this.link, this.say)), { disabled: true });
     this.redo = iconButton("redo", "Redo", () => this.order("redo"), { disabled: true });
     this.chips = h("div.chips", { role: "group", "aria-label": "What to add" }, ...CLASSES.map(([name, words]) =>
       h("button.chip", { type: "button", "data-class": name, "aria-pressed": "false", onclick: () => this.add(name) }, icon("plus"), words)));
@@ -30,7 +31,10 @@ export class Build {
     this.empty = h("p.hint", {}, "Nothing yet. Begin with a wire.");
     host.append(h("section.part", {}, h("h3", {}, "Add", h("span.gap"), this.undo, this.redo), this.note, this.chips, this.room),
       h("section.part", {}, h("h3", {}, "Objects", h("span.gap"), this.save), this.empty, this.list, this.remarks), this.stepPart, this.runPart);
-    state.watch(["run"], () => this.mode());
+    state.watch(["run"], () => {
+      this.mode();
+      this.canUndo();
+    });
   }
 
   /** Is it a list of lines that will be run, and not a scene that moves already? */
@@ -221,11 +225,13 @@ export class Build {
     this.made = made || [];
     this.fill();
   }
-  canUndo() { this.undo.disabled = !(this.planned ? this.draft?.undo : this.byHand); }
-  showScript(script, why, undo) {
+  canUndo() {
+    const run = this.state.get("run"), can = this.planned ? this.draft?.undo : run.undo;
+    this.undo.disabled = !can;
+    this.undo.title = can ? "Undo" : (!this.planned && run.no_undo) || "There is nothing to undo";
+  }
+  showScript(script, why) {
     this.script = script;
-    this.byHand = undo;
-    this.canUndo();
     this.save.disabled = !script;
     this.save.title = script ? "The script that does all this again" : why || "";
   }

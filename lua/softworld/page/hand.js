@@ -7,6 +7,11 @@ import { linear } from "./colours.js";
 const GAP = 33; // between two orders [ms]
 const rounded = (v) => v.toArray().map((x) => Number(x.toFixed(5))); // hands are no finer [m]
 
+/** Undo what was done by hand last, and say what that did. */
+export function undoByHand(link, say) {
+  return link.ask("undo").then((words) => say(words || "undone"), (error) => say(error.message));
+}
+
 export class Hand {
   constructor(view, state, link) {
     Object.assign(this, { view, state, link, held: null });

@@ -6,7 +6,7 @@ import { readThings, format } from "./model.js";
 import { unpacked } from "./film.js";
 import { LiveFilm } from "./livefilm.js";
 import { Link } from "./link.js";
-import { Hand } from "./hand.js";
+import { Hand, undoByHand } from "./hand.js";
 import { Build } from "./build.js";
 import { Handles } from "./handles.js";
 import { rangeOf } from "./fields.js";
@@ -147,17 +147,20 @@ class Forms {
 
 /** What was done, as lines of Lua. */
 class Lines {
-  constructor(host, link, say) {
+  constructor(host, state, link, say) {
     this.say = say;
-    this.undo = iconButton("back", "Undo the last change", () => link.order("undo"), { disabled: true });
+    this.undo = iconButton("back", "Undo the last change", () => undoByHand(link, say), { disabled: true });
+    state.watch(["run"], ({ run }) => {
+      this.undo.disabled = !run.undo;
+      this.undo.title = run.undo ? "Undo the last change" : run.no_undo || "There is nothing to undo";
+    });
     this.save = h("button.text-button.small", { type: "button", disabled: true, onclick: () => download(this.script, "by_hand.lua", "text/x-lua") }, "Save script");
     this.list = h("ol.lines", { "aria-live": "polite", "aria-label": "What was done" });
     this.empty = h("p.hint", {}, "Pull a wire or lead a gripper in the picture, or change a value above: what you do is shown here as the Lua that does it.");
     host.append(h("section.part", {}, h("h3", {}, "Done by hand", h("span.gap"), this.undo, this.save), this.empty, this.list));
   }
-  show({ lines, undo, script }) {
+  show({ lines, script }) {
     this.script = script;
-    this.undo.disabled = !undo;
     this.save.disabled = !script;
     this.empty.hidden = lines.length > 0;
     this.list.replaceChildren(...lines.slice().reverse().map((line) => h("li", { class: line.ok ? undefined : "wrong" },
@@ -172,19 +175,19 @@ class Lines {
 }
 
 class States {
-  constructor(host, state, link) {
+  constructor(host, state, link, say) {
     this.keep = h("button.text-button.small", { type: "button", title: "Keep the state as it is now (K)", onclick: () => link.order("keep") }, icon("keep"), "Keep");
     this.list = h("div.states");
-    this.why = h("p.hint", {}, "A process is under way: Lua functions have no way back.");
+    this.why = h("p.hint", {}, "A process has gone on since, and a Lua function has no way back.");
     const more = h("input.number", { type: "text", inputMode: "decimal", value: "1", id: "more", "aria-label": "How long to run on [s]" });
     this.more = h("div.row", {}, h("label", { for: "more" }, "Run on for"), more, h("button.text-button.small", { type: "button",
       onclick: () => link.order("run", { duration: Number(more.value.replace(",", ".")) }) }, icon("play"), "s"));
     host.append(h("section.part", {}, h("h3", {}, "States", h("span.gap"), this.keep), this.list, this.why, this.more));
     state.watch(["run"], ({ run }) => {
-      this.why.hidden = run.back || !run.snapshots.length;
+      this.why.hidden = run.snapshots.every((s) => s.back);
       this.more.hidden = run.running || !run.done || !run.ok || !run.back;
-      this.list.replaceChildren(...run.snapshots.map((s) => h("button.chip", { type: "button", disabled: !run.back,
-        title: `Back to t = ${seconds(s.time)}`, onclick: () => link.order("back", { id: s.id }) }, icon("back"), seconds(s.time))));
+      this.list.replaceChildren(...run.snapshots.map((s) => h("button.chip", { type: "button", disabled: !s.back,
+        title: `Back to t = ${seconds(s.time)}`, onclick: () => link.ask("back", { id: s.id }).then(say, (e) => say(e.message)) }, icon("back"), seconds(s.time))));
     });
   }
 }
@@ -221,7 +224,7 @@ function liveEvents(host, state) {
 
 function badge(state) {
   state.watch(["run", "over", "linked"], ({ run, over, linked }) => {
-    const [words, kind] = !linked ? ["not connected", "warn"] : run.running ? (run.paused ? ["held", "warn"] : ["running", "good"])
+    const [words, kind] = !linked ? ["not connected", "warn"] : run.running ? (run.again !== undefined ? ["going back", "warn"] : run.paused ? ["held", "warn"] : ["running", "good"])
       : over ? ["FAILED", "bad"] : run.at_start ? ["at the start", "good"] : run.done ? ["ended", "good"] : ["not begun", "warn"];
     $("status").textContent = words;
     $("status").className = `badge ${kind}`;
@@ -282,7 +285,7 @@ export function startLive(data, page) {
   };
   const showLines = (m) => {
     panel.lines.show(m);
-    panel.build.showScript(m.script, m.unsaved, m.undo);
+    panel.build.showScript(m.script, m.unsaved);
     $("panel-script").replaceChildren();
     scriptPanel($("panel-script"), { ...data, script: m.script && { name: data.live.draft ? "scene.lua" : "again.lua", text: m.script } });
   };
@@ -317,7 +320,7 @@ export function startLive(data, page) {
       idle.hidden = !now.at_start;
       for (const part of host.querySelectorAll(".part")) part.hidden = Boolean(now.at_start);
     });
-    panel = { forms: new Forms(host, link), states: new States(host, state, link), lines: new Lines(host, link, page.say),
+    panel = { forms: new Forms(host, link), states: new States(host, state, link, page.say), lines: new Lines(host, state, link, page.say),
       build: new Build($("panel-build"), state, link, data.live.forms, page.say) };
     panel.build.actors = () => (view ? view.actors : []);
     transport.start = () => panel.build.run?.go();

@@ -113,7 +113,8 @@ end
 -- when timeout [s] passed first.
 function Process:wait_until(condition, options)
   local impossible
-  if type(condition) == "table" then
+  local told, asked = type(condition) == "table", false
+  if told then
     condition, impossible = conditions.of(condition, 3, self.scene)
     condition = build.placed(condition)
   end
@@ -126,6 +127,8 @@ function Process:wait_until(condition, options)
   while not condition() do
     if process.reached(self.scene, last) then return false end
     if last == math.huge then waiting.goes_on(self, impossible) end
+    if asked then self.moves = self.moves - 1 end -- it is where it was; a function may have a memory
+    asked = told
     self.watching, self.wake = true, last
     coroutine.yield()
   end
@@ -243,7 +246,7 @@ function core.class.scene.process(scene, body)
   local data = build.data(scene)
   data.process_count = (data.process_count or 0) + 1
   local self = sealed.new(Process, { scene = scene, number = data.process_count, body = body,
-    steps = 0 })
+    steps = 0, moves = 0 })
   self.thread = coroutine.create(body)
   if not data.from_file then -- of an earlier process of this number nothing is done
     if data.done then data.done[self.number] = nil end
@@ -274,6 +277,28 @@ function process.renew(scene, bodies)
 end
 
 local library = debug.getinfo(1, "S").source:match "^(.*)run/process%.lua$" or "@softworld/"
+
+--- How far the living processes are, for process.is_at: { [process] = moves }.
+function process.mark(scene)
+  local mark = {}
+  for _, p in ipairs(build.data(scene).processes) do
+    if coroutine.status(p.thread) ~= "dead" then mark[p] = p.moves end
+  end
+  return mark
+end
+
+--- Are the processes where they were then? The scene may be taken back to that time without them.
+function process.is_at(scene, mark)
+  local count = 0
+  for _, p in ipairs(build.data(scene).processes) do
+    if coroutine.status(p.thread) ~= "dead" then
+      if mark[p] ~= p.moves then return false end
+      count = count + 1
+    end
+  end
+  for _ in pairs(mark) do count = count - 1 end
+  return count == 0
+end
 
 -- Where in the user's script the library was called that failed a process:
 -- "file:line: "; "" when the script's own code failed, whose errors stay as they are.
@@ -316,6 +341,7 @@ end
 
 local function resume(self)
   self.wake, self.watching, self.begun, self.between = nil, nil, true, nil
+  self.moves = self.moves + 1
   local ok, message = coroutine.resume(self.thread, self)
   if not ok and is_bereft(self, message) then return end
   if not ok then

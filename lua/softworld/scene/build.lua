@@ -453,13 +453,14 @@ function class.scene.restore(scene, snapshot)
   build.back(scene, snapshot)
 end
 
---- The same between two steps of a run. Its processes end.
-function build.back(scene, snapshot)
+--- The same between two steps of a run. Its processes end; they go on where they are the same: they
+-- have not gone on since the snapshot.
+function build.back(scene, snapshot, same)
   local data = build.data(scene)
   build.call(3, restore, scene, snapshot)
   data.restores, data.going = data.restores + 1, nil
-  for _, process in ipairs(data.processes) do process:finish() end
-  data.processes = {}
+  for _, process in ipairs(same and {} or data.processes) do process:finish() end
+  if not same then data.processes = {} end
   for _, gripper in ipairs(data.grippers) do gripper:leave() end
   keep.back(data, core.data(snapshot).image, imaged)
 end

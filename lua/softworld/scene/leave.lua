@@ -43,17 +43,15 @@ local function told(scene, kind, name)
   local data = build.data(scene)
   if not data.running then return end
   data.bereft = data.bereft or not process.current() or nil
-  scene:tell{ kind = "removed", object = name, text = ("%s '%s' is taken away"):format(kind, name) }
+  local none = lists[kind == "object" and "particles" or kind] and #data.wires + #data.particles == 0
+  scene:tell{ kind = "removed", object = name, text = ("%s '%s' is taken away%s"):format(kind, name,
+    none and "; no wire is left, and the run goes on without" or "") }
 end
 
 local function remove_body(scene, kind, body)
   local data = build.data(scene)
   local left, entry = without(data[lists[kind]], body)
   if not entry then error(("scene:remove: '%s' was taken away already"):format(tostring(body.name)), 0) end
-  if data.running and #data.wires + #data.particles == 1 then
-    error(("scene:remove: '%s' is the last wire, and a run is under way, which needs one")
-      :format(entry.name), 0)
-  end
   local gone = entry_of(kind, entry)
   gone.time = scene.time
   core.remove_body(body) -- first, for a motion of what holds it may fail

@@ -20,7 +20,6 @@ end
 -- How each goes; all else by scene:remove.
 local verbs = { obstacle = "remove", clamp = "release", join = "release", tie = "release", clip = "release",
   channel = "release" }
-local bodies = { wire = true, particles = true }
 
 local function class_of(object)
   return core.type(object) or (getmetatable(object) or {}).__name or type(object)
@@ -52,9 +51,6 @@ function leaving.line(scene, m)
   local object = name ~= "" and scene:find(name) or fail "the scene itself cannot be taken away"
   local class = class_of(object)
   if class == "gripper" and object.left then fail("gripper '%s' was taken away already", name) end
-  if bodies[class] and data.running and #data.wires + #data.particles == 1 then
-    fail("'%s' is the last wire, and a run is under way, which needs one", name)
-  end
   if class == "obstacle" then
     for _, g in ipairs(data.grippers) do
       for _, part in ipairs(not g.left and g.obstacles or {}) do
@@ -64,6 +60,13 @@ function leaving.line(scene, m)
   end
   if verbs[class] then return ("scene:find(%s):%s()"):format(source(name), verbs[class]) end
   return ("scene:remove %s"):format(source(name))
+end
+
+--- What an order takes away, for people.
+function leaving.name(scene, m)
+  if m.made ~= nil then return "a force" end
+  if m.force ~= nil then return ("the force '%s'"):format(force_of(scene, m.force).kind) end
+  return ("'%s'"):format(m.object)
 end
 
 -- --- making it anew ------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ local json = require "softworld.output.json"
 local leaving = require "softworld.view.leaving"
 local orders = require "softworld.view.orders"
 local report = require "softworld.output.report"
+local returning = require "softworld.view.returning"
 local runfiles = require "softworld.run.files"
 
 local show = {}
@@ -111,9 +112,13 @@ end
 
 local function show_state(own)
   local snapshots = {}
-  for i, s in ipairs(own.snapshots) do snapshots[i] = { id = s.id, time = s.time } end
+  for i, s in ipairs(own.snapshots) do
+    snapshots[i] = { id = s.id, time = s.time, back = returning.how(own, s) ~= nil }
+  end
+  local undo, no_undo = own.has_undo(own)
   local text = json.encode(json.object{ kind = "state", running = own.running, paused = own.paused,
     speed = own.speed, ok = own.ok, reason = own.reason, snapshots = snapshots,
+    undo = undo, no_undo = no_undo, again = own.again and own.again.state.time,
     back = show.alive(own.scene) == 0, done = own.done, holds = own.holds, draft = own.draft ~= nil,
     at_start = own.draft ~= nil and not own.running and #own.runs == 0 })
   if text == own.state then return end
@@ -138,7 +143,7 @@ local function show_lines(own)
       count = line.count, undone = line.undone }
   end
   local head = own.draft and own.draft:script() or nil
-  put(own, LINES, { kind = "lines", lines = shown, undo = own.has_undo(own), total = #own.lines,
+  put(own, LINES, { kind = "lines", lines = shown, total = #own.lines,
     unsaved = own.unsaved,
     script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head) or nil })
 end

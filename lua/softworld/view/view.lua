@@ -9,6 +9,7 @@ local literal = require "softworld.scene.literal"
 local methods = require "softworld.methods"
 local observe = require "softworld.run.observe"
 local report = require "softworld.output.report"
+local returning = require "softworld.view.returning"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local show = require "softworld.view.show"
@@ -74,24 +75,58 @@ local function hold(own)
   end
 end
 
-local function look(own, observer)
-  local changes = hold(own)
-  local o = fields(observer)
-  if own.stopped and not changes then
-    observer:stop "stopped from the page"
-    own.lines[#own.lines + 1] = { time = own.scene.time }
-    own.lines_due, own.stopped = true, nil
+local function end_run(own)
+  own.lines[#own.lines + 1] = { time = own.scene.time }
+  own.lines_due, own.stopped = true, nil
+  return "stopped from the page"
+end
+
+-- Between two steps, while the run is held by this: changes, as long as there are some.
+local function change(own, observer)
+  repeat work.inside(own) until own.wants_again or not hold(own)
+  if own.wants_again then
+    fields(observer).reason = "gone back from the page"
+  elseif own.stopped then
+    fields(observer).reason = end_run(own)
   end
-  if changes then
+end
+
+local function told_again(own, why)
+  local ask, words = returning.finish(own, why)
+  show.answer(own, ask, not why, words)
+end
+
+-- In a run that is done again up to a time nothing is waited for.
+local function look_again(own, observer)
+  fields(observer).each = true
+  if core.clock() >= own.again.looked then
+    own.again.looked = core.clock() + GAP
+    work.hear(own)
+    show.all(own)
+  end
+  local due = returning.due(own)
+  if own.stopped then
+    told_again(own, "going back was stopped")
+    observer:stop(end_run(own))
+  elseif due == "stop" then
+    returning.stopped(own)
+    observer:stop "stopped from the page"
+  elseif due then
     observer:change(function()
-      repeat work.inside(own) until not hold(own)
-      if own.stopped then
-        fields(observer).reason = "stopped from the page"
-        own.lines[#own.lines + 1] = { time = own.scene.time }
-        own.lines_due, own.stopped = true, nil
-      end
+      if not returning.lines(own) then return end
+      told_again(own)
+      change(own, observer)
     end)
   end
+end
+
+local function look(own, observer)
+  if own.again then return look_again(own, observer) end
+  if own.wants_again then return observer:stop "gone back from the page" end
+  local changes = hold(own)
+  local o = fields(observer)
+  if own.stopped and not changes then observer:stop(end_run(own)) end
+  if changes then observer:change(function() change(own, observer) end) end
   -- each step counts while it is held or goes slowly
   o.every = own.speed and own.speed * GAP or nil
   o.each = own.paused or nil
@@ -123,7 +158,7 @@ local function attach(own, scene)
   if own.self then views[build.data(scene)] = own.self end
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
   own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
-  own.changes, own.count, own.steps, own.ways, own.led = 0, 0, 0, {}, nil
+  own.changes, own.count, own.steps, own.ways, own.led, own.again = 0, 0, 0, {}, nil, nil
   own.names = setmetatable({ scene = scene, made = {} }, { __index = { math = math } })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
   own.runs, own.serial, own.made_text, own.unsaved, own.draft_due = {}, 0, {}, nil, true
@@ -191,11 +226,12 @@ function follower.begin(scene, args)
   own.args = own.args or args
   if own.ended and scene.time < own.ended then own.unsaved = "the script repeats its run" end
   own.running, own.ended = false, nil
-  if #own.snapshots == 0 and not own.failed then work.keep(own) end
+  if #own.snapshots == 0 and not own.failed and not own.again then returning.keep(own) end
   own.running, own.runs[#own.runs + 1], own.lines_due = true, args, true
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
   fields(own.observer).soon = true
+  if own.again then returning.lines(own) end
   if own.paused then
     while hold(own) do work.all(own) end
   end
@@ -216,8 +252,10 @@ end
 
 -- A run that a page asks for; its line is shown. Returns whether it began, and why not.
 local function run_now(own, args)
-  own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
-    text = ("scene:run %s"):format(literal.of(args, tostring, "args")) }
+  if not own.again then
+    own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
+      text = ("scene:run %s"):format(literal.of(args, tostring, "args")) }
+  end
   local before = #own.runs
   args.progress = false
   local fine, run = pcall(own.scene.run, own.scene, args)
@@ -252,6 +290,19 @@ local function run_draft(own)
   show.answer(own, ask, fine, not fine and build.plain(message):gsub("^[^\n:]+:%d+: ", "") or nil)
 end
 
+-- Back by running again from the start, up to the state that was asked for; the last of the runs goes on.
+local function run_again(own)
+  work.again(own)
+  local r = returning.begin(own)
+  for _, args in ipairs(r.runs) do
+    local _, result = run_now(own, args)
+    if not own.again then return end -- it is there, or was given up
+    if type(result) == "string" then return told_again(own, result) end
+  end
+  returning.lines(own)
+  told_again(own)
+end
+
 -- Between runs: what pages ask for is done at once.
 local function idle(own, due)
   repeat
@@ -262,6 +313,7 @@ local function idle(own, due)
     show.all(own)
     if own.wants_run then run_on(own) end
     if own.wants_start then run_draft(own) end
+    if own.wants_again then run_again(own) end
     own.server:wait(IDLE)
   until core.clock() >= due
 end

@@ -8,15 +8,13 @@ local draft = require "softworld.view.draft"
 local leaving = require "softworld.view.leaving"
 local jsonread = require "softworld.output.jsonread"
 local orders = require "softworld.view.orders"
-local record = require "softworld.scene.record"
+local returning = require "softworld.view.returning"
 local show = require "softworld.view.show"
 
 local work = {}
 
 local MOST_LINES = 5000   -- changes that are kept
 local TOO_MANY = ("more than %d changes were made by hand"):format(MOST_LINES)
-local MOST_SNAPSHOTS = 20
-local MOST_WAYS_BACK = 20 -- states from before something was taken away
 
 -- --- what they ask for ---------------------------------------------------------------------------
 
@@ -38,20 +36,12 @@ local function note(own, line)
   end
 end
 
--- Run the line itself: what is shown is what was done.
-local function run_line(own, text)
-  local chunk = assert(load(text, "=by hand", "t", own.names))
-  record.quietly(chunk) -- it is in the lines
-end
-
 local function do_line(own, text, inverse, before)
   local time = own.scene.time
-  local fine, message = pcall(run_line, own, text)
+  local fine, message = pcall(returning.line, own, text) -- what is shown is what was done
   if not fine and draft.is_interrupt(message) then error(message, 0) end
   if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
   if fine then
-    local made = text:match "^made%[(%d+)%] = "
-    if made then own.made_text[math.tointeger(made)] = text end
     own.changes = own.changes + 1
     if #own.lines < MOST_LINES then
       own.lines[#own.lines + 1] = { time = time, text = text }
@@ -62,22 +52,6 @@ local function do_line(own, text, inverse, before)
   note(own, { time = time, text = text, ok = fine, error = not fine and message or nil,
     undo = fine and inverse and inverse() or nil, before = fine and before or nil })
   return fine, message
-end
-
-local function state_of(own)
-  return { time = own.scene.time, snapshot = own.scene:snapshot(), lines = #own.lines, runs = #own.runs,
-    inside = own.running }
-end
-
--- The state before something is taken away, to which undoing goes back; the oldest ones are forgotten.
-local function way_back(own)
-  if show.alive(own.scene) > 0 then return nil end -- a Lua function has no way back
-  local fine, state = pcall(state_of, own)
-  if not fine then return nil end
-  local ways = own.ways
-  ways[#ways + 1] = state
-  if #ways > MOST_WAYS_BACK then table.remove(ways, 1).snapshot = nil end
-  return state
 end
 
 --- Show that something cannot be, and why.
@@ -92,54 +66,52 @@ local function touched(own, object, words)
   pcall(own.scene.tell, own.scene, { kind = "hand", object = object, text = words })
 end
 
--- The runs that a script has to do after it: one that was left early ends there.
-local function back_in_runs(own, s)
-  if own.running and #own.runs ~= s.runs then
-    own.unsaved = "an earlier run was gone back to while a later one was under way"
-  elseif not own.running then
-    own.ended = nil
-    for k = #own.runs, s.runs + 1, -1 do own.runs[k] = nil end
-    if s.inside then own.lines[#own.lines + 1] = { time = s.time } end
-  end
-end
-
-local function back_to(own, s)
-  build.back(own.scene, s.snapshot)
-  own.names.hand, own.hand = nil, nil
-  for k = #own.lines, 1, -1 do
-    if own.lines[k].time > s.time or k > s.lines then own.lines[k] = nil end
-  end
-  own.changes, own.lines_due, own.forms_due, own.pulled = own.changes + 1, true, true, nil
-  own.base = nil
-  back_in_runs(own, s)
-  own.shown[#own.shown + 1] = { time = s.time, text = ("-- back to %g s"):format(s.time), ok = true,
-    count = 1 }
-end
-
 local function back(own, m)
   for _, s in ipairs(own.snapshots) do
-    if s.id == m.id then return back_to(own, s) end
-  end
-end
-
--- May it go back to the state before the line was done?
-local function leads_back(own, line)
-  return line.before and line.before.snapshot and show.alive(own.scene) == 0
-end
-
-local function can_undo(own, line)
-  return not line.undone and (line.undo or leads_back(own, line)) and true or false
-end
-
-local function undo(own)
-  for i = #own.shown, 1, -1 do
-    local line = own.shown[i]
-    if can_undo(own, line) then
-      line.undone = true
-      if leads_back(own, line) then return back_to(own, line.before) end
-      return do_line(own, line.undo)
+    if s.id == m.id then
+      local words = returning.go(own, s, m.ask)
+      if words then show.answer(own, m.ask, true, words) end
+      return
     end
   end
+end
+
+-- How it can be undone: the way back to the state before, or the line that undoes it; or nil, and why not.
+local function how_undone(own, line)
+  local way, why
+  if line.before then way, why = returning.how(own, line.before) end
+  if way then return "back" end
+  if line.undo then return "line" end
+  return nil, why and ("%s was removed: %s"):format(line.before.what, why)
+end
+
+-- What can be undone last, and how; or nil, and why what was done last cannot.
+local function last_done(own)
+  local why
+  for i = #own.shown, 1, -1 do
+    local line = own.shown[i]
+    if line.ok and not line.undone and (line.before or line.undo) then
+      local how, reason = how_undone(own, line)
+      if how then return line, how end
+      why = why or reason
+    end
+  end
+  return nil, nil, why
+end
+
+local function undo(own, m)
+  local line, how = last_done(own)
+  if not line then return end
+  line.undone = true
+  if how == "back" then
+    local words = returning.go(own, line.before, m.ask)
+    if words then show.answer(own, m.ask, true, words) end
+    return
+  end
+  local fine, message = do_line(own, line.undo)
+  local words = line.before and ("%s is made anew, as it was, and the run goes on: a process has gone on "
+    .. "since, which has no way back"):format(line.before.what) or "undone: " .. line.text
+  show.answer(own, m.ask, fine, fine and words or build.plain(message))
 end
 
 -- What pulls a wire goes with it.
@@ -176,7 +148,7 @@ local function obey(own, m)
     own.serial = own.serial + 1
     local again = m.made and own.made_text[m.made] or leaving.again(own.scene, m, own.serial)
     again = again and again:gsub("^made%[%d+%]", ("made[%d]"):format(own.serial))
-    inverse, before = again and function() return again end, way_back(own)
+    inverse, before = again and function() return again end, returning.before(own, leaving.name(own.scene, m))
   end
   if fine then done, message = do_line(own, text, inverse, before) end
   show.answer(own, m.ask, done, not done and build.plain(message) or nil)
@@ -192,7 +164,7 @@ function work.all(own)
   local queue = own.queue
   own.queue = {}
   for _, m in ipairs(queue) do
-    if m["do"] == "undo" then undo(own)
+    if m["do"] == "undo" then undo(own, m)
     elseif m["do"] == "back" then back(own, m)
     elseif m["do"] ~= "reach" and m["do"] ~= "let" or own.names.hand then obey(own, m) end
   end
@@ -209,15 +181,6 @@ function work.inside(own)
   end
   own.lines[#own.lines + 1] = { time = own.scene.time, text = "" }
   own.lines_due = true
-end
-
---- Keep the scene as it is, to be gone back to.
-function work.keep(own)
-  own.count = own.count + 1
-  local state = state_of(own)
-  state.id = own.count
-  own.snapshots[#own.snapshots + 1] = state
-  if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
 end
 
 -- --- a scene that forms put together ------------------------------------------------------------
@@ -257,7 +220,7 @@ local now = {} -- orders that are done at once: nothing of the scene changes by 
 function now.pause(own) own.paused = true end
 function now.go(own) own.paused, own.base = false, nil end
 function now.step(own) own.paused, own.steps = true, 1 end
-function now.keep(own) work.keep(own) end
+function now.keep(own) returning.keep(own) end
 function now.stop(own) own.stopped = true end
 function now.run(own, m)
   if type(m.duration) == "number" and m.duration > 0 and m.duration <= 1e6 then own.wants_run = m.duration end
@@ -273,19 +236,23 @@ end
 
 -- --- hearing ---------------------------------------------------------------------------------------
 
---- Is there something to be undone now?
+--- Is there something to be undone now? And if not, why not, where that is worth a word.
 function work.has_undo(own)
-  for _, line in ipairs(own.shown) do
-    if can_undo(own, line) then return true end
-  end
+  local line, _, why = last_done(own)
+  return line ~= nil, why
+end
+
+local function refuse(own, m, words)
+  work.refused(own, words)
+  show.answer(own, m.ask, false, build.plain(words))
   return false
 end
 
 local function has_way_back(own, m)
   for _, s in ipairs(own.snapshots) do
     if s.id == m.id then
-      if show.alive(own.scene) == 0 then return true end
-      work.refused(own, "a process is under way, and a Lua function has no way back")
+      local how, why = returning.how(own, s)
+      return how ~= nil or refuse(own, m, why)
     end
   end
   return false
@@ -294,7 +261,10 @@ end
 -- Will something come of an order? To leave a run for nothing would change the last bits of its steps.
 local function is_good(own, m)
   local word = m["do"]
-  if word == "undo" then return work.has_undo(own) end
+  if word == "undo" then
+    local can, why = work.has_undo(own)
+    return can or refuse(own, m, why or "there is nothing to undo")
+  end
   if word == "back" then return has_way_back(own, m) end
   if (word == "reach" or word == "let") and not own.hand then return false end
   if word == "add" then
@@ -302,15 +272,11 @@ local function is_good(own, m)
     m.serial = own.serial
   end
   if own.draft and not own.running and #own.runs == 0 then
-    local words = "nothing runs yet: change it where it was made"
-    work.refused(own, words)
-    show.answer(own, m.ask, false, words)
-    return false
+    return refuse(own, m, "nothing runs yet: change it where it was made")
   end
   local fine, message = pcall(orders.line, own.scene, m)
   if not fine then
-    show.answer(own, m.ask, false, build.plain(message))
-    work.refused(own, message)
+    refuse(own, m, message)
   elseif word == "pull" or word == "let" then
     own.hand = word == "pull"
   end

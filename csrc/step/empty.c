@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of a scene whose wires have all left: nothing is solved. Obstacles and grippers follow
+ * their motions, which are functions of time, jaws open and close, and all of it is recorded. */
+#include <math.h>
+
+#include "base/quota.h"
+#include "scene/world.h"
+#include "step/energy.h"
+#include "step/jaw.h"
+#include "step/ladder.h"
+#include "step/run.h"
+
+sw_status sw_step_empty(sw_ladder *p, double t1, sw_error *err) {
+  sw_scene *s = p->s;
+  const double h = t1 - s->time;
+  SW_TRY(sw_quota_take(err));
+  SW_TRY(sw_ledger_open(s, err));
+  (void)sw_jaw_begin(s, h); /* there is nothing whose force could be too much */
+  s->time = t1;
+  s->course.span = h;
+  p->report->steps++;
+  p->report->smallest_dt = fmin(p->report->smallest_dt, h);
+  SW_TRY(sw_step_observe(s, err));
+  return sw_ledger_pose(s, 0, err);
+}
