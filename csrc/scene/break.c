@@ -9,8 +9,6 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 
-const char *const sw_breaking_flags[] = {"given", "measured", "computed", "guessed", NULL};
-
 typedef struct amount {
   double value;
   const char *unit;

@@ -37,8 +37,7 @@ double sw_scene_hinge_chord(const sw_field *f, size_t i) {
 }
 
 double sw_scene_clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
-  const sw_field *f = &b->field;
-  const sw_vec t = sw_v(f->tangent[0][h->edge], f->tangent[1][h->edge], f->tangent[2][h->edge]);
+  const sw_vec t = sw_field_tangent(&b->field, h->edge);
   return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
 }
 

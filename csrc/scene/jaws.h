@@ -5,6 +5,7 @@
 #define SW_SCENE_JAWS_H
 
 #include "base/root.h"
+#include "base/tape.h"
 #include "link/hold.h"
 #include "scene/scene.h"
 #include "scene/tool.h"
@@ -71,6 +72,7 @@ sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_mot
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);
 void sw_drive_free(sw_drive *drive);
+void sw_tape_drive(sw_tape *tape, sw_scene *scene, sw_drive *drive);
 /* 1: it may be elsewhere later without anyone changing it. */
 static inline int sw_drive_moves(const sw_drive *drive) { return drive->motion || drive->tool; }
 

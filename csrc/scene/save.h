@@ -8,7 +8,6 @@
 #include "scene/live.h"
 #include "scene/parts.h"
 #include "scene/reading.h"
-#include "scene/strand.h"
 #include "system/system.h"
 
 /* The whole scene. Reading fills an empty one, or, from a tape at home, one whose system is that of
@@ -19,7 +18,6 @@ void sw_tape_scene(sw_tape *tape, sw_scene *scene, int *built, sw_live *live);
  * failure. placed: it says where particles are, for the scene is not built. */
 void sw_tape_wire(sw_tape *tape, sw_scene_wire *wire, int placed);
 void sw_tape_hold(sw_tape *tape, sw_scene *scene, sw_hold *hold);
-void sw_tape_strand(sw_tape *tape, sw_strand *strand, int placed);
 void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
 void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);
 void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */

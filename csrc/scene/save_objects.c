@@ -29,27 +29,6 @@ void sw_tape_extreme(sw_tape *t, sw_extreme *x) {
   DOUBLE(value), DOUBLE(s), DOUBLE(time);
 }
 
-/* A function that is over stands where it ended; one under way is refused before. */
-static void tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
-  sw_drive now = *x;
-  sw_motion_state at;
-  SW_TAPE_STRUCT(t, sw_drive, 104);
-  if (!sw_tape_reads(t) && !t->home && x->motion && sw_motion_is_function(x->motion)) {
-    const sw_status status = sw_drive_eval(s, x, sw_scene_time(s), &at, t->err);
-    if (status != SW_OK) sw_tape_fail(t, status);
-    now = (sw_drive){.pose = at.pose};
-  }
-  sw_tape_pose(t, &now.pose);
-  sw_tape_double(t, &now.start);
-  sw_tape_size(t, &now.tool), sw_tape_vec(t, &now.opens);
-  sw_tape_motion(t, &now.motion);
-  if (!sw_tape_reads(t)) return;
-  *x = now;
-  const double q = x->pose.q.w + x->pose.q.x + x->pose.q.y + x->pose.q.z;
-  sw_tape_expect(t, sw_finite(x->pose.p) && isfinite(q) && isfinite(x->start), "a place");
-  sw_tape_expect(t, sw_finite(x->opens), "a place");
-}
-
 /* --- wires ------------------------------------------------------------------------- */
 
 static void tape_extremes(sw_tape *t, sw_wire_extremes *x) {
@@ -71,52 +50,6 @@ static void tape_drawing(sw_tape *t, sw_drawing *x) {
                  "a wire's strength");
   sw_tape_expect(t, x->points || !x->count, "a wire without its drawing");
   if (x->points) sw_tape_finite(t, x->points, 3 * x->count, "a wire's drawing");
-}
-
-static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
-  static const sw_sharing sharing = {sw_strand_kit_retain, sw_strand_kit_release};
-  if (sw_tape_share(t, kit, &sharing)) return;
-  int there = !sw_tape_reads(t) && *kit != NULL;
-  SW_TAPE_STRUCT(t, sw_strand_kit, 1296);
-  sw_tape_int(t, &there);
-  if (!there) return;
-  if (sw_tape_reads(t)) {
-    *kit = sw_tape_good(t) ? sw_alloc(1, sizeof **kit) : NULL;
-    if (!*kit) {
-      sw_tape_fail(t, SW_ENOMEM);
-      return;
-    }
-    (*kit)->references = 1;
-  }
-  sw_tape_calibration(t, &(*kit)->calibration);
-}
-
-/* placed: it says where the particles are, for nothing else does. */
-void sw_tape_strand(sw_tape *t, sw_strand *x, int placed) {
-  int there = !sw_tape_reads(t) && x->web != NULL;
-  SW_TAPE_STRUCT(t, sw_strand, 56);
-  SW_TAPE_STRUCT(t, sw_solid, 1632);
-  sw_tape_int(t, &there);
-  if (!there) return;
-  sw_tape_web(t, &x->web, sizeof(sw_solid));
-  tape_kit(t, &x->kit);
-  if (!sw_tape_good(t)) return;
-  const size_t n = placed ? x->web->particles : 0;
-  if (placed) {
-    SW_TAPE_ARRAY(t, x->x, 3 * n), SW_TAPE_ARRAY(t, x->v, 3 * n), SW_TAPE_ARRAY(t, x->a, 3 * n);
-    SW_TAPE_ARRAY(t, x->axial, x->web->links);
-    SW_TAPE_OPTIONAL(t, x->rate, x->web->links);
-  }
-  if (!sw_tape_reads(t) || t->home || !sw_tape_good(t)) return;
-  sw_tape_finite(t, x->x, 3 * n, "particles");
-  sw_tape_finite(t, x->v, 3 * n, "particles");
-  for (size_t k = 0; k < x->web->solids && sw_tape_good(t); k++) {
-    const sw_web_solid *e = &x->web->solid[k];
-    const sw_solid *shape = (const sw_solid *)x->web->shapes + e->shape;
-    sw_tape_expect(t, shape->nodes == (int)e->count, "an element");
-    shape += x->web->clamped_shapes;
-    sw_tape_expect(t, shape->nodes == (int)e->count, "an element");
-  }
 }
 
 void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
@@ -153,11 +86,6 @@ void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
   DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
 }
 
-static void tape_bracket(sw_tape *t, sw_bracket *x, const char *what) {
-  DOUBLE(tried[0]), DOUBLE(tried[1]), DOUBLE(off[0]), DOUBLE(off[1]), INT(last_side);
-  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, what);
-}
-
 static void tape_feed(sw_tape *t, sw_feed *x) {
   int shaped = x->shape.n > 0;
   SW_TAPE_STRUCT(t, sw_feed, 368);
@@ -165,7 +93,7 @@ static void tape_feed(sw_tape *t, sw_feed *x) {
   sw_tape_motion(t, &x->motion);
   DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
   DOUBLE(push), DOUBLE(limit), DOUBLE(slip_way), DOUBLE(way_before);
-  tape_bracket(t, &x->found, "a feed");
+  sw_tape_bracket(t, &x->found, "a feed");
   DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
   DOUBLE(size), DOUBLE(drive);
   sw_tape_int(t, &shaped);
@@ -203,7 +131,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   sw_tape_expect(t, x->cls && x->cls->hold, "a clamp of an unknown kind");
   SIZE(wire), DOUBLE(scale), UINT32(shape), INT(formed), DOUBLE(s1), DOUBLE(s2);
   sw_tape_hold_args(t, &x->args);
-  tape_drive(t, s, &x->drive);
+  sw_tape_drive(t, s, &x->drive);
   sw_tape_count(t, &x->count, sizeof *x->s);
   SW_TAPE_ARRAY(t, x->s, x->count), SW_TAPE_ARRAY(t, x->local, 3 * x->count);
   SW_TAPE_OPTIONAL(t, x->particle, x->count);
@@ -232,7 +160,7 @@ void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
   SW_TAPE_STRUCT(t, sw_scene_obstacle, 400);
   UINT32(generation), INT(alive), NAME(name);
   sw_tape_shape(t, &x->shape);
-  tape_drive(t, s, &x->drive);
+  sw_tape_drive(t, s, &x->drive);
   DOUBLE(friction), DOUBLE(kinetic), DOUBLE(restitution), INT(off);
   if (!sw_tape_reads(t) && sw_obstacle_log_fill(s, x) != SW_OK) sw_tape_fail(t, SW_ENOMEM);
   if (sw_tape_reads(t)) sw_obstacle_log_begin(s, x);
@@ -242,41 +170,6 @@ void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
   sw_tape_expect(t, x->kinetic >= 0 && x->kinetic <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->friction >= 0 && x->friction <= 100, "friction of an obstacle");
   sw_tape_expect(t, x->restitution >= 0 && x->restitution <= 1, "restitution of an obstacle");
-}
-
-void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
-  SW_TAPE_STRUCT(t, sw_jaw, 128);
-  INT(mode), INT(status), DOUBLE(opening), DOUBLE(since), DOUBLE(step), DOUBLE(speed);
-  DOUBLE(most), DOUBLE(goal), DOUBLE(force), DOUBLE(now), DOUBLE(stiffness);
-  tape_bracket(t, &x->found, "jaws");
-  INT(trials), INT(guessed);
-  sw_tape_expect(t, x->mode >= SW_JAW_STILL && x->mode <= SW_JAW_FORCE, "jaws");
-  sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
-  sw_tape_expect(t, isfinite(x->opening + x->since + x->speed), "jaws");
-}
-
-static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
-  SW_TAPE_STRUCT(t, sw_tool_state, 216); /* what it crashed into is filled in when asked for */
-  DOUBLE(opening), INT(status), DOUBLE(squeeze), DOUBLE(normal), DOUBLE(most), DOUBLE(margin);
-  DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(centre), QUAT(q), DOUBLE(place);
-  DOUBLE(slip_time), DOUBLE(slip_place), INT(frozen), DOUBLE(lost_time);
-  sw_tape_expect(t, x->status >= SW_JAW_RESTS && x->status <= SW_JAW_EMPTY, "jaws");
-}
-
-void sw_tape_tool(sw_tape *t, sw_scene *s, sw_tool *x) {
-  SW_TAPE_STRUCT(t, sw_tool, 888);
-  UINT32(generation), INT(alive), NAME(name);
-  tape_drive(t, s, &x->drive);
-  sw_tape_jaw(t, &x->jaw);
-  SIZE(pads), INT(fingers), DOUBLE(limit), DOUBLE(tolerance), INT(stops);
-  sw_tape_expect(t, x->pads <= SW_TOOL_PADS, "the pads of a gripper");
-  for (size_t k = 0; k < x->pads && sw_tape_good(t); k++)
-    sw_tape_size(t, &x->pad[k].obstacle), sw_tape_int(t, &x->pad[k].finger);
-  sw_tape_frozen(t, &x->frozen);
-  SW_TAPE_STRUCT(t, sw_crash, 32);
-  DOUBLE(crash.time), DOUBLE(crash.depth), SIZE(crash.part), SIZE(crash.obstacle), INT(crashing);
-  tape_tool_state(t, &x->now);
-  sw_tape_log(t, &x->log);
 }
 
 /* The arguments without the addresses in them, which mean nothing elsewhere. */

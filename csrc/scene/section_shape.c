@@ -7,20 +7,6 @@
 #include "scene/parts.h"
 #include "state/hinge.h"
 
-void sw_strand_outline(const sw_web *w, const double *x, size_t ring, double *out) {
-  const double *at = x + 3 * w->first[ring];
-  if (sw_web_is_ring(w, ring)) {
-    for (size_t k = 0; k < w->around_count; k++) sw_store(out + 3 * k, sw_vec_at(at, w->around[k]));
-    return;
-  }
-  /* the undeformed section, turned anyhow */
-  const sw_vec t = sw_strand_facing(w, x, ring), u = sw_perpendicular(t), v = sw_cross(t, u);
-  for (size_t k = 0; k < w->around_count; k++) {
-    const double *rest = w->section + 2 * (size_t)w->around[k];
-    sw_store(out + 3 * k, sw_madd(sw_madd(sw_load(at), u, rest[0]), v, rest[1]));
-  }
-}
-
 /* --- the place ---------------------------------------------------------------------- */
 
 /* A place on a mesh that can be read. */

@@ -62,6 +62,9 @@ void sw_strand_kit_release(void *kit); /* NULL is allowed */
 /* A copy that shares what never changes; of a strand without a web nothing. SW_ENOMEM. */
 sw_status sw_strand_copy(const sw_strand *from, sw_strand *to);
 
+/* On a tape; placed: it says where the particles are, for nothing else does. */
+void sw_tape_strand(sw_tape *tape, sw_strand *strand, int placed);
+
 /* How fast the web's solid elements swing, by their stiffness at the places x, which bounds the
  * steps of explicit methods. SW_ENOMEM. */
 sw_status sw_strand_bound_solids(sw_web *web, const double *x);

@@ -12,12 +12,6 @@
 #include "scene/world.h"
 #include "state/hinge.h"
 
-void sw_wear_free(sw_wear *w) {
-  sw_free(w->places);
-  sw_free(w->cycles);
-  *w = (sw_wear){0};
-}
-
 /* --- places ---------------------------------------------------------------------- */
 
 static double place_of(const sw_plan *p, size_t k) {
@@ -102,10 +96,6 @@ static uint64_t holds_of(const sw_body *b) {
   return sum | 1;
 }
 
-static sw_vec tangent_of(const sw_body *b, size_t e) {
-  return sw_v(b->field.tangent[0][e], b->field.tangent[1][e], b->field.tangent[2][e]);
-}
-
 static size_t edge_of(const sw_plan *p, size_t k) {
   if (k >= p->nodes) return p->clamps[k - p->nodes].edge;
   return k < p->edges ? k : p->edges - 1;
@@ -122,11 +112,13 @@ static sw_vec bend_of(const sw_system *s, const sw_body *b, size_t k) {
   const sw_plan *p = b->plan;
   if (k >= p->nodes) {
     const sw_clamp_hinge *c = &p->clamps[k - p->nodes];
-    const sw_vec t = tangent_of(b, c->edge), d = sw_vec_at(s->directors_now, sw_clamp_place(c));
+    const sw_vec t = sw_field_tangent(&b->field, c->edge),
+                 d = sw_vec_at(s->directors_now, sw_clamp_place(c));
     return towards(sw_scale(sw_sub(t, d), c->side), t, sw_scene_clamp_curvature(s, b, c));
   }
   if (k == 0 || k + 1 >= p->nodes || !(p->hinge[k] > 0)) return sw_v(0, 0, 0);
-  const sw_vec t = tangent_of(b, k), change = sw_sub(t, tangent_of(b, k - 1));
+  const sw_vec t = sw_field_tangent(&b->field, k),
+               change = sw_sub(t, sw_field_tangent(&b->field, k - 1));
   return towards(change, t, 2.0 * asin(fmin(1.0, 0.5 * sw_norm(change))) / p->hinge[k]);
 }
 
@@ -139,7 +131,8 @@ static sw_vec across_at(const sw_body *b, const sw_vec *across, size_t k) {
   const sw_plan *p = b->plan;
   const size_t e = edge_of(p, k);
   if (k == 0 || k >= p->edges || !(p->hinge[k] > 0)) return across[e];
-  const sw_vec before = sw_carry_unit(across[e - 1], tangent_of(b, e - 1), tangent_of(b, e));
+  const sw_vec before = sw_carry_unit(across[e - 1], sw_field_tangent(&b->field, e - 1),
+                                      sw_field_tangent(&b->field, e));
   return sw_unit_or(sw_add(before, across[e]), across[e]);
 }
 
@@ -178,7 +171,7 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
   sw_vec *across = sw_alloc(p->edges, sizeof *across);
   if (!across) return SW_ENOMEM;
   const sw_wear_place *start = &wear->places[0];
-  const sw_vec t0 = tangent_of(b, 0);
+  const sw_vec t0 = sw_field_tangent(&b->field, 0);
   const sw_vec first =
       start->seen ? sw_carry_unit(start->across, start->tangent, t0) : sw_perpendicular(t0);
   sw_wear_axes(&s->system, b, first, across);
@@ -188,7 +181,7 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
     sw_wear_place *x = &wear->places[k];
     const int free_start = !p->clamp_count && !b->spin_block; /* it is carried on by itself */
     if (free_start && k == 0) x->turn = 0;
-    turn_place(x, tangent_of(b, e), across_at(b, across, k),
+    turn_place(x, sw_field_tangent(&b->field, e), across_at(b, across, k),
                wear->holds != holds && !(free_start && k == 0));
     const sw_vec bend = bend_of(&s->system, b, k);
     const double tension = tension_at(p, T, k);
@@ -287,58 +280,4 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
     press_sides(b->plan, s->time, wear);
   }
   return SW_OK;
-}
-
-/* --- on a tape ------------------------------------------------------------------- */
-
-static void tape_cycles(sw_tape *t, sw_cycles *c) {
-  SW_TAPE_STRUCT(t, sw_cycles, 1544);
-  sw_tape_int(t, &c->opened), sw_tape_int(t, &c->count);
-  if (sw_tape_reads(t)) {
-    const int fine = c->opened >= 0 && c->opened <= SW_CYCLES_OPEN && c->count >= 0 &&
-                     c->count <= SW_CYCLES_KEPT;
-    const sw_cycles none = {.opened = fine ? c->opened : 0, .count = fine ? c->count : 0};
-    sw_tape_expect(t, fine, "a count of cycles");
-    *c = none;
-  }
-  sw_tape_raw(t, c->open, (size_t)c->opened * sizeof *c->open);
-  sw_tape_raw(t, c->kept, (size_t)c->count * sizeof *c->kept);
-  if (sw_tape_reads(t)) sw_tape_expect(t, sw_cycles_fine(c), "a count of cycles");
-}
-
-static void tape_place(sw_tape *t, sw_wear_place *x) {
-  SW_TAPE_STRUCT(t, sw_wear_place, 104); /* load and touches are of one state */
-  sw_tape_double(t, &x->s), sw_tape_double(t, &x->rubbed), sw_tape_double(t, &x->slid);
-  sw_tape_double(t, &x->turn), sw_tape_vec(t, &x->tangent), sw_tape_vec(t, &x->across);
-  sw_tape_int(t, &x->side), sw_tape_int(t, &x->seen);
-  const double all = x->s + x->rubbed + x->slid + x->turn;
-  sw_tape_expect(t, isfinite(all) && sw_finite(x->tangent) && sw_finite(x->across), "wear");
-}
-
-void sw_tape_wear(sw_tape *t, sw_wear *w) {
-  size_t count = w->count, nodes = w->nodes;
-  SW_TAPE_STRUCT(t, sw_wear, 72);
-  sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
-  sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
-  if (!sw_tape_good(t)) return;
-  if (sw_tape_reads(t) && count != w->count) {
-    sw_wear_free(w);
-    if (count) {
-      w->places = sw_alloc(count, sizeof *w->places);
-      w->cycles = sw_alloc(SW_WEAR_SIGNALS * count, sizeof *w->cycles);
-      if (!w->places || !w->cycles) {
-        sw_wear_free(w);
-        sw_tape_fail(t, SW_ENOMEM);
-        return;
-      }
-    }
-    w->count = count;
-  }
-  w->nodes = nodes;
-  sw_tape_raw(t, &w->holds, sizeof w->holds), sw_tape_int(t, &w->partial);
-  sw_tape_double(t, &w->sidewall.value), sw_tape_double(t, &w->sidewall.s);
-  sw_tape_double(t, &w->sidewall.time);
-  for (size_t k = 0; k < w->count && sw_tape_good(t); k++) tape_place(t, &w->places[k]);
-  for (size_t k = 0; k < SW_WEAR_SIGNALS * w->count && sw_tape_good(t); k++)
-    tape_cycles(t, &w->cycles[k]);
 }

@@ -7,10 +7,6 @@
 #include "state/clamp.h"
 #include "state/hinge.h"
 
-static sw_vec tangent_of(const sw_body *b, size_t e) {
-  return sw_v(b->field.tangent[0][e], b->field.tangent[1][e], b->field.tangent[2][e]);
-}
-
 static sw_vec turned(sw_vec u, sw_vec t, double angle) {
   return sw_madd(sw_scale(u, cos(angle)), sw_cross(t, u), sin(angle));
 }
@@ -21,7 +17,7 @@ static sw_vec from_hold(const sw_system *s, const sw_body *b, const sw_clamp_hin
   const sw_vec local = sw_perpendicular(sw_unit_or(sw_vec_at(s->directors, at), sw_v(1, 0, 0)));
   const sw_vec d = sw_vec_at(s->directors_now, at);
   const sw_vec u = sw_rotate(s->hold_states[c->hold].pose.q, local);
-  return sw_carry_unit(u, d, tangent_of(b, c->edge));
+  return sw_carry_unit(u, d, sw_field_tangent(&b->field, c->edge));
 }
 
 /* The clamp of the plan at which the edge leaves (1) or arrives (-1), or NULL. */
@@ -47,7 +43,8 @@ static void twist_spans(const sw_system *s, const sw_body *b, sw_vec *across) {
     const double from = p->s[span->first], length = p->s[span->last + 1] - from;
     for (size_t e = span->first; e <= span->last && length > 0; e++) {
       const double share = (0.5 * (p->s[e] + p->s[e + 1]) - from) / length;
-      across[e] = turned(across[e], tangent_of(b, e), share * s->twist[b->first_span + k]);
+      across[e] =
+          turned(across[e], sw_field_tangent(&b->field, e), share * s->twist[b->first_span + k]);
     }
   }
 }
@@ -63,11 +60,13 @@ void sw_wear_axes(const sw_system *s, const sw_body *b, sw_vec first, sw_vec *ac
   const size_t source = first_source(p, &clamp);
   across[source] = clamp ? from_hold(s, b, clamp) : first;
   for (size_t e = source; e > 0; e--)
-    across[e - 1] = sw_carry_unit(across[e], tangent_of(b, e), tangent_of(b, e - 1));
+    across[e - 1] = sw_carry_unit(across[e], sw_field_tangent(&b->field, e),
+                                  sw_field_tangent(&b->field, e - 1));
   for (size_t e = source + 1; e < p->edges; e++) {
     clamp = clamp_of(p, e, 1);
     across[e] = clamp ? from_hold(s, b, clamp)
-                      : sw_carry_unit(across[e - 1], tangent_of(b, e - 1), tangent_of(b, e));
+                      : sw_carry_unit(across[e - 1], sw_field_tangent(&b->field, e - 1),
+                                      sw_field_tangent(&b->field, e));
   }
   twist_spans(s, b, across);
 }

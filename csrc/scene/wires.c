@@ -10,6 +10,7 @@
 #include "state/mesh.h"
 #include "state/plan.h"
 
+const char *const sw_breaking_flags[] = {"given", "measured", "computed", "guessed", NULL};
 static const char *const rest_names[] = {"straight", "path", NULL};
 
 static const sw_param wire_rows[] = {
