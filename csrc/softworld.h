@@ -6,6 +6,7 @@
 #define SW_VERSION "0.1.0"
 
 #include "base/alloc.h"
+#include "base/extreme.h"
 #include "base/interrupt.h"
 #include "base/param.h"
 #include "base/quota.h"
@@ -16,8 +17,8 @@
 #include "calibrate/minimise.h"
 #include "calibrate/quasi.h"
 #include "calibrate/search.h"
-#include "calibrate/symmetric.h"
 #include "calibrate/statistics.h"
+#include "calibrate/symmetric.h"
 #include "draw/draw.h"
 #include "film/film.h"
 #include "film/pack.h"

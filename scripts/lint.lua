@@ -22,8 +22,10 @@ local ROOMS = {
   contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
   link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
   calibrate = { "base", "wire", "force", "solve" },
+  record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
+  strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
-    "contact", "link", "calibrate", "modal" },
+    "contact", "link", "calibrate", "modal", "record", "strand" },
   step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene" },
   film = { "base", "scene" },
   view = { "base" }, -- bytes for pages; never a scene
@@ -44,10 +46,9 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
--- Headers of a room that one other room alone may see: what makes a scene go on sees its inside.
-local OPEN_TO = { step = { scene = { "course.h", "events.h", "feed.h", "hold.h", "jaws.h", "join.h",
-  "kept_frames.h", "ledger.h", "line.h", "linear.h", "live.h", "observe.h", "obstacle.h", "parts.h",
-  "touching.h", "world.h" } } }
+-- The rooms that together are a scene, and what makes it go on: each sees the headers of those in its
+-- row, which are private to everybody else.
+local INSIDE = { "record", "strand", "scene", "step" }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }
@@ -222,6 +223,8 @@ local function members_of(room)
   return set
 end
 
+local inside = set_of(INSIDE)
+
 -- A header of csrc, as seen from file (csrc/room/stem.ext).
 local function check_own_include(file, number, room, stem, included, members)
   local other, name = included:match "^([%w_]+)/(.+)$"
@@ -248,7 +251,7 @@ local function check_own_include(file, number, room, stem, included, members)
     say("%s may not include %s (it may: %s); move the code or pass the data in", room, included,
       #ROOMS[room] > 0 and table.concat(ROOMS[room], " ") or "nothing else")
   elseif not (OPEN[other] == true or name == other .. ".h" or set_of(OPEN[other] or {})[name]
-      or set_of((OPEN_TO[room] or {})[other] or {})[name]) then
+      or inside[room] and inside[other]) then
     say("%s is private to %s; use %s/%s.h", included, other, other, other)
   end
 end

@@ -5,6 +5,8 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 #include "link/hold.h"
+#include "record/wear.h"
+#include "record/zone.h"
 #include "scene/line.h"
 #include "scene/observe.h"
 #include "scene/spin.h"

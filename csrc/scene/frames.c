@@ -17,6 +17,7 @@
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "state/web.h"
+#include "strand/ring.h"
 
 enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD, NONE = 3, LEAST = 3 }; /* NONE: of a gone body */
 

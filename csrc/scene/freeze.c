@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
+#include "scene/body.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
 #include "scene/links.h"
@@ -59,7 +60,7 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &now, err));
   f->pose = now.pose;
   f->wire = wire, f->cls = w->cls, f->jaw = t->jaw;
-  SW_TRY(sw_strand_take(w, system, b));
+  SW_TRY(sw_body_class_of(w)->take(s, wire.slot));
   SW_TRY(sw_mesh_copy(&w->mesh, &f->mesh));
   SW_TRY(sw_strand_copy(&w->strand, &f->strand));
   SW_TRY(keep_stations(w->strand.web, &w->mesh, &f->stations));

@@ -11,6 +11,7 @@
 #include "scene/parts.h"
 #include "scene/save.h"
 #include "state/state_tape.h"
+#include "strand/ring.h"
 
 void sw_frozen_retain(sw_frozen *f) {
   if (f) f->references++;

@@ -18,6 +18,7 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "solve/dense.h"
+#include "strand/ring.h"
 #include "system/linear.h"
 #include "system/system.h"
 

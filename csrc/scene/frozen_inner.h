@@ -6,8 +6,8 @@
 
 #include "scene/jaws.h"
 #include "scene/remodel_inner.h"
-#include "scene/strand.h"
 #include "state/mesh.h"
+#include "strand/strand.h"
 #include "system/energy.h"
 
 /* Where a pad pressed; in the tool's axes, from its centre. */

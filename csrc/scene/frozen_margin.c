@@ -24,6 +24,7 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "solve/cholesky.h"
+#include "strand/ring.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
 static const double ENOUGH = 1e-4; /* growth of the margin that ends the search [-] */

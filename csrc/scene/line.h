@@ -5,15 +5,15 @@
 #define SW_SCENE_LINE_H
 
 #include "link/hold.h"
+#include "record/wear.h"
+#include "record/window.h"
+#include "record/zone.h"
 #include "scene/reading.h"
 #include "scene/scene.h"
 #include "scene/section.h"
-#include "scene/strand.h"
-#include "scene/wear.h"
-#include "scene/window.h"
 #include "scene/wires.h"
-#include "scene/zone.h"
 #include "state/mesh.h"
+#include "strand/strand.h"
 #include "system/system.h"
 
 /* A twisted stretch of wire while the scene is not built. */
@@ -80,17 +80,6 @@ sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_er
  */
 sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
 
-/* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
- * of its first and last [m]. */
-void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
-/* 1: a hold of this class holds the particle. */
-static inline int sw_strand_holds(const sw_web *web, const sw_link_class *cls, size_t particle) {
-  const size_t ring = sw_web_ring_of(web, particle);
-  return cls->hold->direction || !sw_web_is_ring(web, ring) ||
-         particle - web->first[ring] == web->axis;
-}
-/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
-sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
@@ -107,31 +96,6 @@ void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *n
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */
 void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
 
-/* Middle of ring number r of particles at x, and the direction across the area that its surface
- * encloses [m], [-]. */
-sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
-sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
-/* How wide an outline (count x 3) is across the tangent. */
-typedef struct sw_widths {
-  double least, largest;         /* [m] */
-  sw_vec least_way, largest_way; /* [-] */
-} sw_widths;
-enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
-sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
-/* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
-double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
-sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
-/* Of a hollow section of one layer at s: how far walls that face each other are apart, 0 when they
- * cross; others: infinite [m]. */
-double sw_strand_walls_apart(const sw_web *web, const double *x, double s);
-/* How far the worst face of a section of springs is turned over: minus its area over that at rest,
- * above 0 when it is [-]. */
-sw_extreme sw_strand_folding(const sw_web *web, const double *x);
-/* Points of the outline (count x 3) moved outwards by skin. */
-void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
-                      double *out);
-/* The outline of ring number r [m]. */
-void sw_strand_outline(const sw_web *web, const double *x, size_t ring, double *out);
 /* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
  * NULL, in all (particles x 3) [N]. */
 void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);

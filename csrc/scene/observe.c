@@ -13,6 +13,7 @@
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
+#include "scene/wear.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

@@ -12,6 +12,7 @@
 #include "scene/save.h"
 #include "scene/touching.h"
 #include "scene/world.h"
+#include "strand/ring.h"
 
 static int is_node(const sw_mesh *m, double s) { return m->s[sw_mesh_node(m, s)] == s; }
 

@@ -5,6 +5,8 @@
 #include "base/alloc.h"
 #include "force/solid.h"
 #include "link/joint.h"
+#include "record/wear.h"
+#include "record/zone.h"
 #include "scene/forces.h"
 #include "scene/frames.h"
 #include "scene/kept_frames.h"

@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/extreme.h"
 #include "base/param.h"
 #include "base/status.h"
 #include "base/vec.h"
@@ -20,13 +21,6 @@ typedef struct sw_snapshot sw_snapshot;
 typedef struct sw_handle {
   uint32_t slot, generation; /* generation 0 = no object */
 } sw_handle;
-
-/* The largest of some values. */
-typedef struct sw_extreme {
-  double value; /* [its unit] */
-  double s;     /* where [m] */
-  double time;  /* when [s] */
-} sw_extreme;
 
 typedef struct sw_scene_args {
   char name[SW_NAME_SIZE];

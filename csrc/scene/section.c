@@ -6,6 +6,7 @@
 #include "force/solid.h"
 #include "scene/line.h"
 #include "scene/world.h"
+#include "strand/ring.h"
 
 /* --- sections -------------------------------------------------------------------- */
 

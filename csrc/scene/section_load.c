@@ -7,6 +7,7 @@
 #include "force/solid.h"
 #include "scene/line.h"
 #include "scene/parts.h"
+#include "strand/ring.h"
 
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_body **body,
                            sw_error *err) {

@@ -6,6 +6,7 @@
 #include "scene/line.h"
 #include "scene/parts.h"
 #include "state/hinge.h"
+#include "strand/ring.h"
 
 /* --- the place ---------------------------------------------------------------------- */
 

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "link/joint.h"
+#include "record/wear.h"
 #include "scene/forces.h"
 #include "scene/hold.h"
 #include "scene/kept_frames.h"

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "contact/grains.h"
+#include "record/wear.h"
 #include "scene/line.h"
 #include "scene/observe.h"
 #include "scene/touching.h"

@@ -11,39 +11,12 @@
 
 #include "base/tape.h"
 #include "base/vec.h"
-#include "scene/cycles.h"
 #include "scene/scene.h"
-#include "scene/worn.h"
 #include "system/system.h"
 
-/* Directions over half a turn, and what is counted at each place: the tension, then these [-]. */
-enum { SW_WEAR_WAYS = SW_WORN_WAYS, SW_WEAR_SIGNALS = SW_WORN_SIGNALS };
-
-typedef struct sw_wear_place {
-  double s;               /* arc length of the mesh [m] */
-  double rubbed, slid;    /* work of friction, normal force times way, per length [J/m], [N] */
-  double turn;            /* from what is carried along the wire to its own direction [rad] */
-  sw_vec tangent, across; /* the wire and its own direction at the last state [-] */
-  double load;            /* at this state: tension times curvature [N/m] */
-  int touches;            /* at this state: 1, something presses on it */
-  int side;               /* -1, 1: where it enters or leaves what holds its direction; else 0 */
-  int seen;               /* 1: tangent and across are known */
-} sw_wear_place;
-
-typedef struct sw_wear {
-  size_t count, nodes;   /* places: nodes, then clamps */
-  sw_wear_place *places; /* (count) */
-  sw_cycles *cycles;     /* (count x SW_WEAR_SIGNALS) */
-  uint64_t holds;        /* a number for what holds its direction where */
-  sw_extreme sidewall;   /* largest pressure T/R where it touches [N/m] */
-  int partial;           /* 1: it was a mesh of particles for a while, of which nothing is kept */
-} sw_wear;
-
-void sw_wear_free(sw_wear *wear);
 /* The state of wire w is one of the run; rubs: reached by a step, in which touches slid. SW_ENOMEM.
  */
 sw_status sw_wear_note(sw_scene *scene, size_t w, int rubs, sw_error *err);
-void sw_tape_wear(sw_tape *tape, sw_wear *wear);
 
 /* The wire's directions across its edges (edges), carried from what holds it; first: that of its
  * first edge where nothing does [-]. */

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "record/wear.h"
+#include "record/zone.h"
 #include "scene/line.h"
 #include "scene/world.h"
 #include "state/mesh.h"

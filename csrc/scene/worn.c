@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/worn.h"
 
+#include "record/wear.h"
 #include "scene/line.h"
 #include "scene/wear.h"
 #include "scene/world.h"

@@ -3,12 +3,9 @@
 #ifndef SW_SCENE_WORN_H
 #define SW_SCENE_WORN_H
 
-#include "scene/cycles.h"
+#include "record/wear.h"
 #include "scene/reading.h"
 #include "scene/scene.h"
-
-/* What is counted at each place: the tension, then the bend in so many directions [-]. */
-enum { SW_WORN_TENSION, SW_WORN_BEND, SW_WORN_WAYS = 12, SW_WORN_SIGNALS = 1 + SW_WORN_WAYS };
 
 typedef struct sw_worn {
   double s;      /* [m] */

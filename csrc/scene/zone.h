@@ -4,6 +4,7 @@
 #ifndef SW_SCENE_ZONE_H
 #define SW_SCENE_ZONE_H
 
+#include "record/zone.h"
 #include "scene/scene.h"
 #include "shape/shape.h"
 
@@ -22,24 +23,6 @@ typedef struct sw_zone {
   double temperature; /* [degC] */
 } sw_zone;
 
-/* Of one wire and one zone, since the run began. */
-typedef struct sw_zone_past {
-  double gap;     /* least distance of the wire's surface at a step's end; below 0: inside [m] */
-  double s, time; /* where and when [m], [s] */
-  double between; /* least that it may have been, also within steps, nodes moving straight [m] */
-  double inside;  /* time that something of the wire was inside [s] */
-  double until;   /* end of the last step that is in it [s] */
-  double last;    /* distance then [m] */
-} sw_zone_past;
-
-/* What a wire remembers of zones. */
-typedef struct sw_zone_watch {
-  size_t zones, edges;
-  sw_zone_past *past; /* (zones) */
-  double *gaps;       /* (zones x edges) at the last step's end [m] */
-  double *x;          /* (edges x 6) their ends then [m] */
-} sw_zone_watch;
-
 /* Retains the shape. */
 sw_status sw_scene_add_zone(sw_scene *scene, sw_shape *shape, const sw_zone_args *args,
                             sw_error *err);
@@ -51,9 +34,7 @@ const sw_zone_past *sw_scene_zone_past(const sw_scene *scene, sw_handle wire, si
 
 /* The state of wire w is one of the run. SW_ENOMEM. */
 sw_status sw_zones_note(sw_scene *scene, size_t w, sw_error *err);
-void sw_zones_forget(sw_zone_watch *watch);
 void sw_scene_clear_zone(sw_zone *zone);
 void sw_tape_zone(sw_tape *tape, sw_zone *zone);
-void sw_tape_zone_watch(sw_tape *tape, sw_zone_watch *watch);
 
 #endif

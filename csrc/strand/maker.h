@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How a strand is made; of the files strand*.c only. */
-#ifndef SW_SCENE_STRAND_INNER_H
-#define SW_SCENE_STRAND_INNER_H
+#ifndef SW_STRAND_MAKER_H
+#define SW_STRAND_MAKER_H
 
-#include "scene/strand.h"
+#include "strand/strand.h"
 
 typedef struct sw_strand_maker {
   const sw_strand_plan *plan;

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rings of a mesh of particles: where they are, and which way they face. */
-#include <math.h>
-#include <string.h>
+#include "strand/ring.h"
 
-#include "base/alloc.h"
-#include "scene/line.h"
+#include <math.h>
 
 void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
   const double middle = 0.5 * (*s1 + *s2), slack = 1e-9 * m->s[m->n - 1];
@@ -21,26 +19,6 @@ sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
   double at[3];
   sw_web_middle(w, x, ring, at);
   return sw_load(at);
-}
-
-sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *s, const sw_body *b) {
-  sw_strand *p = &wire->strand;
-  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
-  memcpy(p->x, s->x + at, size);
-  memcpy(p->v, s->v + at, size);
-  memcpy(p->a, s->a + at, size);
-  memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
-  sw_free(p->rate);
-  p->rate = b->axial_time > 0 ? sw_alloc(p->web->links, sizeof *p->rate) : NULL;
-  if (p->rate)
-    memcpy(p->rate, s->strain_rate + b->first_edge, p->web->links * sizeof(double));
-  else if (b->axial_time > 0)
-    return SW_ENOMEM;
-  for (size_t r = 0; r < p->web->rings; r++) {
-    sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
-    sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
-  }
-  return SW_OK;
 }
 
 /* Direction of a line of particles at one of them: of both parts beside it, the shorter one's

@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "scene/line.h"
-#include "scene/strand_inner.h"
+#include "strand/maker.h"
+#include "strand/ring.h"
 
 static void put(sw_strand_maker *m, uint32_t a, uint32_t b, uint32_t c) {
   if (m->web->face) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What holds the parts of a sliding composite to each other: elements of the force slide, one for
  * each pair of particles that face each other and each slice. */
+#include "state/slide.h"
+
 #include <math.h>
 
-#include "scene/strand_inner.h"
-#include "state/slide.h"
+#include "strand/maker.h"
 
 /* Stiffness along of the parts of one core together, before they slip, times the slice's length
  * over what shell and core have in series: what they bear is handed on within three slices, and

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/cycles.h"
+#include "record/cycles.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene/line.h"
+#include "strand/ring.h"
 
 typedef struct point {
   double x, y; /* [m] */

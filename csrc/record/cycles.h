@@ -3,8 +3,8 @@
  * bounded room. A cycle closes as soon as no later value can change it, so that the count is that
  * of the whole history. Where room is short, what is kept damages at least as much by any law of a
  * slope up to SW_CYCLES_SLOPE. */
-#ifndef SW_SCENE_CYCLES_H
-#define SW_SCENE_CYCLES_H
+#ifndef SW_RECORD_CYCLES_H
+#define SW_RECORD_CYCLES_H
 
 #include <stddef.h>
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The particles of a wire on a tape. */
-#include "base/alloc.h"
 #include "base/tape.h"
+
+#include "base/alloc.h"
 #include "force/solid.h"
-#include "scene/strand.h"
 #include "state/state_tape.h"
+#include "strand/strand.h"
 
 static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
   static const sw_sharing sharing = {sw_strand_kit_retain, sw_strand_kit_release};

@@ -5,8 +5,8 @@
 
 #include "base/alloc.h"
 #include "force/solid.h"
-#include "scene/strand_inner.h"
 #include "state/crease.h"
+#include "strand/maker.h"
 
 void sw_strand_add_link(sw_strand_maker *m, size_t a, size_t b, double k, double rest) {
   if (m->web) m->web->link[m->links] = (sw_web_link){(uint32_t)a, (uint32_t)b, k, rest};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What wires remember of zones: its end, and how it lies on a tape. */
+#include "record/zone.h"
+
 #include "base/alloc.h"
-#include "scene/zone.h"
 
 void sw_zones_forget(sw_zone_watch *w) {
   sw_free(w->past);

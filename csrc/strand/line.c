@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "scene/strand_inner.h"
+#include "strand/maker.h"
 
 /* The lever gives way by so little, of one slice's bending [-]. */
 static const double RIGID = 200.0;

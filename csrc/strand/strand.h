@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Wires that are meshes of particles: a calibrated lattice along the drawn path. The wire's own
  * mesh (sw_mesh) then has one node for each ring, in its middle. */
-#ifndef SW_SCENE_STRAND_H
-#define SW_SCENE_STRAND_H
+#ifndef SW_STRAND_STRAND_H
+#define SW_STRAND_STRAND_H
 
 #include "calibrate/calibrate.h"
 #include "state/mesh.h"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of a wire's wear: its end, and how it lies on a tape. */
+#include "record/wear.h"
+
 #include <math.h>
 
 #include "base/alloc.h"
-#include "scene/wear.h"
 
 void sw_wear_free(sw_wear *w) {
   sw_free(w->places);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/strand.h"
+#include "strand/strand.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/strand_inner.h"
 #include "state/hinge.h"
+#include "strand/maker.h"
 
 /* Particles at a surface are this far inside of it, so that what touches them has a side; of the
  * radius [-]. Solid elements have their section's own size, and the thinnest skin that keeps a

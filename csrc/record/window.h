@@ -2,8 +2,8 @@
 /* Means over a window of time that moves along with a run, of a value on each edge of a wire. A
  * running integral of each is kept at some moments of the last window: a step costs one sum for an
  * edge, and nothing is allocated unless the edges are others. */
-#ifndef SW_SCENE_WINDOW_H
-#define SW_SCENE_WINDOW_H
+#ifndef SW_RECORD_WINDOW_H
+#define SW_RECORD_WINDOW_H
 
 #include <stddef.h>
 
