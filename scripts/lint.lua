@@ -26,6 +26,10 @@ local ROOMS = {
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "link", "calibrate", "modal", "record", "strand" },
+  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
+    "calibrate", "record", "strand", "scene" }, -- the scene as a whole: its life, snapshots, files
+  remodel = { "base", "state", "wire", "force", "solve", "system", "contact", "link", "strand", "scene",
+    "save" }, -- changes of a wire's model, back to a snapshot where they fail
   step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene" },
   film = { "base", "scene" },
   view = { "base" }, -- bytes for pages; never a scene
@@ -48,7 +52,7 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
 
 -- The rooms that together are a scene, and what makes it go on: each sees the headers of those in its
 -- row, which are private to everybody else.
-local INSIDE = { "record", "strand", "scene", "step" }
+local INSIDE = { "record", "strand", "scene", "save", "remodel", "step" }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

@@ -7,9 +7,9 @@
 #include "base/alloc.h"
 #include "contact/contact.h"
 #include "scene/frozen_inner.h"
+#include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/parts.h"
-#include "scene/save.h"
 #include "state/state_tape.h"
 #include "strand/ring.h"
 

@@ -93,4 +93,9 @@ sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
 /* 1: one slipped in the last step that ends a run with it. */
 int sw_tool_slipped(const sw_scene *scene);
 
+void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
+void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);
+void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
+int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
+
 #endif

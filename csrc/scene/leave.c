@@ -4,6 +4,8 @@
  * close up, for the system's bodies are numbered by them; frames number bodies by when they were
  * made, so that those of before stay what they are. The energy that leaves is a change of the
  * scene in the ledger. */
+#include "scene/leave.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -19,7 +21,6 @@
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/save.h"
 #include "scene/tool.h"
 #include "scene/touching.h"
 #include "scene/world.h"

@@ -22,19 +22,9 @@ typedef struct sw_handle {
   uint32_t slot, generation; /* generation 0 = no object */
 } sw_handle;
 
-typedef struct sw_scene_args {
-  char name[SW_NAME_SIZE];
-  sw_vec gravity; /* [m/s2] */
-} sw_scene_args;
-extern const sw_params sw_scene_params;
-
-sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err);
-void sw_scene_free(sw_scene *scene); /* NULL is allowed */
-
 const char *sw_scene_name(const sw_scene *scene);
 double sw_scene_time(const sw_scene *scene); /* [s] */
 sw_vec sw_scene_gravity(const sw_scene *scene);
-sw_status sw_scene_set_gravity(sw_scene *scene, sw_vec gravity, sw_error *err);
 /* 1 inside a step or a user's function of the scene: every change is refused with
  * SW_EBUSY, and the scene must not be freed. */
 int sw_scene_busy(const sw_scene *scene);
@@ -51,8 +41,6 @@ const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind, int *held);
 const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
                                    int *present);
-/* 0 when neither the scene nor a living snapshot of it will use the force again. */
-int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
 /* The class of a force, released or not; NULL as above. */
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
 /* What its events call it. */
@@ -85,15 +73,5 @@ sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 
 /* The window of the last run, or that of runs that say nothing [s]. */
 double sw_scene_window(const sw_scene *scene);
-
-/* --- snapshots -------------------------------------------------------------- */
-
-/* Restoring takes back what was made after the snapshot: its handles are stale
- * from then on, unless another living snapshot still knows it. */
-sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
-sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
-void sw_snapshot_free(sw_snapshot *snapshot);         /* NULL is allowed */
-double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
-int sw_snapshot_busy(const sw_snapshot *snapshot);    /* being restored: do not free it */
 
 #endif

@@ -57,27 +57,6 @@ typedef struct sw_jaw_args {
 sw_status sw_scene_tool_jaws(sw_scene *scene, sw_handle tool, const sw_jaw_args *args,
                              sw_error *err);
 
-/* What a change between pads and a rigid grip did. */
-/* Brings a built scene to rest where it is, to a tolerance in so many iterations at most: who steps
- * gives it, see sw_scene_balance [m]. */
-typedef sw_status sw_balance(sw_scene *scene, double tolerance, long most, sw_error *err);
-typedef struct sw_freeze_report {
-  sw_handle hold;                     /* of the frozen wire [-] */
-  double s1, s2;                      /* held interval [m] */
-  double energy_before, energy_after; /* of the scene [J] */
-  double before[6], after[6];         /* momentum and its moment [N s], [N m s] */
-  sw_vec force, moment;               /* of the tool before, about its centre [N], [N m] */
-} sw_freeze_report;
-
-/* The wire, a mesh between the tool's pads, becomes a rod that the tool holds rigidly where the
- * pads press on it; its deformed sections are kept. Pads no longer touch it. SW_EINVAL when
- * they do not press on a mesh. */
-sw_status sw_scene_tool_freeze(sw_scene *scene, sw_handle tool, sw_handle wire, sw_balance *balance,
-                               sw_freeze_report *out, sw_error *err);
-/* Back again: the mesh as it was between the pads, with their friction; elsewhere as the rod lies.
- */
-sw_status sw_scene_tool_thaw(sw_scene *scene, sw_handle tool, sw_balance *balance,
-                             sw_freeze_report *out, sw_error *err);
 /* Margin at which a frozen grip counts as lost, and a run ends with that step [-]. */
 sw_status sw_scene_tool_limit(sw_scene *scene, sw_handle tool, double margin, sw_error *err);
 

@@ -2,7 +2,7 @@
 /* Tools on a tape. */
 #include <math.h>
 
-#include "scene/save.h"
+#include "scene/jaws.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)
 #define SIZE(field) sw_tape_size(t, &x->field)

@@ -69,20 +69,6 @@ sw_status sw_scene_redraw(sw_scene *scene, sw_handle wire, const sw_redrawing *a
 /* Even segments that a wire's mesh stands for, holds' own nodes left out. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
 
-typedef struct sw_remodel_report {
-  double energy_before, energy_after; /* of the scene [J] */
-  sw_vec about;                       /* the wire's centre of mass before [m] */
-  double before[6], after[6];         /* its momentum and the moment of that [N s], [N m s] */
-} sw_remodel_report;
-
-/* Another model for the wire from now on: of args model and segments are read. mesh: as for a new
- * wire, its section that of the wire. region: from and to [m]; only there, and beside clamps, the
- * wire is the mesh, elsewhere a line of as many segments as a rod; NULL: all of it. */
-sw_status sw_scene_remodel(sw_scene *scene, sw_handle wire, const sw_wire_args *args,
-                           const sw_wire_mesh_args *mesh, const double *region,
-                           sw_remodel_report *out, sw_error *err);
-extern const sw_params sw_remodel_params;
-
 /* What the springs of a wire that is a mesh were fitted to; NULL: it is none, or is gone. */
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *scene, sw_handle wire);
 /* Name of its model; NULL: it is gone. */

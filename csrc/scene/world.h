@@ -90,7 +90,4 @@ struct sw_scene {
   sw_books books; /* of the energy in it */
 };
 
-/* The scene goes away: its snapshots live on, good for nothing. */
-void sw_scene_orphan_snapshots(sw_scene *scene);
-
 #endif

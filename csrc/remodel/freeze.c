@@ -7,6 +7,8 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
+#include "remodel/exchange.h"
+#include "remodel/remodel.h"
 #include "scene/body.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"

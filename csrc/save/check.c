@@ -6,10 +6,12 @@
 
 #include "base/alloc.h"
 #include "link/joint.h"
+#include "save/save.h"
 #include "scene/forces.h"
+#include "scene/jaws.h"
+#include "scene/leave.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/save.h"
 #include "scene/touching.h"
 #include "scene/world.h"
 #include "strand/ring.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as bytes of a file, and what a scene is made of. */
-#ifndef SW_SCENE_FILE_H
-#define SW_SCENE_FILE_H
+#ifndef SW_SAVE_FILE_H
+#define SW_SAVE_FILE_H
 
 #include "scene/scene.h"
 

@@ -3,11 +3,11 @@
  * them all: those of a scene that was restored in place are those of before. */
 #include "base/alloc.h"
 #include "link/joint.h"
-#include "scene/file.h"
+#include "save/file.h"
+#include "save/save.h"
 #include "scene/forces.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/save.h"
 #include "scene/touching.h"
 #include "scene/world.h"
 

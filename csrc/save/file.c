@@ -2,14 +2,15 @@
 /* Scenes as bytes that outlive the process. A file is a head, a note of the caller's, the objects,
  * and the state of the built scene or what an edited one remembers. A scene that is not built is
  * saved as it is: building it between two edits would not give the same bits. */
-#include "scene/save.h"
+#include "save/file.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "link/joint.h"
-#include "scene/file.h"
+#include "save/life.h"
+#include "save/save.h"
 #include "scene/forces.h"
 #include "scene/hold.h"
 #include "scene/line.h"

@@ -4,16 +4,19 @@
  * the same by the smallest rigid motion that does it. Sections of a new mesh give way to stretch,
  * bend and twist as those of an endless one do. What else deformed them, as squeezing does, is
  * lost; the energy tells how much. */
+#include "remodel/remodel.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "link/hold.h"
+#include "remodel/line.h"
+#include "save/life.h"
 #include "scene/hold.h"
 #include "scene/jaws.h"
 #include "scene/join.h"
 #include "scene/line.h"
-#include "scene/remodel_inner.h"
 #include "scene/world.h"
 #include "state/plan.h"
 

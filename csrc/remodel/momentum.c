@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "remodel/line.h"
 #include "scene/parts.h"
 #include "scene/reading.h"
-#include "scene/remodel_inner.h"
 #include "solve/dense.h"
 #include "system/system.h"
 

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The middle line of a wire, as it goes over to another model. */
+#include "scene/line.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "scene/line.h"
+#include "remodel/line.h"
 #include "scene/parts.h"
-#include "scene/remodel_inner.h"
 #include "state/hinge.h"
 
 static sw_status new_line(size_t n, sw_line *out) {

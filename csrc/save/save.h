@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene has, on a tape: that of a file, or a snapshot's, which stays at home. */
-#ifndef SW_SCENE_SAVE_H
-#define SW_SCENE_SAVE_H
+#ifndef SW_SAVE_SAVE_H
+#define SW_SAVE_SAVE_H
 
 #include "base/tape.h"
 #include "scene/jaws.h"
@@ -18,25 +18,12 @@ void sw_tape_scene(sw_tape *tape, sw_scene *scene, int *built, sw_live *live);
  * failure. placed: it says where particles are, for the scene is not built. */
 void sw_tape_wire(sw_tape *tape, sw_scene_wire *wire, int placed);
 void sw_tape_hold(sw_tape *tape, sw_scene *scene, sw_hold *hold);
-void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
-void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);
-void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
-int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 void sw_tape_obstacle(sw_tape *tape, sw_scene *scene, sw_scene_obstacle *obstacle);
 void sw_tape_force(sw_tape *tape, sw_scene_force *force);
 void sw_tape_join(sw_tape *tape, sw_joint *join);
 void sw_tape_rule(sw_tape *tape, sw_scene_rule *rule);
-void sw_tape_gone(sw_tape *tape, sw_gone *gone);
-void sw_tape_check_numbers(sw_tape *tape, const sw_scene *scene);
 void sw_tape_frame(sw_tape *tape, const sw_scene *scene, sw_frame *frame);
 void sw_tape_extreme(sw_tape *tape, sw_extreme *extreme);
-
-/* What a scene that is not built remembers of its last system. */
-void sw_tape_kept_contact(sw_tape *tape, sw_scene *scene);
-void sw_tape_kept_history(sw_tape *tape, sw_scene *scene, sw_kept_history *history);
-
-/* The state of one that is. */
-void sw_tape_live(sw_tape *tape, sw_live *live);
 
 /* Parts that say what an object is, not where it is. */
 void sw_tape_beam_of(sw_tape *tape, sw_scene_wire *wire);
@@ -49,5 +36,8 @@ sw_status sw_scene_take_place(sw_scene *scene, sw_scene *other, const sw_live *l
 
 /* Everything was read: do the objects fit each other? SW_EFORMAT. */
 void sw_tape_check_scene(sw_tape *tape, sw_scene *scene);
+
+/* The scene goes away: its snapshots live on, good for nothing. */
+void sw_scene_orphan_snapshots(sw_scene *scene);
 
 #endif

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Life of a scene. */
-#include "scene/scene.h"
+#include "save/life.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "save/save.h"
 #include "scene/forces.h"
 #include "scene/history.h"
 #include "scene/jaws.h"
 #include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/scene.h"
 #include "scene/touching.h"
 #include "scene/world.h"
 

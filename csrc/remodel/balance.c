@@ -8,6 +8,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "remodel/exchange.h"
+#include "remodel/remodel.h"
+#include "save/life.h"
 #include "scene/course.h"
 #include "scene/frozen_inner.h"
 #include "scene/parts.h"

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "remodel/exchange.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
 #include "scene/linear.h"

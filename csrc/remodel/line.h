@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* For the files that change a wire's model: the middle line that goes over, and momentum. */
-#ifndef SW_SCENE_REMODEL_INNER_H
-#define SW_SCENE_REMODEL_INNER_H
+/* Of the files that change a wire's model: the middle line that goes over, and momentum. */
+#ifndef SW_REMODEL_LINE_H
+#define SW_REMODEL_LINE_H
 
 #include "scene/parts.h"
 #include "scene/region.h"
