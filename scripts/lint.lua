@@ -26,12 +26,17 @@ local ROOMS = {
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "link", "calibrate", "modal", "record", "strand" },
+  read = { "base", "state", "force", "solve", "system", "modal", "contact", "link", "record", "strand",
+    "scene" }, -- what may be asked of the state
+  watch = { "base", "state", "shape", "force", "modal", "system", "contact", "link", "record", "strand",
+    "scene", "read" }, -- what is kept and told of every accepted state
   save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
-    "calibrate", "record", "strand", "scene" }, -- the scene as a whole: its life, snapshots, files
+    "calibrate", "record", "strand", "scene", "read", "watch" }, -- the scene as a whole: its life, files
   remodel = { "base", "state", "wire", "force", "solve", "system", "contact", "link", "strand", "scene",
-    "save" }, -- changes of a wire's model, back to a snapshot where they fail
-  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene" },
-  film = { "base", "scene" },
+    "read", "save" }, -- changes of a wire's model, back to a snapshot where they fail
+  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
+    "read", "watch" },
+  film = { "base", "scene", "read" },
   view = { "base" }, -- bytes for pages; never a scene
   draw = { "base", "film" }, -- of film: bytes made few
   bind = {}, -- the core through softworld.h
@@ -43,7 +48,7 @@ local ROOMS = {
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
-  scene = { "account.h", "frames.h", "links.h", "reading.h", "wires.h" },
+  read = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
@@ -52,7 +57,8 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
 
 -- The rooms that together are a scene, and what makes it go on: each sees the headers of those in its
 -- row, which are private to everybody else.
-local INSIDE = { "record", "strand", "scene", "save", "remodel", "step" }
+local INSIDE = { "record", "strand", "scene", "read", "watch", "save", "remodel",
+  "step" }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

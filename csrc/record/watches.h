@@ -3,7 +3,7 @@
 #ifndef SW_RECORD_WATCHES_H
 #define SW_RECORD_WATCHES_H
 
-
+#include <stddef.h>
 
 typedef struct sw_watch sw_watch; /* the rows of one object */
 

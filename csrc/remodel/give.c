@@ -12,10 +12,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "read/linear.h"
 #include "remodel/exchange.h"
 #include "scene/frozen_inner.h"
 #include "scene/line.h"
-#include "scene/linear.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "solve/dense.h"

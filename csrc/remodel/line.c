@@ -7,8 +7,10 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "read/reading.h"
 #include "remodel/line.h"
 #include "scene/parts.h"
+#include "scene/values.h"
 #include "state/hinge.h"
 
 static sw_status new_line(size_t n, sw_line *out) {

@@ -4,9 +4,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "read/reading.h"
 #include "remodel/line.h"
 #include "scene/parts.h"
-#include "scene/reading.h"
+#include "scene/values.h"
 #include "solve/dense.h"
 #include "system/system.h"
 

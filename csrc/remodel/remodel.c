@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "link/hold.h"
+#include "read/reading.h"
 #include "remodel/line.h"
 #include "save/life.h"
 #include "scene/hold.h"

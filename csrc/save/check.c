@@ -11,6 +11,7 @@
 #include "scene/jaws.h"
 #include "scene/leave.h"
 #include "scene/line.h"
+#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
 #include "scene/world.h"

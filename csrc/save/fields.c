@@ -10,6 +10,7 @@
 #include "scene/obstacle.h"
 #include "scene/touching.h"
 #include "scene/world.h"
+#include "watch/zone.h"
 
 /* What need not come back: it is found anew, or grows as it likes. */
 static void blank_scene(sw_scene *s) {

@@ -6,16 +6,18 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/history.h"
 #include "scene/jaws.h"
-#include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"
 #include "scene/touching.h"
 #include "scene/world.h"
+#include "watch/watches.h"
+#include "watch/zone.h"
 
 static const sw_param scene_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_scene_args, name),

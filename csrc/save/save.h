@@ -4,10 +4,11 @@
 #define SW_SAVE_SAVE_H
 
 #include "base/tape.h"
+#include "read/reading.h"
 #include "scene/jaws.h"
 #include "scene/live.h"
 #include "scene/parts.h"
-#include "scene/reading.h"
+#include "scene/values.h"
 #include "system/system.h"
 
 /* The whole scene. Reading fills an empty one, or, from a tape at home, one whose system is that of

@@ -5,12 +5,12 @@
 
 #include "base/alloc.h"
 #include "link/joint.h"
+#include "read/kept_frames.h"
 #include "record/wear.h"
 #include "save/life.h"
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/hold.h"
-#include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"

@@ -4,17 +4,19 @@
  * built is put on it as it is: building it between two edits would not give the same bits. */
 #include "base/alloc.h"
 #include "link/joint.h"
+#include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/history.h"
 #include "scene/jaws.h"
-#include "scene/kept_frames.h"
 #include "scene/leave.h"
 #include "scene/line.h"
 #include "scene/live.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
 #include "scene/world.h"
+#include "watch/watches.h"
+#include "watch/zone.h"
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */
 

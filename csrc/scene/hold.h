@@ -14,10 +14,6 @@ int sw_hold_jerked(const sw_scene *scene, const sw_hold *hold, sw_vec *force, sw
 /* What is written beside a force: above 0 the time that it is the mean of, below 0 the step at
  * whose end it is the force [s]. */
 double sw_hold_span(const sw_scene *scene, int mean);
-/* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
-sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
-/* 1: one was driven into an obstacle in the last step. */
-int sw_hold_crashed(const sw_scene *scene);
 
 sw_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
 /* The same of a hold that has not been released. */

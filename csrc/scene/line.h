@@ -8,9 +8,8 @@
 #include "record/wear.h"
 #include "record/window.h"
 #include "record/zone.h"
-#include "scene/reading.h"
 #include "scene/scene.h"
-#include "scene/section.h"
+#include "scene/values.h"
 #include "scene/wires.h"
 #include "state/mesh.h"
 #include "strand/strand.h"
@@ -85,20 +84,8 @@ void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_bod
                   sw_point_state *out);
 /* Bending moment in the slice of a mesh that has a place [m], [N m]. */
 double sw_strand_moment(const sw_plan *plan, const double *x, double place);
-/* Tells of a wire whose largest tension is above its breaking load. */
-void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
-/* The same at the end of a run, of runs that were shorter than the window. */
-void sw_scene_end_breaking(sw_scene *scene);
-/* And as the end of a sentence, or nothing. */
-void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
-/* Tells of a tube that is folded at one place. */
-void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */
 void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
-
-/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
- * NULL, in all (particles x 3) [N]. */
-void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
 
 /* The wire of a handle, in a scene that is built, readable and refreshed. */
 sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);

@@ -4,8 +4,8 @@
 
 #include "scene/body.h"
 #include "scene/line.h"
-#include "scene/observe.h"
 #include "scene/spin.h"
+#include "scene/values.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

@@ -47,10 +47,6 @@ sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, in
                           sw_error *err);
 sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
 sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
-/* When what it holds was last driven into an obstacle, how far then, and into which one: NAN, 0
- * and "" when it never was [s], [m]. */
-sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *time, double *depth,
-                              const char **obstacle, sw_error *err);
 
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
@@ -122,5 +118,14 @@ sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error
 /* The shape, still the scene's: retain it to keep it. */
 sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape **out,
                                   sw_error *err);
+
+sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
+                            sw_error *err);
+
+/* One recorded row per step of an obstacle: time, force on it. */
+enum { SW_LOG_OBSTACLE_SIZE = 5 };
+
+sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
+                                size_t *count, sw_error *err);
 
 #endif

@@ -3,6 +3,7 @@
  * a force are added when something does, or when the series is read. */
 #include <string.h>
 
+#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
 #include "scene/world.h"

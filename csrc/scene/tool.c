@@ -11,6 +11,7 @@
 #include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/values.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

@@ -5,8 +5,8 @@
 #define SW_SCENE_TOOL_H
 
 #include "motion/motion.h"
-#include "scene/reading.h"
 #include "scene/scene.h"
+#include "scene/values.h"
 
 enum { SW_TOOL_PADS = 16 }; /* most obstacles of a tool [-] */
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "link/hold.h"
+#include "read/reading.h"
 #include "scene/hold.h"
 #include "scene/jaws.h"
 #include "scene/line.h"

@@ -8,6 +8,8 @@
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "scene/values.h"
+#include "watch/tell.h"
 
 typedef struct amount {
   double value;

@@ -12,6 +12,8 @@
 #include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "watch/series.h"
+#include "watch/tell.h"
 
 /* A held place may be so much deeper in an obstacle than where it was taken hold of, of the
  * distance from there to the surface [-]. Contact itself lets wires in by far less. */

@@ -8,7 +8,9 @@
 #include "scene/events.h"
 #include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/values.h"
 #include "strand/ring.h"
+#include "watch/tell.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
 /* A fold is far beyond both, where the tube has nowhere that width any more [-]. */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is kept of every accepted state: extremes, forces, frames. */
-#include "scene/observe.h"
+#include "watch/observe.h"
 
 #include "base/alloc.h"
 #include "base/log.h"
 #include "base/simd.h"
 #include "link/hold.h"
+#include "read/extremes.h"
 #include "scene/forces.h"
 #include "scene/hold.h"
 #include "scene/jaws.h"
@@ -13,9 +14,13 @@
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
-#include "scene/wear.h"
+#include "scene/values.h"
 #include "scene/world.h"
 #include "state/clamp.h"
+#include "watch/tell.h"
+#include "watch/watches.h"
+#include "watch/wear.h"
+#include "watch/zone.h"
 
 static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   sw_wire_extremes now;

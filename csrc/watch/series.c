@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/watch.h"
+#include "watch/series.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,11 +7,14 @@
 #include "base/alloc.h"
 #include "link/hold.h"
 #include "link/joint.h"
+#include "record/watches.h"
 #include "scene/forces.h"
 #include "scene/hold.h"
 #include "scene/join.h"
 #include "scene/line.h"
+#include "scene/values.h"
 #include "scene/world.h"
+#include "watch/watches.h"
 
 enum { OF_WIRE, OF_FORCE, OF_TIE };
 

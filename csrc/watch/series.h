@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series of wires and forces, and the crashes of holds. */
-#ifndef SW_SCENE_SERIES_H
-#define SW_SCENE_SERIES_H
+#ifndef SW_WATCH_SERIES_H
+#define SW_WATCH_SERIES_H
 
 #include "scene/scene.h"
 

@@ -4,12 +4,13 @@
 #include <math.h>
 
 #include "modal/modal.h"
+#include "read/linear.h"
 #include "scene/events.h"
 #include "scene/join.h"
 #include "scene/line.h"
-#include "scene/linear.h"
 #include "scene/parts.h"
 #include "system/system.h"
+#include "watch/tell.h"
 
 /* Tangents that differ by less than this are those of a straight wire [-]. */
 static const double STRAIGHT = 1e-9;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is told of a run: breaking loads, kinks, crashes, what presses hard, wires that may buckle. */
-#ifndef SW_SCENE_TELL_H
-#define SW_SCENE_TELL_H
+/* What is told of a run: breaking loads, kinks, crashes, what presses hard, wires that may buckle.
+ */
+#ifndef SW_WATCH_TELL_H
+#define SW_WATCH_TELL_H
 
+#include "read/reading.h"
 #include "scene/parts.h"
-#include "scene/reading.h"
+#include "scene/values.h"
 
 /* Tells of a wire whose largest tension is above its breaking load. */
 void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);

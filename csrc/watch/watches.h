@@ -1,19 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is recorded of wires and forces at every accepted state, for series. */
-#ifndef SW_SCENE_WATCH_H
-#define SW_SCENE_WATCH_H
+#ifndef SW_WATCH_WATCHES_H
+#define SW_WATCH_WATCHES_H
 
 #include "base/tape.h"
-#include "scene/reading.h"
+#include "read/reading.h"
+#include "record/watches.h"
 #include "scene/scene.h"
-
-typedef struct sw_watch sw_watch; /* the rows of one object */
-
-typedef struct sw_watches {
-  sw_watch *list;
-  size_t count, capacity;
-  size_t next; /* where the object that is noted next is likely to be [-] */
-} sw_watches;
+#include "scene/values.h"
 
 /* Add a row of the accepted state. */
 sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/wear.h"
+#include "watch/wear.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "contact/grains.h"
+#include "read/extremes.h"
 #include "record/wear.h"
 #include "scene/line.h"
-#include "scene/observe.h"
 #include "scene/touching.h"
 #include "scene/world.h"
 #include "state/hinge.h"
+#include "watch/observe.h"
 
 /* --- places ---------------------------------------------------------------------- */
 

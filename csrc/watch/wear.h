@@ -6,8 +6,8 @@
  * that to and fro is one cycle of the whole range. They are those of its material frames where it
  * has them; else they are carried along it from the holds, twisted as it is twisted evenly between
  * two of them, and where nothing holds it from its first edge, which does not roll. */
-#ifndef SW_SCENE_WEAR_H
-#define SW_SCENE_WEAR_H
+#ifndef SW_WATCH_WEAR_H
+#define SW_WATCH_WEAR_H
 
 #include "base/tape.h"
 #include "base/vec.h"

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/wear.h"
 #include "state/clamp.h"
 #include "state/hinge.h"
+#include "watch/wear.h"
 
 static sw_vec turned(sw_vec u, sw_vec t, double angle) {
   return sw_madd(sw_scale(u, cos(angle)), sw_cross(t, u), sin(angle));

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/worn.h"
+#include "watch/worn.h"
 
 #include "record/wear.h"
 #include "scene/line.h"
-#include "scene/wear.h"
 #include "scene/world.h"
+#include "watch/wear.h"
 
 sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, int *partial,
                         sw_error *err) {

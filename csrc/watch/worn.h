@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run did to a wire, place by place, where it was asked to keep that; see wear.h. */
-#ifndef SW_SCENE_WORN_H
-#define SW_SCENE_WORN_H
+#ifndef SW_WATCH_WORN_H
+#define SW_WATCH_WORN_H
 
+#include "read/reading.h"
 #include "record/wear.h"
-#include "scene/reading.h"
 #include "scene/scene.h"
+#include "scene/values.h"
 
 typedef struct sw_worn {
   double s;      /* [m] */

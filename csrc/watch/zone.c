@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/zone.h"
+#include "watch/zone.h"
 
 #include <math.h>
 #include <string.h>

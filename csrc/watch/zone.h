@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Zones of space that wires are watched in: nothing touches them. How near each wire comes is kept
  * of every step, and how near it may have come between two. */
-#ifndef SW_SCENE_ZONE_H
-#define SW_SCENE_ZONE_H
+#ifndef SW_WATCH_ZONE_H
+#define SW_WATCH_ZONE_H
 
 #include "record/zone.h"
 #include "scene/scene.h"

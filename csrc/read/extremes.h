@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Largest values of wires, now and of a run. */
-#ifndef SW_SCENE_EXTREMES_H
-#define SW_SCENE_EXTREMES_H
+#ifndef SW_READ_EXTREMES_H
+#define SW_READ_EXTREMES_H
 
-#include "scene/reading.h"
+#include "read/reading.h"
+#include "scene/values.h"
 #include "state/clamp.h"
 #include "state/field.h"
 #include "system/system.h"

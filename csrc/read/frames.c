@@ -4,15 +4,15 @@
  * wire, of those that are gone too (with zeros), its node count and positions, how many values each
  * node has and these, the number of its surface's points in a section (0: it is no mesh of
  * particles), and these points with the force across the surface at each. */
-#include "scene/frames.h"
+#include "read/frames.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "link/hold.h"
+#include "read/kept_frames.h"
 #include "scene/jaws.h"
-#include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"

@@ -8,9 +8,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "read/readout.h"
 #include "scene/line.h"
 #include "scene/parts.h"
-#include "scene/readout.h"
 
 static double of_line(sw_scene *s, size_t body) {
   sw_system *system = sw_scene_system(s);

@@ -3,6 +3,7 @@
  * of the surface. */
 #include <math.h>
 
+#include "read/section.h"
 #include "scene/line.h"
 #include "scene/parts.h"
 #include "state/hinge.h"

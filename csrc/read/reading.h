@@ -1,18 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What may be read of a scene: of its wires, its energy, its modes, its series. */
-#ifndef SW_SCENE_READING_H
-#define SW_SCENE_READING_H
+#ifndef SW_READ_READING_H
+#define SW_READ_READING_H
 
 #include "scene/scene.h"
-
-typedef struct sw_point_state {
-  sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
-  double curvature;                   /* [1/m] */
-  double tension, elastic;            /* axial force; without that of dashpots [N] */
-  double twist_moment;                /* [N m] */
-  double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
-  double strain, least_strain;        /* of the fibres outside and inside the bend [-] */
-} sw_point_state;
+#include "scene/values.h"
 
 sw_status sw_scene_wire_length(sw_scene *scene, sw_handle wire, double *length, sw_error *err);
 sw_status sw_scene_wire_nodes(sw_scene *scene, sw_handle wire, size_t *nodes, sw_error *err);
@@ -30,15 +22,6 @@ sw_status sw_scene_wire_particle_copy(sw_scene *scene, sw_handle wire, double *p
 /* Give every node a velocity: linear field v + omega x (x - about). */
 sw_status sw_scene_wire_set_velocity(sw_scene *scene, sw_handle wire, sw_vec v, sw_vec omega,
                                      sw_vec about, sw_error *err);
-/* The wire's largest values: now, and since the last run or settle began. */
-typedef struct sw_wire_extremes {
-  sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
-  sw_extreme folding;     /* of a section of springs; above 0: it has folded through itself [-] */
-  sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
-  sw_extreme torsion;     /* of a line, M_t / GJ [rad/m] */
-  sw_extreme raw;         /* tension of a single step; tension is of means over the window [N] */
-  double raw_span;        /* how long that step was; 0: it was an equilibrium [s] */
-} sw_wire_extremes;
 sw_status sw_scene_wire_extremes(sw_scene *scene, sw_handle wire, sw_wire_extremes *now,
                                  sw_wire_extremes *run, sw_error *err);
 
@@ -102,32 +85,5 @@ typedef struct sw_probe_result {
 /* What all forces of one class do to a wire. Changes nothing. */
 sw_status sw_scene_probe(sw_scene *scene, sw_handle wire, const sw_force_class *cls,
                          const sw_probe *at, sw_probe_result *out, sw_error *err);
-
-/* One recorded row per step of a hold: time, force, moment, held point. */
-enum {
-  SW_LOG_TIME = 0,
-  SW_LOG_FORCE = 1,
-  SW_LOG_MOMENT = 4,
-  SW_LOG_POINT = 7,
-  SW_LOG_SPAN = 10,
-  SW_LOG_SIZE
-};
-sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
-                            sw_error *err);
-/* One recorded row per step of an obstacle: time, force on it. */
-enum { SW_LOG_OBSTACLE_SIZE = 5 };
-sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
-                                size_t *count, sw_error *err);
-
-/* Of a wire: time, largest tension [N], largest curvature [1/m]. Of a force that tells what it does
- * to wires (clip, tether): time, force on them [N]. count is 0 where nothing was recorded. */
-enum { SW_LOG_WIRE_SIZE = 3, SW_LOG_FORCE_SIZE = 4 };
-sw_status sw_scene_wire_log(sw_scene *scene, sw_handle wire, const double **rows, size_t *count,
-                            sw_error *err);
-/* The same of a tie between wires: on the first one. */
-sw_status sw_scene_tie_log(sw_scene *scene, sw_handle join, const double **rows, size_t *count,
-                           sw_error *err);
-sw_status sw_scene_force_log(sw_scene *scene, sw_handle force, const double **rows, size_t *count,
-                             sw_error *err);
 
 #endif

@@ -2,8 +2,8 @@
 /* Frames: what pictures and players show, stored at even times of a run, in 32-bit floats. When
  * they would take more memory than they may, every second one goes, and from then on they are
  * stored half as often. */
-#ifndef SW_SCENE_FRAMES_H
-#define SW_SCENE_FRAMES_H
+#ifndef SW_READ_FRAMES_H
+#define SW_READ_FRAMES_H
 
 #include "scene/scene.h"
 

@@ -8,9 +8,10 @@
 #include "link/hold.h"
 #include "link/joint.h"
 #include "modal/modal.h"
+#include "read/linear.h"
+#include "read/reading.h"
 #include "scene/join.h"
 #include "scene/line.h"
-#include "scene/linear.h"
 #include "scene/world.h"
 #include "system/linear.h"
 

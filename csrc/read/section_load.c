@@ -5,6 +5,8 @@
 
 #include "contact/contact.h"
 #include "force/solid.h"
+#include "read/kept_frames.h"
+#include "read/section.h"
 #include "scene/line.h"
 #include "scene/parts.h"
 #include "strand/ring.h"

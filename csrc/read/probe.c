@@ -2,6 +2,7 @@
 /* What one kind of force does to one wire, at the present state or at given
  * positions and velocities: energy, node forces, and its stiffness times a
  * direction. For specs, and for anyone who wants to look inside. */
+#include "read/reading.h"
 #include "scene/line.h"
 #include "scene/parts.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sections of wires that are meshes of particles: shape, strain, what presses on them, stress. */
-#ifndef SW_SCENE_SECTION_H
-#define SW_SCENE_SECTION_H
+#ifndef SW_READ_SECTION_H
+#define SW_READ_SECTION_H
 
 #include "scene/scene.h"
 

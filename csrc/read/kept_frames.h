@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A frame of a run as the scene keeps it. Of its inside. */
-#ifndef SW_SCENE_KEPT_FRAMES_H
-#define SW_SCENE_KEPT_FRAMES_H
+#ifndef SW_READ_KEPT_FRAMES_H
+#define SW_READ_KEPT_FRAMES_H
 
-#include "scene/frames.h"
+#include "read/frames.h"
+#include "system/system.h"
 
 /* Numbers of a tool, and of a hold or an obstacle, in its block [-]. */
 enum { SW_FRAME_TOOL = SW_FRAME_BODY, SW_FRAME_HOLD = SW_FRAME_BODY + 1 };
@@ -27,5 +28,9 @@ void sw_scene_drop_frames(sw_scene *scene);
 void sw_scene_frames_back_to(sw_scene *scene, size_t count, size_t stride);
 /* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
 void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, float *out);
+
+/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
+ * NULL, in all (particles x 3) [N]. */
+void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
 
 #endif

@@ -2,8 +2,8 @@
 /* Read-outs of a wire that are one number: each is one sw_readout and one name in SW_READOUTS,
  * and a method of wires in Lua. Each is right for every model or refuses with
  * SW_EINVAL and a text that names the wire and its model: 0 means 0. */
-#ifndef SW_SCENE_READOUT_H
-#define SW_SCENE_READOUT_H
+#ifndef SW_READ_READOUT_H
+#define SW_READ_READOUT_H
 
 #include "scene/scene.h"
 

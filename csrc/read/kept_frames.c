@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames are read, their blocks checked. */
+#include "read/kept_frames.h"
+
 #include <math.h>
 
-#include "scene/kept_frames.h"
 #include "scene/line.h"
 #include "scene/world.h"
 

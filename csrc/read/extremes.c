@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Largest values of wires: bends, tensions, strains, now and of a run. */
+#include "read/extremes.h"
+
 #include <math.h>
 
 #include "base/alloc.h"
@@ -8,8 +10,8 @@
 #include "record/wear.h"
 #include "record/zone.h"
 #include "scene/line.h"
-#include "scene/observe.h"
 #include "scene/spin.h"
+#include "scene/values.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

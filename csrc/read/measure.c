@@ -3,12 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "read/extremes.h"
+#include "read/kept_frames.h"
 #include "scene/body.h"
-#include "scene/kept_frames.h"
 #include "scene/line.h"
-#include "scene/observe.h"
 #include "scene/spin.h"
 #include "scene/touching.h"
+#include "scene/values.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 #include "system/join.h"
@@ -202,4 +203,10 @@ void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]) {
                                                          : 1;
     out[kind] += e.value[i];
   }
+}
+
+size_t sw_scene_touches(sw_scene *s) {
+  if (!s->built) return 0;
+  return (s->contact ? sw_contact_count(s->contact) : 0) +
+         (s->pairs ? sw_pairs_count(s->pairs) : 0) + (s->grains ? sw_grains_count(s->grains) : 0);
 }

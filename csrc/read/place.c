@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a wire has at a place, and the list of all read-outs. */
+#include "read/reading.h"
+#include "read/readout.h"
 #include "scene/line.h"
 #include "scene/parts.h"
-#include "scene/readout.h"
+#include "scene/values.h"
 
 const sw_readout *const *sw_readout_all(void) {
 #define ONE(name) &sw_readout_##name,
