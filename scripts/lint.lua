@@ -26,16 +26,20 @@ local ROOMS = {
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
     "contact", "link", "calibrate", "modal", "record", "strand" },
+  grip = { "base", "motion", "state", "solve", "system", "contact", "link", "strand", "scene" },
+  edit = { "base", "motion", "state", "wire", "shape", "force", "calibrate", "link", "record", "strand",
+    "scene", "grip" }, -- wires, holds, obstacles, forces: made, changed, taken away
   read = { "base", "state", "force", "solve", "system", "modal", "contact", "link", "record", "strand",
-    "scene" }, -- what may be asked of the state
+    "scene", "grip", "edit" }, -- what may be asked of the state
   watch = { "base", "state", "shape", "force", "modal", "system", "contact", "link", "record", "strand",
-    "scene", "read" }, -- what is kept and told of every accepted state
+    "scene", "grip", "edit", "read" }, -- what is kept and told of every accepted state
   save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
-    "calibrate", "record", "strand", "scene", "read", "watch" }, -- the scene as a whole: its life, files
+    "calibrate", "record", "strand", "scene", "grip", "edit", "read",
+    "watch" }, -- the scene as a whole: its life, snapshots, files
   remodel = { "base", "state", "wire", "force", "solve", "system", "contact", "link", "strand", "scene",
-    "read", "save" }, -- changes of a wire's model, back to a snapshot where they fail
+    "grip", "edit", "read", "save" }, -- changes of a wire's model, back to a snapshot where they fail
   step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
-    "read", "watch" },
+    "grip", "edit", "read", "watch" },
   film = { "base", "scene", "read" },
   view = { "base" }, -- bytes for pages; never a scene
   draw = { "base", "film" }, -- of film: bytes made few
@@ -57,8 +61,8 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
 
 -- The rooms that together are a scene, and what makes it go on: each sees the headers of those in its
 -- row, which are private to everybody else.
-local INSIDE = { "record", "strand", "scene", "read", "watch", "save", "remodel",
-  "step" }
+local INSIDE = { "record", "strand", "scene", "grip", "edit", "read", "watch",
+  "save", "remodel", "step" }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

@@ -10,9 +10,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/kept_frames.h"
-#include "scene/jaws.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"

@@ -8,11 +8,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "grip/frozen.h"
 #include "remodel/exchange.h"
 #include "remodel/remodel.h"
 #include "save/life.h"
 #include "scene/course.h"
-#include "scene/frozen_inner.h"
 #include "scene/parts.h"
 
 enum { MOST_POSES = 200 }; /* iterations; without a result the wire stays as it lies [-] */

@@ -3,10 +3,11 @@
 #ifndef SW_REMODEL_EXCHANGE_H
 #define SW_REMODEL_EXCHANGE_H
 
+#include "grip/frozen.h"
+#include "grip/tool.h"
 #include "remodel/line.h"
 #include "remodel/remodel.h"
-#include "scene/frozen_inner.h"
-#include "scene/tool.h"
+#include "scene/gripper.h"
 
 /* Put the built scene where it is in balance with its accelerations; those of the wire are
  * before (count x 3), of its rings or nodes. Velocities stay. */

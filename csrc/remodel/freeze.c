@@ -7,12 +7,15 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
+#include "edit/links.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
 #include "remodel/exchange.h"
 #include "remodel/remodel.h"
 #include "scene/body.h"
-#include "scene/frozen_inner.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
-#include "scene/links.h"
 #include "scene/parts.h"
 #include "state/hinge.h"
 

@@ -12,9 +12,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "grip/frozen.h"
 #include "read/linear.h"
 #include "remodel/exchange.h"
-#include "scene/frozen_inner.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"

@@ -10,12 +10,15 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
+#include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/reading.h"
 #include "remodel/line.h"
 #include "save/life.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/world.h"

@@ -3,9 +3,9 @@
 #ifndef SW_REMODEL_REMODEL_H
 #define SW_REMODEL_REMODEL_H
 
+#include "edit/wires.h"
+#include "grip/tool.h"
 #include "scene/scene.h"
-#include "scene/tool.h"
-#include "scene/wires.h"
 
 typedef struct sw_remodel_report {
   double energy_before, energy_after; /* of the scene [J] */

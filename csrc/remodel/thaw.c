@@ -6,12 +6,16 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
+#include "edit/links.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
 #include "remodel/exchange.h"
 #include "remodel/remodel.h"
-#include "scene/frozen_inner.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
-#include "scene/links.h"
 #include "scene/parts.h"
+#include "scene/scene.h"
 #include "state/hinge.h"
 
 /* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds

@@ -5,15 +5,19 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/leave.h"
+#include "edit/links.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
 #include "link/joint.h"
 #include "save/save.h"
 #include "scene/forces.h"
-#include "scene/jaws.h"
-#include "scene/leave.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
-#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
+#include "scene/values.h"
 #include "scene/world.h"
 #include "strand/ring.h"
 

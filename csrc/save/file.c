@@ -12,6 +12,7 @@
 #include "save/life.h"
 #include "save/save.h"
 #include "scene/forces.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"

@@ -6,11 +6,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
+#include "grip/jaws.h"
 #include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
+#include "scene/gripper.h"
 #include "scene/history.h"
-#include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
 #include "force/solid.h"
 #include "link/joint.h"
 #include "read/frames.h"
@@ -10,6 +11,7 @@
 #include "record/wear.h"
 #include "record/zone.h"
 #include "save/save.h"
+#include "scene/drive.h"
 #include "scene/forces.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"

@@ -4,8 +4,9 @@
 #define SW_SAVE_SAVE_H
 
 #include "base/tape.h"
+#include "grip/jaws.h"
 #include "read/reading.h"
-#include "scene/jaws.h"
+#include "scene/gripper.h"
 #include "scene/live.h"
 #include "scene/parts.h"
 #include "scene/values.h"

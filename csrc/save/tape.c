@@ -3,13 +3,14 @@
  * objects, and the state of the built scene or what an edited one remembers. A scene that is not
  * built is put on it as it is: building it between two edits would not give the same bits. */
 #include "base/alloc.h"
+#include "edit/leave.h"
+#include "grip/jaws.h"
 #include "link/joint.h"
 #include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
+#include "scene/gripper.h"
 #include "scene/history.h"
-#include "scene/jaws.h"
-#include "scene/leave.h"
 #include "scene/line.h"
 #include "scene/live.h"
 #include "scene/obstacle.h"

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What moves a hold or an obstacle. */
+#include "scene/drive.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "link/hold.h"
-#include "scene/jaws.h"
+#include "scene/gripper.h"
 #include "scene/parts.h"
 #include "state/clamp.h"
 

@@ -10,10 +10,10 @@
 #include "record/zone.h"
 #include "scene/scene.h"
 #include "scene/values.h"
-#include "scene/wires.h"
 #include "state/mesh.h"
 #include "strand/strand.h"
 #include "system/system.h"
+#include "wire/wire.h"
 
 /* A twisted stretch of wire while the scene is not built. */
 typedef struct sw_twisted {
@@ -92,21 +92,12 @@ sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire,
 /* SW_EINVAL when place is no arc length of the wire. */
 sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
 
-/* What a mesh of this class for the wire is to be of. */
-sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_class *cls,
-                                    const sw_wire_mesh_args *mesh);
-
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 
 /* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
 sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
-/* A wire's mesh as drawn, of some segments; frames too. SW_ENOMEM. */
-sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_error *err);
-/* May the wire, as it is given, be in the scene with its forces and rules? */
-sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
-                               sw_error *err);
 /* The body of a handle, in a scene that is built, readable and refreshed. */
 sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
 /* SW_EINVAL for a speed that nothing has [m/s]. */
@@ -114,9 +105,5 @@ sw_status sw_scene_check_speed(const sw_scene *scene, const sw_scene_wire *body,
                                sw_error *err);
 /* The body of a number in frames, or NULL when it is gone; then what is known of it. */
 const sw_scene_wire *sw_scene_numbered(const sw_scene *scene, size_t number, const sw_gone **gone);
-/* Free what these slots own. */
-void sw_scene_clear_body(sw_scene_wire *body);
-/* The class of a wire or of objects of particles; NULL: there is none of this name. */
-const sw_wire_class *sw_scene_body_class(const char *name);
 
 #endif

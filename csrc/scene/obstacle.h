@@ -30,8 +30,6 @@ sw_status sw_obstacle_log_fill(sw_scene *scene, sw_scene_obstacle *obstacle);
 sw_status sw_obstacle_log_fill_all(sw_scene *scene);
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
 
-void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
-
 /* Mean force of wires on an obstacle over the last step, blows included, and its moment about a
  * point [N], [N m]. */
 void sw_obstacle_mean(const sw_scene_obstacle *obstacle, sw_vec about, sw_vec *force,

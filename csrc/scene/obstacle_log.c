@@ -3,9 +3,9 @@
  * a force are added when something does, or when the series is read. */
 #include <string.h>
 
-#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"
+#include "scene/values.h"
 #include "scene/world.h"
 
 enum { TIME, SPAN, STEP }; /* a row of the scene's steps with contact */

@@ -41,27 +41,8 @@ const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind, int *held);
 const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
                                    int *present);
-/* The class of a force, released or not; NULL as above. */
-const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
-/* What its events call it. */
-sw_status sw_scene_name_force(sw_scene *scene, sw_handle force, const char *name, sw_error *err);
-/* 0 once released, or when the scene does not know it. */
-int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
 /* --- forces ----------------------------------------------------------------- */
-
-/* A force on one wire, or on all (handle of generation 0). args: the class's
- * argument struct. */
-sw_status sw_scene_add_force(sw_scene *scene, const sw_force_class *cls, sw_handle wire,
-                             const void *args, size_t args_size, sw_handle *out, sw_error *err);
-sw_status sw_scene_remove_force(sw_scene *scene, sw_handle force, sw_error *err);
-/* Its arguments as they were given or set last, SW_FORCE_ARGS_MAX bytes; other ones from now on. A
- * place on the wire stays what it is. */
-sw_status sw_scene_force_args(const sw_scene *scene, sw_handle force, void *args, sw_error *err);
-sw_status sw_scene_set_force(sw_scene *scene, sw_handle force, const void *args, sw_error *err);
-/* Values of its class' outputs on one wire, SW_FORCE_OUTPUTS_MAX at most. */
-sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, double *out,
-                              sw_error *err);
 
 /* SW_EBUSY from inside a step, a user's function or an observer: the scene must not be changed
  * now. */
@@ -73,5 +54,12 @@ sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 
 /* The window of the last run, or that of runs that say nothing [s]. */
 double sw_scene_window(const sw_scene *scene);
+
+/* The handle of a body with the slot that it has now; one that names none when it is gone. */
+sw_handle sw_scene_body_now(const sw_scene *scene, sw_handle body);
+/* Its number in frames, also of one that is gone; SIZE_MAX: the scene does not know it [-]. */
+size_t sw_scene_body_number(const sw_scene *scene, sw_handle body);
+/* Name of a body that was taken away, and when [s]; NULL: it was not. */
+const char *sw_scene_gone_name(const sw_scene *scene, sw_handle body, double *time);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 #include "base/tape.h"
+#include "scene/drive.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "state/plan.h"

@@ -35,4 +35,7 @@ enum {
   SW_LOG_SIZE
 };
 
+/* One recorded row per step of an obstacle: time, force on it. */
+enum { SW_LOG_OBSTACLE_SIZE = 5 };
+
 #endif

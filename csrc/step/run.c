@@ -5,11 +5,12 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "grip/jaws.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
 #include "read/linear.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/touching.h"

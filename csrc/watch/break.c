@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "edit/wires.h"
 #include "scene/events.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"

@@ -4,12 +4,14 @@
  * with more than any wire bears? Both are noticed and told. */
 #include <math.h>
 
+#include "edit/links.h"
+#include "grip/jaws.h"
 #include "link/hold.h"
+#include "scene/drive.h"
 #include "scene/events.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/line.h"
-#include "scene/links.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "watch/series.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/forces.h"
 #include "link/hold.h"
 #include "link/joint.h"
 #include "record/watches.h"
@@ -12,6 +13,7 @@
 #include "scene/hold.h"
 #include "scene/join.h"
 #include "scene/line.h"
+#include "scene/scene.h"
 #include "scene/values.h"
 #include "scene/world.h"
 #include "watch/watches.h"

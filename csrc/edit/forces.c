@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/forces.h"
 #include "scene/line.h"
 #include "scene/touching.h"
 #include "scene/world.h"

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/tape.h"
+#include "edit/edit.h"
 #include "scene/line.h"
 #include "scene/touching.h"
 #include "scene/world.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Objects of particles that somebody puts together link by link: what is given is checked and
  * becomes a web without rings. */
-#include "scene/particles.h"
+#include "edit/particles.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -9,6 +9,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/forces.h"
 #include "force/solid.h"
 #include "scene/line.h"
 #include "scene/scene.h"

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The inside of a frozen grip: what pads held, and what both changes between pads and a rigid
  * grip need. */
-#ifndef SW_SCENE_FROZEN_INNER_H
-#define SW_SCENE_FROZEN_INNER_H
+#ifndef SW_GRIP_FROZEN_H
+#define SW_GRIP_FROZEN_H
 
-#include "scene/jaws.h"
+#include "base/tape.h"
+#include "scene/gripper.h"
 #include "scene/region.h"
 #include "state/mesh.h"
 #include "strand/strand.h"
@@ -38,5 +39,13 @@ struct sw_frozen {
 
 /* The tool's pads press as they do now. SW_ENOMEM. */
 sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);
+
+void sw_frozen_retain(sw_frozen *frozen);
+void sw_frozen_release(sw_frozen *frozen);
+/* What a force on the wire and its moment about the tool's centre, in the tool's axes, are of what
+ * the pads could bear in place of the rigid grip [-]. */
+double sw_frozen_margin(const sw_frozen *frozen, sw_vec force, sw_vec moment);
+void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
+int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 
 #endif

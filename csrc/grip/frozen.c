@@ -2,14 +2,17 @@
 /* What pads held while a rigid grip stands for them: its life, and how it lies on a tape. The
  * particles with their springs' forces are kept in the tool's axes, and the friction between
  * pads and particles. */
+#include "grip/frozen.h"
+
 #include <math.h>
 
 #include "base/alloc.h"
 #include "contact/contact.h"
-#include "scene/frozen_inner.h"
-#include "scene/jaws.h"
+#include "grip/jaws.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/scene.h"
 #include "state/state_tape.h"
 #include "strand/ring.h"
 

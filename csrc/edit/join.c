@@ -7,10 +7,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"
 #include "scene/line.h"
-#include "scene/links.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 

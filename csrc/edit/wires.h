@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Wires of a scene: how they are made, meshed anew, and touch each other. */
-#ifndef SW_SCENE_WIRES_H
-#define SW_SCENE_WIRES_H
+#ifndef SW_EDIT_WIRES_H
+#define SW_EDIT_WIRES_H
 
 #include "calibrate/calibrate.h"
 #include "scene/scene.h"
@@ -40,18 +40,6 @@ extern const sw_params sw_wire_mesh_params; /* without those of the lattice and 
 sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_beam *beam,
                             const sw_wire_mesh_args *mesh, const double *points, size_t count,
                             sw_handle *out, sw_error *err);
-
-/* Take a wire or an object of particles away. What holds it lets go, its joins, ties and forces
- * end, tools that hold it rigidly have their pads again. Slots of others may change: see body_now.
- * What it leaves in frames, series and snapshots stays. SW_ECALLBACK from a motion of what holds
- * it; nothing is changed then. */
-sw_status sw_scene_remove_body(sw_scene *scene, sw_handle body, sw_error *err);
-/* The handle of a body with the slot that it has now; one that names none when it is gone. */
-sw_handle sw_scene_body_now(const sw_scene *scene, sw_handle body);
-/* Its number in frames, also of one that is gone; SIZE_MAX: the scene does not know it [-]. */
-size_t sw_scene_body_number(const sw_scene *scene, sw_handle body);
-/* Name of a body that was taken away, and when [s]; NULL: it was not. */
-const char *sw_scene_gone_name(const sw_scene *scene, sw_handle body, double *time);
 
 /* Give every wire a mesh of so many even segments (count: one number per wire), with
  * the nodes its holds need. A wire that has not moved since it was drawn is drawn anew;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An object of particles while it is made. Of this room only. */
-#ifndef SW_SCENE_PARTICLES_H
-#define SW_SCENE_PARTICLES_H
+#ifndef SW_EDIT_PARTICLES_H
+#define SW_EDIT_PARTICLES_H
 
-#include "scene/objects.h"
+#include "edit/objects.h"
 
 typedef struct maker {
   const char *name;

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/objects.h"
 #include "link/hold.h"
 #include "scene/line.h"
-#include "scene/objects.h"
 #include "scene/world.h"
 #include "state/field.h"
 

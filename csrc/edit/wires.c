@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
 #include "record/wear.h"
 #include "record/zone.h"
 #include "scene/line.h"

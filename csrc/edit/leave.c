@@ -4,7 +4,7 @@
  * close up, for the system's bodies are numbered by them; frames number bodies by when they were
  * made, so that those of before stay what they are. The energy that leaves is a change of the
  * scene in the ledger. */
-#include "scene/leave.h"
+#include "edit/leave.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -12,16 +12,19 @@
 
 #include "base/alloc.h"
 #include "base/log.h"
+#include "edit/edit.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
+#include "grip/tool.h"
 #include "link/joint.h"
+#include "scene/drive.h"
 #include "scene/forces.h"
-#include "scene/frozen_inner.h"
+#include "scene/gripper.h"
 #include "scene/history.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/tool.h"
 #include "scene/touching.h"
 #include "scene/world.h"
 

@@ -2,7 +2,10 @@
 /* Tools on a tape. */
 #include <math.h>
 
-#include "scene/jaws.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)
 #define SIZE(field) sw_tape_size(t, &x->field)

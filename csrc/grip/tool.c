@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tools: their frame, pads and holds, and what they hold. */
-#include "scene/tool.h"
+#include "grip/tool.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
 #include "link/hold.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/values.h"

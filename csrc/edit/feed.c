@@ -2,11 +2,11 @@
 /* What a user asks of a feed (link/feed.c). */
 #include <math.h>
 
+#include "edit/links.h"
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/hold.h"
 #include "scene/line.h"
-#include "scene/links.h"
 #include "scene/parts.h"
 #include "state/clamp.h"
 

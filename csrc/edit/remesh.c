@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "edit/edit.h"
 #include "link/hold.h"
 #include "scene/hold.h"
 #include "scene/join.h"

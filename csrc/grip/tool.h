@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tools: what a gripper is to the core. A frame that moves, jaws that open and close in it,
  * and pads: obstacles that move with the frame, and apart with the jaws. */
-#ifndef SW_SCENE_TOOL_H
-#define SW_SCENE_TOOL_H
+#ifndef SW_GRIP_TOOL_H
+#define SW_GRIP_TOOL_H
 
 #include "motion/motion.h"
+#include "scene/gripper.h"
 #include "scene/scene.h"
 #include "scene/values.h"
-
-enum { SW_TOOL_PADS = 16 }; /* most obstacles of a tool [-] */
 
 typedef struct sw_tool_args {
   char name[SW_NAME_SIZE];
@@ -22,8 +21,6 @@ sw_status sw_scene_add_tool(sw_scene *scene, const sw_tool_args *args, sw_handle
 /* From now on the obstacle, where it is, goes with the tool. opens: how it moves in the tool's
  * axes while the opening grows [m/m]. finger: forces of the same number are one finger's; -1: it is
  * no pad but some other part of the tool. */
-/* It goes with its pads and lets go of what it holds; its series can still be read. */
-sw_status sw_scene_remove_tool(sw_scene *scene, sw_handle tool, sw_error *err);
 sw_status sw_scene_tool_pad(sw_scene *scene, sw_handle tool, sw_handle obstacle, int finger,
                             sw_vec opens, sw_error *err);
 /* From now on the hold goes with the tool; its force counts as the tool's. */
@@ -36,18 +33,6 @@ sw_status sw_scene_tool_follow(sw_scene *scene, sw_handle tool, sw_motion *motio
 sw_status sw_scene_tool_pose(sw_scene *scene, sw_handle tool, sw_pose *out, sw_error *err);
 sw_status sw_scene_tool_set_pose(sw_scene *scene, sw_handle tool, sw_pose pose, sw_error *err);
 
-enum {
-  SW_JAW_STILL, /* stay */
-  SW_JAW_TO,    /* go to an opening, unless a force stops them */
-  SW_JAW_FORCE  /* close until there is a force, and keep it */
-};
-enum {
-  SW_JAW_RESTS,
-  SW_JAW_MOVES,
-  SW_JAW_HOLDS,   /* with the force that is wanted */
-  SW_JAW_STOPPED, /* by the force that was allowed */
-  SW_JAW_EMPTY    /* closed, without the force wanted */
-};
 typedef struct sw_jaw_args {
   int mode;
   double opening; /* [m] */
@@ -60,29 +45,6 @@ sw_status sw_scene_tool_jaws(sw_scene *scene, sw_handle tool, const sw_jaw_args 
 /* Margin at which a frozen grip counts as lost, and a run ends with that step [-]. */
 sw_status sw_scene_tool_limit(sw_scene *scene, sw_handle tool, double margin, sw_error *err);
 
-/* What the tool holds now. */
-typedef struct sw_tool_state {
-  double opening;      /* [m] */
-  int status;          /* of the jaws */
-  double squeeze;      /* force per finger against opening [N] */
-  double normal, most; /* forces across the pads, friction that they allow [N] */
-  double margin;       /* friction over that; 0 without any; of a frozen grip force and moment over
-                          what its touches could balance [-] */
-  double sliding;      /* share of the force that slides [-] */
-  double slip;         /* slide of the wires since the last order to the jaws, as a vector's
-                          length [m] */
-  sw_vec slipped;      /* that vector, of wires in the tool's axes [m] */
-  sw_vec centre;       /* of the tool [m] */
-  sw_quat q;           /* its orientation [-] */
-  double place;        /* arc length between the pads [m] */
-  double slip_time, slip_place; /* when and where that became more than is tolerated; NAN = it
-                                   did not [s], [m] */
-  int frozen;                   /* 1: by a rigid grip that stands for the pads */
-  double crash_time;            /* when a part of it last ran into an obstacle; NAN = never [s] */
-  double crash_depth;           /* [m] */
-  const char *crash_part, *crash_obstacle; /* their names, the scene's */
-  double lost_time; /* when the margin of a frozen grip was used up; NAN = it is not [s] */
-} sw_tool_state;
 sw_status sw_scene_tool_state(sw_scene *scene, sw_handle tool, sw_tool_state *out, sw_error *err);
 /* Slip that is an event [m]; stops: a run ends with that step. Slip counts from now on. */
 sw_status sw_scene_tool_watch(sw_scene *scene, sw_handle tool, double tolerance, int stops,

@@ -19,7 +19,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/frozen_inner.h"
+#include "grip/frozen.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"

@@ -4,9 +4,11 @@
  * bones, and by the ends of the bones of what they meet. */
 #include <math.h>
 
+#include "grip/jaws.h"
 #include "link/hold.h"
+#include "scene/drive.h"
 #include "scene/events.h"
-#include "scene/jaws.h"
+#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What takes hold of wires: joins, holds, feeds; and the obstacles that they meet. */
-#ifndef SW_SCENE_LINKS_H
-#define SW_SCENE_LINKS_H
+#ifndef SW_EDIT_LINKS_H
+#define SW_EDIT_LINKS_H
 
 #include "link/link.h"
 #include "motion/motion.h"
@@ -121,9 +121,6 @@ sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape 
 
 sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
                             sw_error *err);
-
-/* One recorded row per step of an obstacle: time, force on it. */
-enum { SW_LOG_OBSTACLE_SIZE = 5 };
 
 sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
                                 size_t *count, sw_error *err);

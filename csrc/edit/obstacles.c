@@ -4,8 +4,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/jaws.h"
-#include "scene/links.h"
+#include "edit/edit.h"
+#include "edit/links.h"
+#include "grip/jaws.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 

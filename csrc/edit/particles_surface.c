@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/particles.h"
+#include "edit/particles.h"
 
 typedef struct edge {
   uint32_t a, b; /* a < b */

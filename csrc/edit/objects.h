@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Objects of particles that are no wires: fabric, foam, nets, chains. */
-#ifndef SW_SCENE_OBJECTS_H
-#define SW_SCENE_OBJECTS_H
+#ifndef SW_EDIT_OBJECTS_H
+#define SW_EDIT_OBJECTS_H
 
 #include "scene/scene.h"
 
