@@ -22,10 +22,25 @@ local ROOMS = {
   contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
   link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
   calibrate = { "base", "wire", "force", "solve" },
+  record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
+  strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
-    "contact", "link", "calibrate", "modal" },
-  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene" },
-  film = { "base", "scene" },
+    "contact", "link", "calibrate", "modal", "record", "strand" },
+  grip = { "base", "motion", "state", "solve", "system", "contact", "link", "strand", "scene" },
+  edit = { "base", "motion", "state", "wire", "shape", "force", "calibrate", "link", "record", "strand",
+    "scene", "grip" }, -- wires, holds, obstacles, forces: made, changed, taken away
+  read = { "base", "state", "force", "solve", "system", "modal", "contact", "link", "record", "strand",
+    "scene", "grip", "edit" }, -- what may be asked of the state
+  watch = { "base", "state", "shape", "force", "modal", "system", "contact", "link", "record", "strand",
+    "scene", "grip", "edit", "read" }, -- what is kept and told of every accepted state
+  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
+    "calibrate", "record", "strand", "scene", "grip", "edit", "read",
+    "watch" }, -- the scene as a whole: its life, snapshots, files
+  remodel = { "base", "state", "wire", "force", "solve", "system", "contact", "link", "strand", "scene",
+    "grip", "edit", "read", "save" }, -- changes of a wire's model, back to a snapshot where they fail
+  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
+    "grip", "edit", "read", "watch" },
+  film = { "base", "scene", "read" },
   view = { "base" }, -- bytes for pages; never a scene
   draw = { "base", "film" }, -- of film: bytes made few
   bind = {}, -- the core through softworld.h
@@ -37,17 +52,17 @@ local ROOMS = {
 -- state and solve have no single header: their parts have different users.
 local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "grains.h", "pairs.h" },
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
-  scene = { "account.h", "frames.h", "links.h", "reading.h", "wires.h" },
+  read = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
--- Headers of a room that one other room alone may see: what makes a scene go on sees its inside.
-local OPEN_TO = { step = { scene = { "course.h", "events.h", "feed.h", "hold.h", "jaws.h", "join.h",
-  "kept_frames.h", "ledger.h", "line.h", "linear.h", "live.h", "observe.h", "obstacle.h", "parts.h",
-  "touching.h", "world.h" } } }
+-- The rooms that together are a scene, and what makes it go on: each sees the headers of those in its
+-- row, which are private to everybody else.
+local INSIDE = { "record", "strand", "scene", "grip", "edit", "read", "watch",
+  "save", "remodel", "step" }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }
@@ -222,6 +237,8 @@ local function members_of(room)
   return set
 end
 
+local inside = set_of(INSIDE)
+
 -- A header of csrc, as seen from file (csrc/room/stem.ext).
 local function check_own_include(file, number, room, stem, included, members)
   local other, name = included:match "^([%w_]+)/(.+)$"
@@ -248,7 +265,7 @@ local function check_own_include(file, number, room, stem, included, members)
     say("%s may not include %s (it may: %s); move the code or pass the data in", room, included,
       #ROOMS[room] > 0 and table.concat(ROOMS[room], " ") or "nothing else")
   elseif not (OPEN[other] == true or name == other .. ".h" or set_of(OPEN[other] or {})[name]
-      or set_of((OPEN_TO[room] or {})[other] or {})[name]) then
+      or inside[room] and inside[other]) then
     say("%s is private to %s; use %s/%s.h", included, other, other, other)
   end
 end

@@ -196,3 +196,10 @@ void sw_tape_finite(sw_tape *t, const double *x, size_t count, const char *what)
       return;
     }
 }
+
+void sw_tape_bracket(sw_tape *t, sw_bracket *x, const char *what) {
+  for (int k = 0; k < 2; k++) sw_tape_double(t, &x->tried[k]);
+  for (int k = 0; k < 2; k++) sw_tape_double(t, &x->off[k]);
+  sw_tape_int(t, &x->last_side);
+  sw_tape_expect(t, x->last_side >= -1 && x->last_side <= 1, what);
+}

@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "base/param.h"
+#include "base/root.h"
 #include "base/status.h"
 #include "base/vec.h"
 
@@ -102,6 +103,7 @@ static inline void sw_tape_long(sw_tape *t, long *x) { sw_tape_raw(t, x, sizeof 
 static inline void sw_tape_uint32(sw_tape *t, uint32_t *x) { sw_tape_raw(t, x, sizeof *x); }
 static inline void sw_tape_vec(sw_tape *t, sw_vec *x) { sw_tape_raw(t, x, sizeof *x); }
 static inline void sw_tape_quat(sw_tape *t, sw_quat *x) { sw_tape_raw(t, x, sizeof *x); }
+void sw_tape_bracket(sw_tape *tape, sw_bracket *bracket, const char *what); /* what: for messages */
 static inline void sw_tape_pose(sw_tape *t, sw_pose *x) { sw_tape_raw(t, x, sizeof *x); }
 /* char[SW_NAME_SIZE] */
 void sw_tape_name(sw_tape *tape, char *x);

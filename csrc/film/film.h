@@ -14,7 +14,7 @@
 #ifndef SW_FILM_FILM_H
 #define SW_FILM_FILM_H
 
-#include "scene/frames.h"
+#include "read/frames.h"
 
 enum {
   SW_FILM_WIRE,      /* nodes: x y z [m] */

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "scene/frames.h"
+#include "read/frames.h"
 
 typedef struct sw_skin_args {
   size_t wire;          /* its number in the scene */

@@ -7,6 +7,7 @@
 
 #include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/values.h"
 #include "state/plan.h"
 #include "system/system.h"
 

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bodies that are webs: meshes of particles ring by ring along a wire, and objects of particles. */
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "link/hold.h"
 #include "scene/body.h"
 #include "state/mesh.h"
 #include "state/web.h"
+#include "strand/ring.h"
 
 /* --- place ---------------------------------------------------------------------- */
 
@@ -33,7 +35,25 @@ static sw_status plan(const sw_scene *s, size_t w, const sw_hold_place *places, 
 
 static sw_status take(sw_scene *scene, size_t w) {
   const sw_system *s = sw_scene_system(scene);
-  return sw_strand_take(sw_scene_wire_in(scene, w), s, &s->bodies[w]);
+  const sw_body *b = &s->bodies[w];
+  sw_scene_wire *wire = sw_scene_wire_in(scene, w);
+  sw_strand *p = &wire->strand;
+  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
+  memcpy(p->x, s->x + at, size);
+  memcpy(p->v, s->v + at, size);
+  memcpy(p->a, s->a + at, size);
+  memcpy(p->axial, s->tension + b->first_edge, p->web->links * sizeof(double));
+  sw_free(p->rate);
+  p->rate = b->axial_time > 0 ? sw_alloc(p->web->links, sizeof *p->rate) : NULL;
+  if (p->rate)
+    memcpy(p->rate, s->strain_rate + b->first_edge, p->web->links * sizeof(double));
+  else if (b->axial_time > 0)
+    return SW_ENOMEM;
+  for (size_t r = 0; r < p->web->rings; r++) {
+    sw_store(wire->mesh.x + 3 * r, sw_strand_middle(p->web, p->x, r));
+    sw_store(wire->mesh.v + 3 * r, sw_strand_middle(p->web, p->v, r));
+  }
+  return SW_OK;
 }
 
 /* --- hold ----------------------------------------------------------------------- */
@@ -43,6 +63,13 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   sw_body_interval(m, a, &h->s1, &h->s2);
   sw_strand_rings(m, &h->s1, &h->s2);
   return SW_OK;
+}
+
+/* 1: a hold of this class holds the particle. */
+static int holds(const sw_web *web, const sw_link_class *cls, size_t particle) {
+  const size_t ring = sw_web_ring_of(web, particle);
+  return cls->hold->direction || !sw_web_is_ring(web, ring) ||
+         particle - web->first[ring] == web->axis;
 }
 
 /* The particles held, in the hold's frame. With a direction given the hold's pose is turned to it,
@@ -62,7 +89,7 @@ static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a
   const sw_vec origin = sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1), f);
   const sw_quat turn = sw_quat_between(sw_mesh_tangent_at(m, a->s), h->director[1]);
   for (size_t p = web->first[first]; p < web->first[last + 1]; p++) {
-    if (!sw_strand_holds(web, h->cls, p)) continue;
+    if (!holds(web, h->cls, p)) continue;
     h->s[h->count] = web->s[p];
     h->particle[h->count] = (uint32_t)p;
     sw_store(h->local + 3 * h->count++, sw_sub(sw_vec_at(w->strand.x, p), origin));

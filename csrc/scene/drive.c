@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What moves a hold or an obstacle. */
+#include "scene/drive.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "link/hold.h"
-#include "scene/jaws.h"
+#include "scene/gripper.h"
 #include "scene/parts.h"
 #include "state/clamp.h"
 
@@ -78,4 +80,25 @@ sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motio
   sw_drive_free(d);
   *d = next;
   return SW_OK;
+}
+
+/* A function that is over stands where it ended; one under way is refused before. */
+void sw_tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
+  sw_drive now = *x;
+  sw_motion_state at;
+  SW_TAPE_STRUCT(t, sw_drive, 104);
+  if (!sw_tape_reads(t) && !t->home && x->motion && sw_motion_is_function(x->motion)) {
+    const sw_status status = sw_drive_eval(s, x, sw_scene_time(s), &at, t->err);
+    if (status != SW_OK) sw_tape_fail(t, status);
+    now = (sw_drive){.pose = at.pose};
+  }
+  sw_tape_pose(t, &now.pose);
+  sw_tape_double(t, &now.start);
+  sw_tape_size(t, &now.tool), sw_tape_vec(t, &now.opens);
+  sw_tape_motion(t, &now.motion);
+  if (!sw_tape_reads(t)) return;
+  *x = now;
+  const double q = x->pose.q.w + x->pose.q.x + x->pose.q.y + x->pose.q.z;
+  sw_tape_expect(t, sw_finite(x->pose.p) && isfinite(q) && isfinite(x->start), "a place");
+  sw_tape_expect(t, sw_finite(x->opens), "a place");
 }

@@ -16,6 +16,4 @@ typedef struct sw_scene_force {
   uint32_t *particle; /* of a force on some particles: its list, which args name; or NULL */
 } sw_scene_force;
 
-void sw_scene_clear_force(sw_scene_force *force);
-
 #endif

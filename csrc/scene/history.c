@@ -10,7 +10,6 @@
 #include "force/solid.h"
 #include "scene/forces.h"
 #include "scene/line.h"
-#include "scene/save.h"
 #include "scene/world.h"
 #include "state/state_tape.h"
 

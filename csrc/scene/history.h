@@ -3,6 +3,7 @@
 #ifndef SW_SCENE_HISTORY_H
 #define SW_SCENE_HISTORY_H
 
+#include "base/tape.h"
 #include "force/force.h"
 #include "scene/scene.h"
 #include "state/plan.h"
@@ -20,5 +21,9 @@ typedef struct sw_kept_history {
 sw_status sw_scene_keep_histories(sw_scene *scene);
 void sw_scene_inherit_histories(sw_scene *scene);
 void sw_scene_forget_histories(sw_scene *scene);
+
+/* What a scene that is not built remembers of its last system. */
+void sw_tape_kept_contact(sw_tape *tape, sw_scene *scene);
+void sw_tape_kept_history(sw_tape *tape, sw_scene *scene, sw_kept_history *history);
 
 #endif

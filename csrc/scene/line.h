@@ -5,16 +5,15 @@
 #define SW_SCENE_LINE_H
 
 #include "link/hold.h"
-#include "scene/reading.h"
+#include "record/wear.h"
+#include "record/window.h"
+#include "record/zone.h"
 #include "scene/scene.h"
-#include "scene/section.h"
-#include "scene/strand.h"
-#include "scene/wear.h"
-#include "scene/window.h"
-#include "scene/wires.h"
-#include "scene/zone.h"
+#include "scene/values.h"
 #include "state/mesh.h"
+#include "strand/strand.h"
 #include "system/system.h"
+#include "wire/wire.h"
 
 /* A twisted stretch of wire while the scene is not built. */
 typedef struct sw_twisted {
@@ -80,70 +79,18 @@ sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_er
  */
 sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
 
-/* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
- * of its first and last [m]. */
-void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
-/* 1: a hold of this class holds the particle. */
-static inline int sw_strand_holds(const sw_web *web, const sw_link_class *cls, size_t particle) {
-  const size_t ring = sw_web_ring_of(web, particle);
-  return cls->hold->direction || !sw_web_is_ring(web, ring) ||
-         particle - web->first[ring] == web->axis;
-}
-/* The system's state to the strand and the middles of its rings. SW_ENOMEM. */
-sw_status sw_strand_take(sw_scene_wire *wire, const sw_system *system, const sw_body *body);
 /* Read-outs at arc length s; extremes. */
 void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
                   sw_point_state *out);
 /* Bending moment in the slice of a mesh that has a place [m], [N m]. */
 double sw_strand_moment(const sw_plan *plan, const double *x, double place);
-/* Tells of a wire whose largest tension is above its breaking load. */
-void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
-/* The same at the end of a run, of runs that were shorter than the window. */
-void sw_scene_end_breaking(sw_scene *scene);
-/* And as the end of a sentence, or nothing. */
-void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
-/* Tells of a tube that is folded at one place. */
-void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 /* tension (rings - 1), or NULL: what is carried between two rings [N]. */
 void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
-
-/* Middle of ring number r of particles at x, and the direction across the area that its surface
- * encloses [m], [-]. */
-sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
-sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
-/* How wide an outline (count x 3) is across the tangent. */
-typedef struct sw_widths {
-  double least, largest;         /* [m] */
-  sw_vec least_way, largest_way; /* [-] */
-} sw_widths;
-enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
-sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
-/* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
-double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
-sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
-/* Of a hollow section of one layer at s: how far walls that face each other are apart, 0 when they
- * cross; others: infinite [m]. */
-double sw_strand_walls_apart(const sw_web *web, const double *x, double s);
-/* How far the worst face of a section of springs is turned over: minus its area over that at rest,
- * above 0 when it is [-]. */
-sw_extreme sw_strand_folding(const sw_web *web, const double *x);
-/* Points of the outline (count x 3) moved outwards by skin. */
-void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
-                      double *out);
-/* The outline of ring number r [m]. */
-void sw_strand_outline(const sw_web *web, const double *x, size_t ring, double *out);
-/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
- * NULL, in all (particles x 3) [N]. */
-void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
 
 /* The wire of a handle, in a scene that is built, readable and refreshed. */
 sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
 /* SW_EINVAL when place is no arc length of the wire. */
 sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
-
-/* What a mesh of this class for the wire is to be of. */
-sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_class *cls,
-                                    const sw_wire_mesh_args *mesh);
 
 /* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
 sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
@@ -151,11 +98,6 @@ sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
 /* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
 sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
 sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
-/* A wire's mesh as drawn, of some segments; frames too. SW_ENOMEM. */
-sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_error *err);
-/* May the wire, as it is given, be in the scene with its forces and rules? */
-sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
-                               sw_error *err);
 /* The body of a handle, in a scene that is built, readable and refreshed. */
 sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
 /* SW_EINVAL for a speed that nothing has [m/s]. */
@@ -163,9 +105,5 @@ sw_status sw_scene_check_speed(const sw_scene *scene, const sw_scene_wire *body,
                                sw_error *err);
 /* The body of a number in frames, or NULL when it is gone; then what is known of it. */
 const sw_scene_wire *sw_scene_numbered(const sw_scene *scene, size_t number, const sw_gone **gone);
-/* Free what these slots own. */
-void sw_scene_clear_body(sw_scene_wire *body);
-/* The class of a wire or of objects of particles; NULL: there is none of this name. */
-const sw_wire_class *sw_scene_body_class(const char *name);
 
 #endif

@@ -39,4 +39,7 @@ int sw_live_fits(const sw_scene *scene, const sw_live *live);
  * has not so many. */
 sw_status sw_live_place(sw_scene *scene, const sw_live *live);
 
+/* The state of one that is. */
+void sw_tape_live(sw_tape *tape, sw_live *live);
+
 #endif

@@ -9,6 +9,7 @@
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/scene.h"
 #include "scene/world.h"
 
 const char *sw_scene_name(const sw_scene *s) { return s->name; }

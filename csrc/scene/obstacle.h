@@ -28,11 +28,7 @@ void sw_obstacle_log_begin(const sw_scene *scene, sw_scene_obstacle *obstacle);
 sw_status sw_obstacle_log_state(sw_scene *scene);
 sw_status sw_obstacle_log_fill(sw_scene *scene, sw_scene_obstacle *obstacle);
 sw_status sw_obstacle_log_fill_all(sw_scene *scene);
-/* The obstacle that presses a wire hard, as the end of a sentence, or nothing. */
-void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
-
-void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);
 
 /* Mean force of wires on an obstacle over the last step, blows included, and its moment about a
  * point [N], [N m]. */

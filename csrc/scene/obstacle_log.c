@@ -5,6 +5,7 @@
 
 #include "scene/obstacle.h"
 #include "scene/touching.h"
+#include "scene/values.h"
 #include "scene/world.h"
 
 enum { TIME, SPAN, STEP }; /* a row of the scene's steps with contact */

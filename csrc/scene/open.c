@@ -27,3 +27,14 @@ sw_status sw_scene_check_place(const sw_scene_wire *w, double place, sw_error *e
                  "wire '%s': s = %.6g m is not on the wire; it must be in [0, %.6g] m", w->name,
                  place, length);
 }
+
+static const double LIGHT = 299792458.0; /* speed of light in vacuum [m/s] */
+
+sw_status sw_scene_check_speed(const sw_scene *s, const sw_scene_wire *w, double speed,
+                               sw_error *err) {
+  if (speed <= LIGHT) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "'%s' of scene '%s': set_velocity: a speed of %.6g m/s; at most %.9g m/s, that of "
+                 "light",
+                 w->name, s->name, speed, LIGHT);
+}

@@ -10,7 +10,7 @@
 typedef struct sw_scene_wire sw_scene_wire;         /* line.h */
 typedef struct sw_hold sw_hold;                     /* hold.h */
 typedef struct sw_scene_obstacle sw_scene_obstacle; /* obstacle.h */
-typedef struct sw_tool sw_tool;                     /* jaws.h */
+typedef struct sw_tool sw_tool;                     /* gripper.h */
 typedef struct sw_gone sw_gone;                     /* line.h */
 typedef struct sw_scene_force sw_scene_force;       /* forces.h */
 typedef struct sw_joint sw_joint;                   /* join.h */

@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/extreme.h"
 #include "base/param.h"
 #include "base/status.h"
 #include "base/vec.h"
@@ -21,26 +22,9 @@ typedef struct sw_handle {
   uint32_t slot, generation; /* generation 0 = no object */
 } sw_handle;
 
-/* The largest of some values. */
-typedef struct sw_extreme {
-  double value; /* [its unit] */
-  double s;     /* where [m] */
-  double time;  /* when [s] */
-} sw_extreme;
-
-typedef struct sw_scene_args {
-  char name[SW_NAME_SIZE];
-  sw_vec gravity; /* [m/s2] */
-} sw_scene_args;
-extern const sw_params sw_scene_params;
-
-sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err);
-void sw_scene_free(sw_scene *scene); /* NULL is allowed */
-
 const char *sw_scene_name(const sw_scene *scene);
 double sw_scene_time(const sw_scene *scene); /* [s] */
 sw_vec sw_scene_gravity(const sw_scene *scene);
-sw_status sw_scene_set_gravity(sw_scene *scene, sw_vec gravity, sw_error *err);
 /* 1 inside a step or a user's function of the scene: every change is refused with
  * SW_EBUSY, and the scene must not be freed. */
 int sw_scene_busy(const sw_scene *scene);
@@ -57,29 +41,8 @@ const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind, int *held);
 const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
                                    int *present);
-/* 0 when neither the scene nor a living snapshot of it will use the force again. */
-int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
-/* The class of a force, released or not; NULL as above. */
-const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
-/* What its events call it. */
-sw_status sw_scene_name_force(sw_scene *scene, sw_handle force, const char *name, sw_error *err);
-/* 0 once released, or when the scene does not know it. */
-int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
 /* --- forces ----------------------------------------------------------------- */
-
-/* A force on one wire, or on all (handle of generation 0). args: the class's
- * argument struct. */
-sw_status sw_scene_add_force(sw_scene *scene, const sw_force_class *cls, sw_handle wire,
-                             const void *args, size_t args_size, sw_handle *out, sw_error *err);
-sw_status sw_scene_remove_force(sw_scene *scene, sw_handle force, sw_error *err);
-/* Its arguments as they were given or set last, SW_FORCE_ARGS_MAX bytes; other ones from now on. A
- * place on the wire stays what it is. */
-sw_status sw_scene_force_args(const sw_scene *scene, sw_handle force, void *args, sw_error *err);
-sw_status sw_scene_set_force(sw_scene *scene, sw_handle force, const void *args, sw_error *err);
-/* Values of its class' outputs on one wire, SW_FORCE_OUTPUTS_MAX at most. */
-sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, double *out,
-                              sw_error *err);
 
 /* SW_EBUSY from inside a step, a user's function or an observer: the scene must not be changed
  * now. */
@@ -92,14 +55,11 @@ sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 /* The window of the last run, or that of runs that say nothing [s]. */
 double sw_scene_window(const sw_scene *scene);
 
-/* --- snapshots -------------------------------------------------------------- */
-
-/* Restoring takes back what was made after the snapshot: its handles are stale
- * from then on, unless another living snapshot still knows it. */
-sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
-sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
-void sw_snapshot_free(sw_snapshot *snapshot);         /* NULL is allowed */
-double sw_snapshot_time(const sw_snapshot *snapshot); /* [s] */
-int sw_snapshot_busy(const sw_snapshot *snapshot);    /* being restored: do not free it */
+/* The handle of a body with the slot that it has now; one that names none when it is gone. */
+sw_handle sw_scene_body_now(const sw_scene *scene, sw_handle body);
+/* Its number in frames, also of one that is gone; SIZE_MAX: the scene does not know it [-]. */
+size_t sw_scene_body_number(const sw_scene *scene, sw_handle body);
+/* Name of a body that was taken away, and when [s]; NULL: it was not. */
+const char *sw_scene_gone_name(const sw_scene *scene, sw_handle body, double *time);
 
 #endif

@@ -5,7 +5,9 @@
 
 #include "force/solid.h"
 #include "scene/line.h"
+#include "scene/values.h"
 #include "scene/world.h"
+#include "strand/ring.h"
 
 /* --- sections -------------------------------------------------------------------- */
 

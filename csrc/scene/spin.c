@@ -56,7 +56,7 @@ void sw_scene_unloaded_near(const sw_scene *s, size_t wire, sw_plan *p, size_t n
 }
 
 static sw_edge_frame present(const sw_field *f, size_t e) {
-  return (sw_edge_frame){sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]),
+  return (sw_edge_frame){sw_field_tangent(f, e),
                          sw_v(f->normals[0][e], f->normals[1][e], f->normals[2][e])};
 }
 

@@ -17,4 +17,9 @@ void sw_scene_frame_out(sw_scene *scene, size_t wire);
  * list with clamps after nodes. For refreshed bodies with frames. */
 double sw_scene_flexure(const sw_system *system, const sw_body *body, size_t number);
 
+/* The moment about the wire's axis at arc length at of its mesh [N m]. */
+double sw_scene_torque(const sw_system *system, const sw_body *body, double at);
+/* Largest torsion beyond that at rest of a refreshed line, without its time [rad/m]. */
+void sw_scene_torsion(const sw_system *system, const sw_body *body, sw_extreme *out);
+
 #endif

@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 #include "base/tape.h"
+#include "scene/drive.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "state/plan.h"
@@ -180,12 +180,6 @@ void sw_scene_commit_contact(sw_scene *s) {
 }
 
 /* --- read-outs ------------------------------------------------------------------- */
-
-size_t sw_scene_touches(sw_scene *s) {
-  if (!s->built) return 0;
-  return (s->contact ? sw_contact_count(s->contact) : 0) +
-         (s->pairs ? sw_pairs_count(s->pairs) : 0) + (s->grains ? sw_grains_count(s->grains) : 0);
-}
 
 double sw_scene_deepest(const sw_scene *s, size_t *node) {
   size_t other = 0;

@@ -22,7 +22,6 @@ typedef struct sw_scene_rule {
 void sw_scene_forget_contact(sw_scene *scene);
 /* SW_ENOMEM. */
 sw_status sw_scene_new_pairs(sw_scene *scene);
-void sw_scene_drop_rules(sw_scene *scene, size_t keep);
 void sw_scene_couple(sw_scene *scene);
 int sw_scene_has_contact(const sw_scene *scene);
 /* Contact is to know what obstacles remember and which may move. */

@@ -5,15 +5,15 @@
 #define SW_SCENE_WORLD_H
 
 #include "base/log.h"
+#include "record/watches.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
 #include "scene/parts.h"
-#include "scene/watch.h"
-#include "scene/zone.h"
 #include "system/system.h"
 
 typedef struct sw_crowd sw_crowd;
+typedef struct sw_zone sw_zone; /* watch/zone.h */
 
 struct sw_scene {
   char name[SW_NAME_SIZE];
@@ -89,8 +89,5 @@ struct sw_scene {
   sw_watches watches;
   sw_books books; /* of the energy in it */
 };
-
-/* The scene goes away: its snapshots live on, good for nothing. */
-void sw_scene_orphan_snapshots(sw_scene *scene);
 
 #endif

@@ -13,6 +13,7 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "base/vec.h"
 #include "state/plan.h"
 
 /* Parts that an evaluation must compute. */
@@ -143,6 +144,11 @@ static inline void sw_field_add_block(sw_field *f, size_t a, size_t b, size_t sl
   const size_t down = a > b ? stride : 1, across = a > b ? 1 : stride;
   for (size_t i = 0; i < 3; i++, to += f->block_stride)
     for (size_t j = 0; j < 3; j++) to[j] += H[i * down + j * across];
+}
+
+/* Direction of an edge [-]. */
+static inline sw_vec sw_field_tangent(const sw_field *field, size_t edge) {
+  return sw_v(field->tangent[0][edge], field->tangent[1][edge], field->tangent[2][edge]);
 }
 
 #endif

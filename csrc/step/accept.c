@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "scene/hold.h"
-#include "scene/observe.h"
 #include "scene/touching.h"
 #include "scene/world.h"
 #include "step/believe.h"
@@ -11,6 +10,7 @@
 #include "step/jaw.h"
 #include "step/restart.h"
 #include "step/run.h"
+#include "watch/observe.h"
 
 /* So many parts of less than this share of their step in the mean are no way to go on: the
  * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for

@@ -8,6 +8,7 @@
 
 #include "base/simd.h"
 #include "force/solid.h"
+#include "read/reading.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/line.h"

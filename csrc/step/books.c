@@ -9,6 +9,7 @@
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/step.h"
+#include "watch/tell.h"
 
 const double SW_LEDGER_REMARK = 0.02, SW_LEDGER_FAILURE = 0.05;
 

@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-#include "scene/jaws.h"
+#include "grip/jaws.h"
+#include "scene/gripper.h"
 #include "scene/line.h"
 #include "scene/world.h"
 #include "step/obey.h"

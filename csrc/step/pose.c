@@ -4,7 +4,10 @@
 
 #include "base/alloc.h"
 #include "contact/contact.h"
-#include "scene/jaws.h"
+#include "edit/tie.h"
+#include "grip/jaws.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/join.h"
 #include "scene/line.h"
 #include "scene/live.h"

@@ -3,9 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "grip/jaws.h"
 #include "link/hold.h"
+#include "read/reading.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/touching.h"
 #include "scene/world.h"

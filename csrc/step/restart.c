@@ -4,8 +4,9 @@
 #include <math.h>
 
 #include "contact/contact.h"
+#include "grip/jaws.h"
 #include "link/hold.h"
-#include "scene/jaws.h"
+#include "scene/gripper.h"
 #include "scene/world.h"
 
 /* --- jerks ----------------------------------------------------------------------- */

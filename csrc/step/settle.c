@@ -2,12 +2,13 @@
 /* scene:settle: the equilibrium where the scene is. */
 #include <string.h>
 
+#include "read/extremes.h"
 #include "scene/course.h"
-#include "scene/observe.h"
 #include "scene/parts.h"
 #include "step/jaw.h"
 #include "step/rest.h"
 #include "step/run.h"
+#include "watch/observe.h"
 
 static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,

@@ -4,7 +4,8 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "scene/jaws.h"
+#include "grip/jaws.h"
+#include "scene/gripper.h"
 #include "scene/live.h"
 #include "scene/parts.h"
 #include "step/jaw.h"

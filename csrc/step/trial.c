@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One trial by the run's method, whose stages the system solves: is it one to believe? */
+#include "edit/tie.h"
 #include "scene/course.h"
 #include "scene/join.h"
 #include "scene/parts.h"

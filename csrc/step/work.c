@@ -5,9 +5,11 @@
 
 #include "base/alloc.h"
 #include "base/tape.h"
+#include "grip/jaws.h"
 #include "link/hold.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
 #include "scene/hold.h"
-#include "scene/jaws.h"
 #include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"

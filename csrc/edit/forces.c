@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forces of a scene, and which of them go with which wires. */
+#include "scene/forces.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/forces.h"
+#include "scene/line.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "state/mesh.h"
+
+/* Can the force act on the wire? */
+static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
+                            sw_error *err) {
+  sw_recipe recipe;
+  int by_angle = 0;
+  w->cls->recipe(&w->beam, &recipe);
+  if ((cls->flags & SW_FORCE_AT_PLACE) && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: '%s' is an object of particles, which has no arc length s; kind = "
+                   "'push' takes particles",
+                   cls->name, w->name);
+  if ((cls->flags & SW_FORCE_OF_WEB) && !w->cls->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s; it goes with objects of particles and with models "
+                   "that are meshes",
+                   cls->name, w->name, w->cls->name);
+  const int any_body = (cls->flags & SW_FORCE_ANY_BODY) && !(cls->flags & SW_FORCE_OF_AXIS);
+  if (w->cls->mesh && !any_body && sw_scene_is_loose(w))
+    return sw_fail(err, SW_EINVAL, "force %s: '%s' is an object of particles; it goes with wires",
+                   cls->name, w->name);
+  if (w->cls->mesh && !(cls->flags & SW_FORCE_ANY_BODY))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s, a mesh of particles, which it does not know; it "
+                   "goes with model = 'rod'",
+                   cls->name, w->name, w->cls->name);
+  for (size_t k = 0; k < recipe.count; k++) by_angle |= strcmp(recipe.terms[k].force, "bend") == 0;
+  if ((cls->flags & SW_FORCE_BY_ANGLE) && !by_angle)
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is a %s, whose bending it cannot correct; it goes with "
+                   "model = 'rod'",
+                   cls->name, w->name, w->cls->name);
+  if (cls->commit && w->beam.framed && !(cls->flags & SW_FORCE_ANY_SHAPE))
+    return sw_fail(err, SW_EINVAL,
+                   "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
+                   "does not know",
+                   cls->name, w->name);
+  return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
+}
+
+/* A force of the whole scene that acts on centre lines leaves loose particles alone. */
+static int passes_by(const sw_force_class *cls, const sw_scene_wire *w) {
+  return (cls->flags & SW_FORCE_OF_AXIS) && sw_scene_is_loose(w);
+}
+
+sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
+                               sw_error *err) {
+  for (size_t k = 0; k < s->force_count; k++) {
+    const sw_scene_force *f = &s->forces[k];
+    if (f->alive && (f->wire < 0 ? !passes_by(f->cls, as) : f->wire == (long)wire))
+      SW_TRY(check_wire(f->cls, as, f->args, err));
+  }
+  for (size_t k = 0; k < s->rule_count; k++) {
+    const sw_scene_rule *r = &s->rules[k];
+    int mine = r->count == 0;
+    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
+  }
+  return SW_OK;
+}
+
+static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, sw_error *err) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    if (wire.generation ? w == wire.slot : !passes_by(cls, &s->wires[w]))
+      SW_TRY(check_wire(cls, &s->wires[w], args, err));
+  }
+  return SW_OK;
+}
+
+void sw_scene_clear_force(sw_scene_force *f) { sw_free(f->particle); }
+
+static sw_status check_some(const sw_force_class *cls, const sw_scene_wire *w,
+                            const sw_force_some *some, sw_error *err) {
+  if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the object", cls->name);
+  if (!some->count)
+    return sw_fail(err, SW_EINVAL, "force %s: particles of '%s': none", cls->name, w->name);
+  for (size_t i = 0; i < some->count; i++)
+    if (some->particle[i] >= w->strand.web->particles)
+      return sw_fail(err, SW_EINVAL, "force %s: '%s' has no particle %lu; it has %zu, from 1 on",
+                     cls->name, w->name, (unsigned long)some->particle[i] + 1,
+                     w->strand.web->particles);
+  return SW_OK;
+}
+
+/* The scene's own list instead of the caller's. SW_ENOMEM. */
+static sw_status own_list(sw_scene_force *f) {
+  sw_force_some some;
+  memcpy(&some, f->args, sizeof some);
+  f->particle = sw_alloc(some.count, sizeof *f->particle);
+  if (!f->particle) return SW_ENOMEM;
+  memcpy(f->particle, some.particle, some.count * sizeof *f->particle);
+  some.particle = f->particle;
+  memcpy(f->args, &some, sizeof some);
+  return SW_OK;
+}
+
+/* What of the arguments is to be taken from where the wires lie, in a scene that is not built. */
+static sw_status place_force(const sw_scene *s, const sw_scene_wire *w, const sw_force_class *cls,
+                             void *args, sw_error *err) {
+  if (!cls->place) return SW_OK;
+  if (!w && s->wire_count == 1) w = &s->wires[0];
+  if (!w) return cls->place(args, 0, NULL, NULL, err);
+  const sw_web *web = w->strand.web;
+  return web ? cls->place(args, web->particles, w->strand.x, web->s, err)
+             : cls->place(args, w->mesh.n, w->mesh.x, w->mesh.s, err);
+}
+
+sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle wire,
+                             const void *args, size_t args_size, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_scene_wire *w = wire.generation ? sw_scene_find_body(s, wire, err) : NULL;
+  if (wire.generation && !w) return SW_EDEAD;
+  if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
+  if (cls->flags & SW_FORCE_AT_PLACE) {
+    double at;
+    memcpy(&at, args, sizeof at); /* by contract the first member is s */
+    if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
+    const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+    if (at > length * (1 + 1e-12))
+      return sw_fail(err, SW_EINVAL, "force %s: s = %g m is beyond the end of wire '%s' at %g m",
+                     cls->name, at, w->name, length);
+  }
+  SW_TRY(check_force(s, cls, wire, args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
+  sw_scene_force *f = &s->forces[s->force_count];
+  *f = (sw_scene_force){.generation = s->serial + 1,
+                        .alive = 1,
+                        .cls = cls,
+                        .wire = wire.generation ? (long)wire.slot : -1,
+                        .scale = w ? w->mesh.scale : 1.0};
+  if (args_size) memcpy(f->args, args, args_size);
+  SW_TRY(place_force(s, w, cls, f->args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
+  if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
+  *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
+  return SW_OK;
+}
+
+const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
+  const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
+  return known ? s->forces[h.slot].cls : NULL;
+}
+
+int sw_scene_force_acts(const sw_scene *s, sw_handle h) {
+  return sw_scene_force_class(s, h) && s->forces[h.slot].alive;
+}
+
+sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, double *out,
+                              sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
+  const sw_force_class *cls = sw_scene_force_class(s, force);
+  if (!cls) return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  const sw_scene_wire *w = sw_scene_find_body(s, wire, err);
+  if (!w) return SW_EDEAD;
+  if (!cls->read) return sw_fail(err, SW_EINVAL, "force %s: there is nothing to read", cls->name);
+  SW_TRY(sw_scene_build(s, err));
+  sw_system_refresh(&s->system);
+  const sw_body *b = &s->system.bodies[wire.slot];
+  for (size_t k = 0; k < b->term_count; k++)
+    if (b->terms[k].id == (long)force.slot) {
+      cls->read(b->terms[k].args, &b->field, b->terms[k].history, out);
+      return SW_OK;
+    }
+  return sw_fail(err, SW_EINVAL, "force %s: it does not act on '%s'", cls->name, w->name);
+}
+
+sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw_error *err) {
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  snprintf(s->forces[force.slot].name, SW_NAME_SIZE, "%s", name);
+  return SW_OK;
+}
+
+/* Where it acts, from the wire's start: its own place counts from where the wire was first begun.
+ */
+static double place_of(const sw_scene *s, const sw_scene_force *f) {
+  const sw_mesh *m = &s->wires[f->wire].mesh;
+  return f->args[0] * m->scale / f->scale - m->s[0];
+}
+
+sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw_error *err) {
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  const sw_scene_force *f = &s->forces[force.slot];
+  memcpy(args, f->args, sizeof f->args);
+  if (!(f->cls->flags & SW_FORCE_AT_PLACE) || f->wire < 0) return SW_OK;
+  const double place = place_of(s, f);
+  memcpy(args, &place, sizeof place);
+  return SW_OK;
+}
+
+sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  sw_scene_force *f = &s->forces[force.slot];
+  const sw_handle wire = f->wire < 0 ? (sw_handle){0, 0}
+                                     : (sw_handle){(uint32_t)f->wire, s->wires[f->wire].generation};
+  if (!f->alive)
+    return sw_fail(err, SW_EINVAL, "force %s: it was released; make another one", f->cls->name);
+  SW_TRY(check_force(s, f->cls, wire, args, err));
+  SW_TRY(sw_scene_thaw(s));
+  const double place = f->args[0];
+  memcpy(f->args, args, sizeof f->args);
+  if (f->cls->flags & SW_FORCE_AT_PLACE) f->args[0] = place;
+  sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  if (!s->forces[force.slot].alive) return SW_OK;
+  SW_TRY(sw_scene_thaw(s));
+  s->forces[force.slot].alive = 0;
+  return SW_OK;
+}

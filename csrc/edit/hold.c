@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds of the scene: taking hold of a wire, driving, releasing. */
+#include "link/hold.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/links.h"
+#include "grip/jaws.h"
+#include "link/joint.h"
+#include "scene/body.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/values.h"
+#include "scene/world.h"
+#include "state/field.h"
+#include "state/hinge.h"
+#include "state/mesh.h"
+
+static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t wire,
+                             const sw_hold_args *a, sw_error *err) {
+  const sw_scene_wire *w = &s->wires[wire];
+  const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
+  if (a->s - start > length * (1 + 1e-9))
+    return sw_fail(err, SW_EINVAL, "%s: s = %.6g m is not on wire '%s', which ends at %.6g m",
+                   cls->name, a->s - start, w->name, length);
+  double s1, s2;
+  sw_body_interval(&w->mesh, a, &s1, &s2);
+  sw_body_class_of(w)->widen(&w->mesh, &s1, &s2);
+  return sw_scene_check_clear(s, wire, NULL, cls->name, s1, s2, err);
+}
+
+/* The held directions, taken before nodes move: a moved node turns the edges
+ * beside it. */
+static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a) {
+  double s[2];
+  sw_body_interval(m, a, &s[0], &s[1]);
+  const int given = isfinite(a->direction.x) && sw_norm(a->direction) > 0;
+  for (int side = 0; side < 2; side++) {
+    h->director[side] =
+        given ? sw_unit_or(a->direction, sw_v(1, 0, 0)) : sw_mesh_tangent_at(m, s[side]);
+    if (!m->rest) continue;
+    sw_mesh_frame *f = &h->frame[side];
+    *f = sw_mesh_frame_at(m, s[side]);
+    f->normal = sw_carry_unit(f->normal, f->tangent, h->director[side]);
+    f->tangent = h->director[side];
+  }
+}
+
+static sw_status take_places(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
+  sw_scene_wire *w = &s->wires[h->wire];
+  const sw_body_class *body = sw_body_class_of(w);
+  SW_TRY(body->place(s, h, a));
+  SW_TRY(body->grasp(w, h, a));
+  return body->refine(s, h, &w->mesh);
+}
+
+static sw_status check_axis(const sw_scene_wire *w, const sw_link_class *cls, const char *what,
+                            sw_error *err) {
+  const sw_web *web = w->strand.web;
+  if (!web || cls->hold->direction || web->axis != web->per_ring) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "%s: wire '%s' has no particle on its axis to be held; give the mesh a middle "
+                 "(tube: core = true; cubic: across even)",
+                 what, w->name);
+}
+
+sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wire,
+                            const sw_hold_args *given, sw_handle *out, sw_error *err) {
+  sw_hold_args own = *given;
+  const sw_hold_args *args = &own;
+  const sw_hold_acts *acts = cls->hold;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
+  own.s += s->wires[wire.slot].mesh.s[0];
+  SW_TRY(check_place(s, cls, wire.slot, args, err));
+  if (acts->lines) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], cls->name, err));
+  SW_TRY(check_axis(&s->wires[wire.slot], cls, cls->name, err));
+  const sw_link_wire on_wire = sw_scene_link_wire(s, wire.slot);
+  if (acts->check) SW_TRY(acts->check(&on_wire, &own, err));
+  const sw_joint *join = acts->passes ? sw_scene_joined(s, wire.slot) : NULL;
+  if (join)
+    return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
+                   s->wires[wire.slot].name, join->name);
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
+  sw_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
+  h.args = *args, h.scale = s->wires[wire.slot].mesh.scale, h.shape = s->serial + 1;
+  if (args->name[0])
+    memcpy(h.name, args->name, sizeof h.name);
+  else
+    snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
+  take_directions(&s->wires[wire.slot].mesh, &h, args);
+  sw_status status = take_places(s, &h, args);
+  if (status == SW_OK && acts->begin) {
+    const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
+    status = acts->begin(&h, &of);
+  }
+  sw_hold_forget(&h.args);
+  if (status != SW_OK) {
+    sw_hold_clear(&h);
+    return sw_fail(err, status, "%s: out of memory", cls->name);
+  }
+  *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
+  s->holds[s->hold_count++] = h;
+  return SW_OK;
+}
+
+/* Places and directions as they are now, in a frame at a pose. */
+static void seen_from(sw_hold *h, sw_pose pose) {
+  for (size_t i = 0; i < h->count; i++) {
+    const sw_vec world = sw_add(sw_vec_at(h->local, i), h->drive.pose.p);
+    sw_store(h->local + 3 * i, sw_pose_local(pose, world));
+  }
+  for (int side = 0; side < 2; side++) {
+    h->director[side] = sw_unrotate(pose.q, h->director[side]);
+    h->frame[side].tangent = sw_unrotate(pose.q, h->frame[side].tangent);
+    h->frame[side].normal = sw_unrotate(pose.q, h->frame[side].normal);
+    h->give[side].axis = sw_unrotate(pose.q, h->give[side].axis);
+  }
+}
+
+void sw_scene_frame_holds(sw_scene *s, size_t wire) {
+  const sw_mesh *m = &s->wires[wire].mesh;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    if (!h->alive || h->wire != wire) continue;
+    for (int side = 0; side < 2; side++) {
+      const sw_vec held = sw_rotate(h->turn, h->director[side]);
+      sw_mesh_frame *f = &h->frame[side];
+      *f = sw_mesh_frame_at(m, side ? h->s2 : h->s1);
+      f->normal = sw_unrotate(h->turn, sw_carry_unit(f->normal, f->tangent, held));
+      f->tangent = h->director[side];
+    }
+    h->shape = ++s->serial;
+  }
+}
+
+/* Can a hold take the wire that has become another one? Those that are alive have done so. */
+static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_args *a,
+                             sw_error *err) {
+  const sw_scene_wire *w = &s->wires[h->wire];
+  char what[4 * SW_NAME_SIZE];
+  double s1, s2;
+  sw_body_interval(&w->mesh, a, &s1, &s2);
+  sw_body_class_of(w)->widen(&w->mesh, &s1, &s2);
+  snprintf(what, sizeof what, "remodel to '%s', %s '%s'", w->cls->name, h->cls->name, h->name);
+  SW_TRY(check_axis(w, h->cls, what, err));
+  return sw_scene_check_clear(s, h->wire, h, what, s1, s2, err);
+}
+
+sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) {
+  const sw_scene_wire *w = &s->wires[h->wire];
+  sw_hold_args a = h->args;
+  sw_hold new = *h;
+  a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
+  new.s = new.local = NULL, new.particle = NULL, new.count = 0;
+  h->alive = 0; /* its own places are not in its way */
+  take_directions(&w->mesh, &new, &a);
+  for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
+  sw_status status = check_again(s, h, &a, err);
+  if (status == SW_OK) status = take_places(s, &new, &a);
+  h->alive = 1;
+  if (status != SW_OK) {
+    sw_free(new.s);
+    sw_free(new.local);
+    sw_free(new.particle);
+    return status;
+  }
+  seen_from(&new, pose);
+  if (h->cls->hold->direction) /* what it holds it holds as before, however edges lie */
+    memcpy(new.director, h->director, sizeof new.director);
+  new.alive = 1, new.drive = h->drive, new.last_pose = h->last_pose, new.turn = pose.q;
+  new.shape = ++s->serial;
+  sw_free(h->s);
+  sw_free(h->local);
+  sw_free(h->particle);
+  *h = new;
+  return SW_OK;
+}
+
+/* --- another mesh ------------------------------------------------------------------ */
+
+sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to) {
+  double *s = sw_alloc(from->count, sizeof *s), *local = sw_alloc(3 * from->count, sizeof *local);
+  uint32_t *particle = from->particle ? sw_alloc(from->count, sizeof *particle) : NULL;
+  if (!s || !local || (from->particle && !particle)) {
+    sw_free(s);
+    sw_free(local);
+    sw_free(particle);
+    return SW_ENOMEM;
+  }
+  if (particle) memcpy(particle, from->particle, from->count * sizeof *particle);
+  memcpy(s, from->s, from->count * sizeof *s);
+  memcpy(local, from->local, 3 * from->count * sizeof *local);
+  to->shape = from->shape, to->s1 = from->s1, to->s2 = from->s2, to->count = from->count;
+  memcpy(to->director, from->director, sizeof to->director);
+  memcpy(to->frame, from->frame, sizeof to->frame);
+  memcpy(to->give, from->give, sizeof to->give);
+  to->formed = from->formed;
+  to->s = s, to->local = local, to->particle = particle;
+  return SW_OK;
+}
+
+sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
+  sw_mesh *m = &s->wires[h->wire].mesh;
+  sw_hold_args a = h->args;
+  sw_hold new = *h;
+  a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
+  new.s = new.local = NULL;
+  take_directions(m, &new, &a);
+  sw_status status = take_places(s, &new, &a);
+  if (status != SW_OK) {
+    sw_free(new.s);
+    sw_free(new.local);
+    return status;
+  }
+  new.drive = h->drive, new.last_pose = h->last_pose, new.turn = h->turn;
+  new.alive = 1, new.shape = ++s->serial;
+  sw_free(h->s);
+  sw_free(h->local);
+  *h = new;
+  return SW_OK;
+}
+
+sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  if (!h->alive) return SW_OK;
+  sw_motion_state now;
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
+  SW_TRY(sw_scene_thaw(s));
+  h->last_pose = now.pose;
+  h->alive = 0;
+  sw_drive_free(&h->drive);
+  return SW_OK;
+}
+
+sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int relative,
+                          sw_error *err) {
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
+  sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  if (h->drive.tool)
+    return sw_fail(err, SW_EINVAL, "'%s' goes with gripper '%s'; move that", h->name,
+                   s->tools[h->drive.tool - 1].name);
+  sw_drive_free(&h->drive);
+  h->drive = (sw_drive){.pose = pose};
+  sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error *err) {
+  sw_motion_state now;
+  sw_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *out = h->last_pose;
+  if (!h->alive) return SW_OK;
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
+  *out = now.pose;
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, sw_vec *force,
+                              sw_vec *moment, sw_error *err) {
+  sw_pose pose;
+  SW_TRY(sw_scene_readable(s, err));
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
+  *force = h->force;
+  *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params **rows,
+                             sw_hold_args *out, sw_error *err) {
+  const sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *rows = &h->cls->params;
+  *out = h->args;
+  out->s -= s->wires[h->wire].mesh.s[0];
+  memcpy(out->name, h->name, sizeof out->name);
+  if (h->cls->hold->get) h->cls->hold->get(h, out);
+  return SW_OK;
+}
+
+sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  if (h->cls->hold->set) h->cls->hold->set(h, args);
+  return SW_OK;
+}
+
+sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_hold *h = sw_scene_living_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  if (!h->cls->hold->rail)
+    return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
+                   h->cls->name, h->name);
+  *out = (sw_slide_state){h->slider.p, h->slider.v, h->slider.force};
+  return SW_OK;
+}
+
+sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, size_t *count,
+                            sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  *rows = h->log.rows;
+  *count = h->log.count / SW_LOG_SIZE;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows, size_t *count,
+                                sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const char *kind;
+  int present; /* a removed obstacle's series can still be read */
+  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
+    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
+  sw_scene_obstacle *o = &s->obstacles[obstacle.slot];
+  if (sw_obstacle_log_fill(s, o) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
+  *rows = o->log.rows;
+  *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
+  return SW_OK;
+}

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Joins: points where wires are fixed to each other. */
+#include "scene/join.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/links.h"
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/line.h"
+#include "scene/world.h"
+#include "state/mesh.h"
+
+/* How far from each other the ends may be, of the shortest segment there [-]. */
+static const double LARGEST_GAP = 0.02;
+typedef sw_joint_end end;
+
+static void measure(const sw_scene *s, sw_joint *j) {
+  sw_link_wire wires[SW_JOIN_ENDS];
+  sw_scene_joint_wires(s, j, wires);
+  if (j->cls->joint->measure) j->cls->joint->measure(j, wires);
+}
+
+void sw_scene_measure_joins(sw_scene *s) {
+  for (size_t k = 0; k < s->join_count; k++) {
+    int drawn = s->joins[k].alive;
+    for (size_t i = 0; i < s->joins[k].count && drawn; i++)
+      drawn &= s->wires[s->joins[k].ends[i].wire].mesh.drawn;
+    if (drawn) measure(s, &s->joins[k]);
+  }
+}
+
+/* --- making ----------------------------------------------------------------------- */
+
+static sw_status check_end(const sw_scene *s, const sw_join_end *ends, size_t k, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, ends[k].wire, err);
+  if (!w) return SW_EDEAD;
+  const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
+  if (!(ends[k].s >= 0 && ends[k].s <= length * (1 + 1e-9)))
+    return sw_fail(err, SW_EINVAL,
+                   "scene:join: s = %.6g m is not on wire '%s', which goes from 0 to %.6g m",
+                   ends[k].s, w->name, length);
+  for (size_t i = 0; i < k; i++)
+    if (ends[i].wire.slot == ends[k].wire.slot &&
+        fabs(ends[i].s - ends[k].s) * (double)(w->mesh.n - 1) < 3.0 * length)
+      return sw_fail(err, SW_EINVAL,
+                     "scene:join: wire '%s' is joined to itself at s = %.6g and %.6g m, less than "
+                     "three segments apart",
+                     w->name, ends[i].s, ends[k].s);
+  for (size_t h = 0; h < s->hold_count; h++)
+    if (s->holds[h].alive && s->holds[h].wire == ends[k].wire.slot && sw_hold_passes(&s->holds[h]))
+      return sw_fail(err, SW_EINVAL, "scene:join: wire '%s' is fed by '%s': it cannot be joined",
+                     w->name, s->holds[h].name);
+  return SW_OK;
+}
+
+/* Where the wire is at arc length s. */
+static sw_vec point_at(const sw_mesh *m, double s) {
+  size_t i = 0;
+  while (i + 2 < m->n && m->s[i + 1] <= s) i++;
+  return sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1),
+                 (s - m->s[i]) / (m->s[i + 1] - m->s[i]));
+}
+
+/* Before anything is changed: do the ends meet? */
+static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_t count,
+                               sw_error *err) {
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < count; k++) {
+    const sw_mesh *m = &s->wires[ends[k].wire.slot].mesh;
+    least = fmin(least, (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1));
+  }
+  const sw_scene_wire *first = &s->wires[ends[0].wire.slot];
+  const sw_vec at = point_at(&first->mesh, first->mesh.s[0] + ends[0].s);
+  for (size_t k = 1; k < count; k++) {
+    const sw_scene_wire *w = &s->wires[ends[k].wire.slot];
+    const double gap = sw_dist(at, point_at(&w->mesh, w->mesh.s[0] + ends[k].s));
+    if (!(gap <= LARGEST_GAP * least))
+      return sw_fail(err, SW_EINVAL,
+                     "scene:join: '%s' at s = %.6g m is %.4g m away from '%s' at s = %.6g m; ends "
+                     "must meet, within %.2g m here",
+                     w->name, ends[k].s, gap, first->name, ends[0].s, LARGEST_GAP * least);
+  }
+  return SW_OK;
+}
+
+/* Arc lengths that holds and joins of the wire need as nodes, with room for some more. */
+static double *places_of(const sw_scene *s, size_t wire, size_t *count) {
+  const size_t joins = sw_scene_join_places(s, wire, NULL);
+  double *keep = sw_alloc(2 * s->hold_count + joins + SW_JOIN_ENDS, sizeof *keep);
+  *count = 0;
+  if (!keep) return NULL;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
+    keep[(*count)++] = s->holds[k].s1;
+    keep[(*count)++] = s->holds[k].s2;
+  }
+  *count += sw_scene_join_places(s, wire, keep + *count);
+  return keep;
+}
+
+static sw_status place_ends(sw_scene *s, sw_joint *j) {
+  for (size_t k = 0; k < j->count; k++) {
+    end *e = &j->ends[k];
+    size_t count;
+    double *keep = places_of(s, e->wire, &count);
+    if (!keep) return SW_ENOMEM;
+    for (size_t i = 0; i < k; i++)
+      if (j->ends[i].wire == e->wire) keep[count++] = j->ends[i].s;
+    const sw_status status = sw_mesh_place(&s->wires[e->wire].mesh, e->asked, keep, count, &e->s);
+    sw_free(keep);
+    if (status != SW_OK) return status;
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join_end *ends,
+                            size_t count, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (count < 2 || count > SW_JOIN_ENDS)
+    return sw_fail(err, SW_EINVAL, "scene:join: ends lists %zu wires; it must be from 2 to %d",
+                   count, SW_JOIN_ENDS);
+  for (size_t k = 0; k < count; k++) {
+    SW_TRY(check_end(s, ends, k, err));
+    SW_TRY(sw_scene_check_line(&s->wires[ends[k].wire.slot], "scene:join", err));
+  }
+  const sw_link_class *cls = sw_joint_class(args->slack);
+  if (cls->joint->apart && count != 2)
+    return sw_fail(err, SW_EINVAL, "scene:join: slack makes it a tie, of 2 wires; ends lists %zu",
+                   count);
+  SW_TRY(sw_scene_thaw(s));
+  if (!cls->joint->apart) SW_TRY(check_meeting(s, ends, count, err));
+  sw_joint j = {.alive = 1,
+                .rigid = args->rigid && !cls->joint->apart,
+                .cls = cls,
+                .count = count,
+                .slack = args->slack,
+                .stiffness = args->stiffness,
+                .strength = args->strength};
+  for (size_t k = 0; k < count; k++) {
+    const sw_mesh *m = &s->wires[ends[k].wire.slot].mesh;
+    j.ends[k] = (end){.wire = ends[k].wire.slot,
+                      .asked = sw_mesh_snap(m, m->s[0] + ends[k].s),
+                      .scale = m->scale};
+  }
+  if (args->name[0])
+    memcpy(j.name, args->name, sizeof j.name);
+  else
+    snprintf(j.name, sizeof j.name, "join%zu", s->join_count + 1);
+  if (sw_grow((void **)&s->joins, &s->join_capacity, s->join_count + 1, sizeof *s->joins) !=
+          SW_OK ||
+      place_ends(s, &j) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene:join: out of memory");
+  measure(s, &j);
+  j.generation = ++s->serial;
+  *out = (sw_handle){(uint32_t)s->join_count, j.generation};
+  s->joins[s->join_count++] = j;
+  return SW_OK;
+}
+
+/* --- another mesh ----------------------------------------------------------------- */
+
+sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
+  sw_mesh *m = &s->wires[wire].mesh;
+  size_t count;
+  double *keep = places_of(s, wire, &count);
+  if (!keep) return SW_ENOMEM;
+  sw_status status = SW_OK;
+  count -= sw_scene_join_places(s, wire, NULL); /* those are of the mesh before */
+  for (size_t k = 0; k < s->join_count; k++)
+    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count && status == SW_OK; i++) {
+      end *e = &s->joins[k].ends[i];
+      if (e->wire != wire) continue;
+      const double at = sw_mesh_snap(m, e->asked * m->scale / e->scale);
+      status = sw_mesh_place(m, at, keep, count, &e->s);
+      keep[count++] = e->s;
+    }
+  sw_free(keep);
+  return status;
+}
+
+/* --- handles ---------------------------------------------------------------------- */
+
+const char *sw_scene_join_name(const sw_scene *s, sw_handle h, int *held, size_t *ends) {
+  const sw_joint *j = sw_scene_find_join(s, h, NULL);
+  if (!j) return NULL;
+  *held = j->alive;
+  *ends = j->count;
+  return j->name;
+}
+
+sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_joint *j = sw_scene_find_join(s, h, err);
+  if (!j) return SW_EDEAD;
+  if (!j->alive) return SW_OK;
+  SW_TRY(sw_scene_thaw(s));
+  j->alive = 0;
+  return SW_OK;
+}
+
+sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force, sw_vec *moment,
+                              sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_still(s, err));
+  const sw_joint *j = sw_scene_find_join(s, h, err);
+  if (!j) return SW_EDEAD;
+  *force = *moment = sw_v(0, 0, 0);
+  if (k >= j->count)
+    return sw_fail(err, SW_EINVAL, "join '%s': end %zu is not one of its %zu", j->name, k + 1,
+                   j->count);
+  if (!j->alive) return SW_OK;
+  SW_TRY(sw_scene_build(s, err));
+  sw_link_wire wires[SW_JOIN_ENDS];
+  sw_scene_joint_wires(s, j, wires);
+  j->cls->joint->force(j, wires, k, force, moment);
+  return SW_OK;
+}

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What takes hold of wires: joins, holds, feeds; and the obstacles that they meet. */
+#ifndef SW_EDIT_LINKS_H
+#define SW_EDIT_LINKS_H
+
+#include "link/link.h"
+#include "motion/motion.h"
+#include "scene/scene.h"
+#include "shape/shape.h"
+
+/* --- joins ------------------------------------------------------------------ */
+
+typedef struct sw_join_end {
+  sw_handle wire;
+  double s; /* [m] */
+} sw_join_end;
+
+/* Join wires where they meet, at arc lengths of theirs, from now on. */
+sw_status sw_scene_add_join(sw_scene *scene, const sw_join_args *args, const sw_join_end *ends,
+                            size_t count, sw_handle *out, sw_error *err);
+sw_status sw_scene_release_join(sw_scene *scene, sw_handle join, sw_error *err);
+/* Force and moment about its place that a living join puts on its end number k [N], [N m]. */
+sw_status sw_scene_join_force(sw_scene *scene, sw_handle join, size_t k, sw_vec *force,
+                              sw_vec *moment, sw_error *err);
+/* What a tie bears, and what became of it. */
+typedef struct sw_tie_state {
+  double distance;                  /* of both places [m] */
+  double tension, peak;             /* now, largest so far [N] */
+  int broken;                       /* 1: it broke */
+  double broken_time, broken_force; /* [s], [N] */
+} sw_tie_state;
+/* SW_EINVAL when the join is none. */
+sw_status sw_scene_tie_state(sw_scene *scene, sw_handle join, sw_tie_state *out, sw_error *err);
+/* NULL when the scene does not know it any more; held: 0 once released. */
+const char *sw_scene_join_name(const sw_scene *scene, sw_handle join, int *held, size_t *ends);
+
+/* --- holds ------------------------------------------------------------------ */
+
+sw_status sw_scene_add_hold(sw_scene *scene, const sw_link_class *cls, sw_handle wire,
+                            const sw_hold_args *args, sw_handle *out, sw_error *err);
+sw_status sw_scene_release_hold(sw_scene *scene, sw_handle hold, sw_error *err);
+
+/* Let the hold follow a motion from now on (retains it); relative: on top of
+ * its present pose. An absolute motion that does not start at the present pose
+ * is refused. NULL stops it where it is. */
+sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, int relative,
+                          sw_error *err);
+sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
+sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
+
+/* Force and moment on the wire about the held point, or about *about [N, N m]. */
+sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
+                              sw_vec *moment, sw_error *err);
+
+/* What it is like now, by its class's rows; SW_EDEAD once it is released. */
+sw_status sw_scene_hold_args(const sw_scene *scene, sw_handle hold, const sw_params **rows,
+                             sw_hold_args *out, sw_error *err);
+/* What may be changed of the arguments from now on. */
+sw_status sw_scene_set_hold(sw_scene *scene, sw_handle hold, const sw_hold_args *args,
+                            sw_error *err);
+/* Of a hold along which the wire slides; SW_EINVAL: it does not. */
+typedef struct sw_slide_state {
+  double place, speed; /* along the rail [m], [m/s] */
+  double force;        /* of friction and ends on the wire, along it [N] */
+} sw_slide_state;
+sw_status sw_scene_slide_state(sw_scene *scene, sw_handle hold, sw_slide_state *out, sw_error *err);
+
+/* --- feeds ------------------------------------------------------------------- */
+
+/* From now on the wire is paid out at this speed; negative: drawn in [m/s]. */
+sw_status sw_scene_feed_speed(sw_scene *scene, sw_handle hold, double speed, sw_error *err);
+/* From now on it is pushed out with this force [N]. */
+sw_status sw_scene_feed_push(sw_scene *scene, sw_handle hold, double force, sw_error *err);
+/* It slips where more force than this would be needed; NAN: never [N]. */
+sw_status sw_scene_feed_limit(sw_scene *scene, sw_handle hold, double force, sw_error *err);
+/* Stop, and pay out a length: its motion is the motion's x (retains it). Negative lengths that
+ * are not there are refused. */
+sw_status sw_scene_feed_length(sw_scene *scene, sw_handle hold, sw_motion *motion, double length,
+                               sw_error *err);
+typedef struct sw_feed_state {
+  double fed;   /* paid out so far [m] */
+  double speed; /* now [m/s] */
+  double drive; /* force that moves the wire, outwards; not that of the guide's walls [N] */
+  double limit; /* NAN = none [N] */
+} sw_feed_state;
+sw_status sw_scene_feed_state(sw_scene *scene, sw_handle hold, sw_feed_state *out, sw_error *err);
+
+/* --- obstacles -------------------------------------------------------------- */
+
+typedef struct sw_obstacle_args {
+  char name[SW_NAME_SIZE];
+  sw_vec at;          /* [m] */
+  sw_quat rotation;   /* [-] */
+  double friction;    /* Coulomb coefficient [-] */
+  double kinetic;     /* the same of what slides; NAN = as friction [-] */
+  double restitution; /* share of the approach speed kept in an impact [-] */
+} sw_obstacle_args;
+extern const sw_params sw_obstacle_params;
+
+/* Retains the shape. */
+sw_status sw_scene_add_obstacle(sw_scene *scene, sw_shape *shape, const sw_obstacle_args *args,
+                                sw_handle *out, sw_error *err);
+sw_status sw_scene_obstacle_follow(sw_scene *scene, sw_handle obstacle, sw_motion *motion,
+                                   int relative, sw_error *err);
+sw_status sw_scene_obstacle_pose(sw_scene *scene, sw_handle obstacle, sw_pose *out, sw_error *err);
+sw_status sw_scene_obstacle_set_pose(sw_scene *scene, sw_handle obstacle, sw_pose pose,
+                                     sw_error *err);
+/* What it is like now, by its rows. */
+sw_status sw_scene_obstacle_args(sw_scene *scene, sw_handle obstacle, sw_obstacle_args *out,
+                                 sw_error *err);
+/* Friction and restitution of the arguments from now on; touches keep what they remember. */
+sw_status sw_scene_obstacle_set_surface(sw_scene *scene, sw_handle obstacle,
+                                        const sw_obstacle_args *args, sw_error *err);
+/* Total contact force and its moment about a point, on the obstacle [N, N m]. */
+sw_status sw_scene_obstacle_force(sw_scene *scene, sw_handle obstacle, sw_vec about, sw_vec *force,
+                                  sw_vec *moment, sw_error *err);
+sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error *err);
+/* The shape, still the scene's: retain it to keep it. */
+sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape **out,
+                                  sw_error *err);
+
+sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
+                            sw_error *err);
+
+sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
+                                size_t *count, sw_error *err);
+
+#endif

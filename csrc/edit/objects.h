@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Objects of particles that are no wires: fabric, foam, nets, chains. */
+#ifndef SW_EDIT_OBJECTS_H
+#define SW_EDIT_OBJECTS_H
+
+#include "scene/scene.h"
+
+typedef struct sw_particles_args {
+  char name[SW_NAME_SIZE];
+  double radius; /* of the surface around particles and its edges; NAN = chosen [m] */
+} sw_particles_args;
+extern const sw_params sw_particles_params;
+
+/* Particles that push each other apart where they come nearer than a distance. */
+typedef struct sw_repel_pairs {
+  double distance;  /* [m] */
+  double stiffness; /* force over the missing distance; 0 = none [N/m] */
+} sw_repel_pairs;
+extern const sw_params sw_repel_pairs_params;
+
+enum { SW_ELEMENT_NODES = 8 };
+typedef struct sw_particles_element {
+  uint32_t count; /* 6: a prism, 8: a hexahedron; see force/solid.h [-] */
+  uint32_t node[SW_ELEMENT_NODES];
+  double mu, lambda; /* [Pa] */
+} sw_particles_element;
+
+typedef struct sw_particles_link {
+  uint32_t a, b;
+  double k;         /* [N/m] */
+  double rest;      /* unstressed length; NAN = as it lies [m] */
+  double yield;     /* strain at which it yields; NAN = never [-] */
+  double hardening; /* gain of the yield force per plastic elongation, over k [-] */
+} sw_particles_link;
+
+typedef struct sw_particles_fold {
+  uint32_t a, b, c; /* straight at rest */
+  double stiffness; /* moment per angle [N m] */
+} sw_particles_fold;
+
+/* What touches obstacles. */
+enum {
+  SW_SURFACE_USUAL, /* the links, or the boundary of the elements where there are any */
+  SW_SURFACE_PARTICLES,
+  SW_SURFACE_EDGES /* as given */
+};
+
+/* What an object is made of; numbers of particles count from 0. */
+typedef struct sw_particles_parts {
+  size_t count;
+  const double *positions; /* (count x 3) [m] */
+  const double *masses;    /* (count) [kg] */
+  const sw_particles_link *link;
+  size_t links;
+  const sw_particles_fold *fold;
+  size_t folds;
+  const sw_particles_element *element;
+  size_t elements;
+  int surface;
+  const uint32_t *edge; /* (edges x 2) */
+  size_t edges;
+  sw_repel_pairs repel;
+} sw_particles_parts;
+
+/* Any object of particles. Takes copies. Errors number particles and parts from 1. */
+sw_status sw_scene_add_particles(sw_scene *scene, const sw_particles_args *args,
+                                 const sw_particles_parts *parts, sw_handle *out, sw_error *err);
+typedef struct sw_particles_info {
+  size_t particles, links, folds, elements; /* [-] */
+  double mass, radius;                      /* [kg], [m] */
+} sw_particles_info;
+sw_status sw_scene_particles_info(sw_scene *scene, sw_handle object, sw_particles_info *out,
+                                  sw_error *err);
+/* (particles x 3) each, may be NULL [m], [m/s]. */
+sw_status sw_scene_particles_copy(sw_scene *scene, sw_handle object, double *positions,
+                                  double *velocities, sw_error *err);
+sw_status sw_scene_particle(sw_scene *scene, sw_handle object, size_t particle, sw_vec *position,
+                            sw_vec *velocity, sw_error *err);
+/* (particles x 3); held ones keep theirs [m/s]. */
+sw_status sw_scene_particles_set_velocities(sw_scene *scene, sw_handle object,
+                                            const double *velocities, sw_error *err);
+/* Edges of the object's surface: pairs of particles (2 x count), or NULL; returns count. */
+size_t sw_scene_particles_edges(const sw_scene *scene, sw_handle object, uint32_t *pairs);
+/* Of all links: force pulling [N], elongation over rest length [-], plastic part of it [-]; each
+ * may be NULL. */
+sw_status sw_scene_particles_links(sw_scene *scene, sw_handle object, double *force, double *strain,
+                                   double *plastic, sw_error *err);
+
+/* Hold some of them rigidly: they move with the hold's pose, which begins at `at` (NAN: their
+ * middle) with the world's axes. */
+sw_status sw_scene_hold_particles(sw_scene *scene, sw_handle object, const char *name,
+                                  const uint32_t *particles, size_t count, sw_vec at,
+                                  sw_handle *out, sw_error *err);
+
+#endif

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Life of obstacles. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "edit/links.h"
+#include "grip/jaws.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
+#include "scene/obstacle.h"
+#include "scene/world.h"
+
+static const sw_param obstacle_rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
+     "name used in messages and series"},
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, at), "place of the shape's origin"},
+    {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, rotation),
+     "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
+    {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, friction), "Coulomb friction coefficient"},
+    {"kinetic_friction", SW_PARAM_NUMBER, "-", NAN, 0, 100, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, kinetic), "of what slides already (default: friction)"},
+    {"restitution", SW_PARAM_NUMBER, "-", 0, 0, 1, SW_PARAM_CHANGES, NULL,
+     offsetof(sw_obstacle_args, restitution), "share of the approach speed kept in an impact"},
+};
+const sw_params sw_obstacle_params = SW_PARAMS("obstacle", obstacle_rows);
+
+sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_args *args,
+                                sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_grow((void **)&s->obstacles, &s->obstacle_capacity, s->obstacle_count + 1,
+                 sizeof *s->obstacles));
+  sw_scene_obstacle *o = &s->obstacles[s->obstacle_count];
+  *o = (sw_scene_obstacle){.generation = ++s->serial,
+                           .alive = 1,
+                           .drive = {.pose = {args->at, args->rotation}},
+                           .friction = args->friction,
+                           .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
+                           .restitution = args->restitution};
+  sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
+  o->shape = sw_shape_retain(shape);
+  sw_obstacle_log_begin(s, o);
+  *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
+  return SW_OK;
+}
+
+sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  if (sw_obstacle_log_fill(s, o) != SW_OK) return sw_fail(err, SW_ENOMEM, "out of memory");
+  o->alive = 0;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *motion, int relative,
+                                   sw_error *err) {
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
+  sw_course_jump(&s->course);
+  if (s->contact) sw_contact_ask_again(s->contact);
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, sw_error *err) {
+  sw_motion_state now;
+  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
+  *out = now.pose;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **out, sw_error *err) {
+  const char *kind;
+  int present; /* frames of before show one that was removed */
+  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
+    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
+  *out = s->obstacles[obstacle.slot].shape;
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose, sw_error *err) {
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  if (o->drive.tool)
+    return sw_fail(err, SW_EINVAL, "obstacle '%s' goes with gripper '%s'; move that", o->name,
+                   s->tools[o->drive.tool - 1].name);
+  sw_drive_free(&o->drive);
+  o->drive.pose = pose;
+  sw_course_jump(&s->course);
+  if (s->contact) sw_contact_ask_again(s->contact);
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_args *out,
+                                 sw_error *err) {
+  sw_pose pose;
+  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_obstacle_pose(s, obstacle, &pose, err));
+  *out = (sw_obstacle_args){.at = pose.p,
+                            .rotation = pose.q,
+                            .friction = o->friction,
+                            .kinetic = o->kinetic,
+                            .restitution = o->restitution};
+  memcpy(out->name, o->name, sizeof out->name);
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
+                                        const sw_obstacle_args *args, sw_error *err) {
+  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD;
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;
+  sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about, sw_vec *force,
+                                  sw_vec *moment, sw_error *err) {
+  if (!sw_scene_find_obstacle(s, obstacle, err)) return SW_EDEAD;
+  SW_TRY(sw_scene_readable(s, err));
+  sw_obstacle_mean(&s->obstacles[obstacle.slot], about, force, moment);
+  return SW_OK;
+}
+
+void sw_scene_clear_obstacle(sw_scene_obstacle *o) {
+  sw_shape_release(o->shape);
+  sw_drive_free(&o->drive);
+  sw_log_free(&o->log);
+}

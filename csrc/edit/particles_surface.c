@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The surface of an object of particles: edges as given, its links, or those of the faces that
+ * only one element has. The inside of a face is no part of it: what is to be kept out by the
+ * surface must not be smaller than its meshes. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/particles.h"
+
+typedef struct edge {
+  uint32_t a, b; /* a < b */
+} edge;
+
+typedef struct face {
+  uint32_t node[4], key[4]; /* in their order; sorted. Of a triangle the last is UINT32_MAX */
+} face;
+
+static int by_ends(const void *left, const void *right) {
+  const edge *p = left, *q = right;
+  if (p->a != q->a) return p->a < q->a ? -1 : 1;
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+static int by_number(const void *left, const void *right) {
+  const uint32_t *p = left, *q = right;
+  return *p < *q ? -1 : *p > *q;
+}
+
+static int by_key(const void *left, const void *right) {
+  const face *p = left, *q = right;
+  for (int k = 0; k < 4; k++)
+    if (p->key[k] != q->key[k]) return p->key[k] < q->key[k] ? -1 : 1;
+  return 0;
+}
+
+/* The edges, sorted and each once, become the web's. */
+static sw_status take_edges(sw_web *w, edge *list, size_t count) {
+  size_t n = 0;
+  for (size_t i = 0; i < count; i++)
+    if (list[i].a > list[i].b) list[i] = (edge){list[i].b, list[i].a};
+  qsort(list, count, sizeof *list, by_ends);
+  for (size_t i = 0; i < count; i++)
+    if (i == 0 || by_ends(&list[i], &list[i - 1])) list[n++] = list[i];
+  w->side = sw_alloc(n, sizeof *w->side);
+  if (!w->side) return SW_ENOMEM;
+  size_t at = 0;
+  for (size_t p = 0; p < w->particles; p++) {
+    w->side_first[p] = at;
+    for (; at < n && list[at].a == p; at++) {
+      w->side[at] = list[at].b;
+      w->outer[p] = w->outer[list[at].b] = 1;
+    }
+  }
+  w->side_first[w->particles] = at;
+  return SW_OK;
+}
+
+static face face_of(const sw_web_solid *s, const int *corner, int count) {
+  face f = {{0, 0, 0, UINT32_MAX}, {0, 0, 0, UINT32_MAX}};
+  for (int k = 0; k < count; k++) f.node[k] = f.key[k] = s->node[corner[k]];
+  qsort(f.key, 4, sizeof *f.key, by_number);
+  return f;
+}
+
+/* All faces of an element; their number. */
+static size_t faces_of(const sw_web_solid *s, face *out) {
+  const int n = (int)s->count / 2;
+  int low[4], high[4];
+  size_t count = 0;
+  for (int k = 0; k < n; k++) {
+    const int next = (k + 1) % n, side[4] = {k, next, n + next, n + k};
+    low[k] = k, high[k] = n + k;
+    out[count++] = face_of(s, side, 4);
+  }
+  out[count++] = face_of(s, low, n);
+  out[count++] = face_of(s, high, n);
+  return count;
+}
+
+/* Edges of the faces that occur but once. */
+static size_t boundary_edges(face *faces, size_t count, edge *out) {
+  size_t edges = 0;
+  qsort(faces, count, sizeof *faces, by_key);
+  for (size_t i = 0; i < count; i++) {
+    if (i > 0 && !by_key(&faces[i], &faces[i - 1])) continue;
+    if (i + 1 < count && !by_key(&faces[i], &faces[i + 1])) continue;
+    const size_t n = faces[i].node[3] == UINT32_MAX ? 3 : 4;
+    for (size_t k = 0; k < n; k++)
+      out[edges++] = (edge){faces[i].node[k], faces[i].node[(k + 1) % n]};
+  }
+  return edges;
+}
+
+static sw_status outside_of_elements(sw_web *w) {
+  enum { FACES = 6, EDGES = 4 * FACES };
+  face *faces = sw_alloc(FACES * w->solids, sizeof *faces);
+  edge *edges = sw_alloc(EDGES * w->solids, sizeof *edges);
+  sw_status status = faces && edges ? SW_OK : SW_ENOMEM;
+  size_t count = 0;
+  for (size_t i = 0; i < w->solids && status == SW_OK; i++)
+    count += faces_of(&w->solid[i], faces + count);
+  if (status == SW_OK) status = take_edges(w, edges, boundary_edges(faces, count, edges));
+  sw_free(faces);
+  sw_free(edges);
+  return status;
+}
+
+sw_status sw_particles_add_surface(const maker *m) {
+  const sw_particles_parts *p = m->parts;
+  sw_web *w = m->web;
+  const int given = p->surface == SW_SURFACE_EDGES;
+  if (p->surface == SW_SURFACE_USUAL && w->solids) return outside_of_elements(w);
+  const size_t count = given ? p->edges : w->links;
+  if (p->surface == SW_SURFACE_PARTICLES || count == 0) {
+    memset(w->outer, 1, w->particles);
+    return SW_OK;
+  }
+  edge *list = sw_alloc(count, sizeof *list);
+  if (!list) return SW_ENOMEM;
+  for (size_t i = 0; i < count; i++)
+    list[i] =
+        given ? (edge){p->edge[2 * i], p->edge[2 * i + 1]} : (edge){w->link[i].a, w->link[i].b};
+  const sw_status status = take_edges(w, list, count);
+  if (!given) memset(w->outer, 1, w->particles);
+  sw_free(list);
+  return status;
+}

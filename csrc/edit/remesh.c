@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Other meshes for the wires of a scene: as they would have been made, where nothing has
+ * moved yet, else carried over. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "link/hold.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/world.h"
+#include "state/field.h"
+#include "state/hinge.h"
+#include "state/mesh.h"
+
+static const double SAME_PLACE = 1e-9; /* of the wire's length [-] */
+
+/* --- as drawn ---------------------------------------------------------------------- */
+
+typedef struct kept_hold {
+  size_t slot;
+  sw_hold shape;
+} kept_hold;
+
+/* The wire's living holds, with copies of where they hold. */
+static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, size_t *count) {
+  *count = 0;
+  *out = sw_alloc(s->hold_count, sizeof **out);
+  if (!*out) return SW_ENOMEM;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
+    SW_TRY(sw_scene_copy_shape(&s->holds[k], &(*out)[*count].shape));
+    (*out)[(*count)++].slot = k;
+  }
+  return SW_OK;
+}
+
+/* Each hold takes the new mesh in the order in which they were made. */
+static sw_status retake_holds(sw_scene *s, const kept_hold *kept, size_t count) {
+  for (size_t k = 0; k < count; k++) s->holds[kept[k].slot].alive = 0;
+  for (size_t k = 0; k < count; k++) SW_TRY(sw_scene_retake_hold(s, &s->holds[kept[k].slot]));
+  return SW_OK;
+}
+
+static void put_back(sw_scene *s, kept_hold *kept, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    sw_hold *h = &s->holds[kept[k].slot];
+    sw_hold *old = &kept[k].shape;
+    double *arrays[2] = {h->s, h->local};
+    h->alive = 1;
+    h->shape = old->shape, h->s1 = old->s1, h->s2 = old->s2, h->count = old->count;
+    memcpy(h->director, old->director, sizeof h->director);
+    memcpy(h->frame, old->frame, sizeof h->frame);
+    h->s = old->s, h->local = old->local;
+    old->s = arrays[0], old->local = arrays[1];
+  }
+}
+
+static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err) {
+  sw_scene_wire *w = &s->wires[wire];
+  const sw_mesh before = w->mesh;
+  kept_hold *kept;
+  size_t count;
+  sw_mesh fresh = {0};
+  sw_status status = keep_holds(s, wire, &kept, &count);
+  if (status == SW_OK) status = sw_scene_draw(w, segments, &fresh, err);
+  if (status == SW_OK) {
+    w->mesh = fresh;
+    status = retake_holds(s, kept, count);
+    if (status == SW_OK) status = sw_scene_retake_joins(s, wire);
+    if (status != SW_OK) {
+      sw_mesh_free(&w->mesh);
+      w->mesh = before;
+      put_back(s, kept, count);
+    } else {
+      const double ratio = fresh.scale / before.scale;
+      for (size_t k = 0; k < w->twisted_count; k++)
+        w->twisted[k].s1 *= ratio, w->twisted[k].s2 *= ratio;
+      sw_mesh old = before;
+      sw_mesh_free(&old);
+    }
+  }
+  for (size_t k = 0; kept && k < count; k++) sw_hold_clear(&kept[k].shape);
+  sw_free(kept);
+  return status;
+}
+
+/* --- as it is now ------------------------------------------------------------------- */
+
+/* An even mesh of the wire's length, whose nodes are the old ones where they can be, and
+ * the places its holds need: arc lengths only. */
+static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_mesh *out) {
+  const sw_mesh *old = &s->wires[wire].mesh;
+  const double length = old->s[old->n - 1], ends[6] = {0, 0, 0, length, 0, 0};
+  SW_TRY(sw_mesh_along(out, ends, 2, segments));
+  out->EA = 1;
+  for (size_t i = 1; i <= segments; i++) {
+    double at = i == segments ? length : length * ((double)i / (double)segments);
+    const size_t k = sw_mesh_node(old, at);
+    if (fabs(old->s[k] - at) <= SAME_PLACE * length) at = old->s[k];
+    if (k > 0 && fabs(old->s[k - 1] - at) <= SAME_PLACE * length) at = old->s[k - 1];
+    out->s[i] = at;
+  }
+  return sw_scene_make_places(s, wire, out);
+}
+
+/* Where a vector across `from`, the direction held at node a, comes to when it is carried
+ * along the edges to `to`, the direction held at node b. */
+static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_vec to) {
+  sw_vec u = sw_perpendicular(from), before = from;
+  for (size_t i = a; i < b; i++) {
+    const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(m->x, i + 1), sw_vec_at(m->x, i)), sw_v(1, 0, 0));
+    u = sw_carry_unit(u, before, t);
+    before = t;
+  }
+  return sw_carry_unit(u, before, to);
+}
+
+/* The wire's direction at the end s of a living hold, which leaves or arrives there. */
+static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_hold *h = &s->holds[k];
+    if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
+      return sw_rotate(h->turn, h->director[leaves]);
+  }
+  return sw_v(0, 0, 0);
+}
+
+/* How far the holds are turned against one another stays. A curve through the nodes turns a
+ * carried vector a little less or more than the chords did, which is the twist's to make up. */
+static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
+  const sw_scene_wire *w = &s->wires[wire];
+  for (size_t k = 0; k < w->twisted_count; k++) {
+    sw_twisted *span = &w->twisted[k];
+    const sw_vec from = held_direction(s, wire, span->s1, 1);
+    const sw_vec to = held_direction(s, wire, span->s2, 0);
+    if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */
+    const sw_mesh *old = &w->mesh;
+    const sw_vec u =
+        carry_along(old, sw_mesh_node(old, span->s1), sw_mesh_node(old, span->s2), from, to);
+    const sw_vec v =
+        carry_along(fresh, sw_mesh_node(fresh, span->s1), sw_mesh_node(fresh, span->s2), from, to);
+    span->twist -= atan2(sw_dot(sw_cross(u, v), to), sw_dot(u, v));
+  }
+}
+
+static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
+  sw_scene_wire *w = &s->wires[wire];
+  sw_mesh places = {0}, fresh = {0};
+  size_t count = 0;
+  double *held = sw_alloc(2 * s->hold_count, sizeof *held);
+  if (!held) return SW_ENOMEM;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
+    held[2 * count] = s->holds[k].s1;
+    held[2 * count++ + 1] = s->holds[k].s2;
+  }
+  sw_status status = new_places(s, wire, segments, &places);
+  if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
+  if (status == SW_OK) {
+    correct_twist(s, wire, &fresh);
+    sw_mesh_free(&w->mesh);
+    w->mesh = fresh;
+    w->mesh.spacing = places.spacing;
+  }
+  sw_mesh_free(&places);
+  sw_free(held);
+  return status;
+}
+
+/* As it was drawn, of the whole length that was drawn? */
+static int is_drawn(const sw_scene_wire *w) {
+  const double drawn = w->drawing.length * w->mesh.scale;
+  return w->mesh.drawn && fabs(w->mesh.s[w->mesh.n - 1] - drawn) <= SAME_PLACE * drawn;
+}
+
+/* Feeding makes and takes nodes of its own, at places that another mesh would not know; a mesh
+ * of particles is what it was made. */
+static sw_status check_fed(const sw_scene *s, sw_error *err) {
+  for (size_t w = 0; w < s->wire_count; w++)
+    SW_TRY(sw_scene_check_line(&s->wires[w], "another number of segments", err));
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && sw_hold_passes(&s->holds[k]))
+      return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': it cannot be meshed anew",
+                     s->wires[s->holds[k].wire].name, s->holds[k].name);
+  for (size_t w = 0; w < s->wire_count; w++)
+    if (s->wires[w].mesh.s[0] != 0)
+      return sw_fail(err, SW_EINVAL, "wire '%s' has been fed: it cannot be meshed anew",
+                     s->wires[w].name);
+  return SW_OK;
+}
+
+sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (count != s->wire_count)
+    return sw_fail(err, SW_EINVAL, "scene '%s': %zu wires, but %zu numbers of segments", s->name,
+                   s->wire_count, count);
+  for (size_t w = 0; w < count; w++)
+    if (segments[w] < 2 || segments[w] > 10000000)
+      return sw_fail(err, SW_EINVAL,
+                     "wire '%s': segments = %zu is not allowed; it must be from 2 to 10000000",
+                     s->wires[w].name, segments[w]);
+  SW_TRY(check_fed(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  for (size_t w = 0; w < count; w++) {
+    const sw_status status =
+        is_drawn(&s->wires[w]) ? redraw(s, w, segments[w], err) : carry_over(s, w, segments[w]);
+    if (status == SW_ENOMEM) return sw_fail(err, status, "scene '%s': out of memory", s->name);
+    if (status != SW_OK) return status;
+  }
+  sw_scene_measure_joins(s);
+  return SW_OK;
+}
+
+/* More than this is lost when a wire that has moved gets frames [rad]. */
+static const double LEAST_TWIST = 1e-3;
+
+/* One that has moved becomes one that rolls, where nothing twists it: its frames go along it. */
+static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
+  sw_scene_wire *w = &s->wires[wire];
+  sw_mesh *m = &w->mesh;
+  for (size_t k = 0; k < w->twisted_count; k++)
+    if (!(fabs(w->twisted[k].twist) <= LEAST_TWIST))
+      return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved and is twisted by %.3g rad",
+                     w->name, w->twisted[k].twist);
+  const sw_vec along = sw_unit_or(sw_sub(sw_load(m->x + 3), sw_load(m->x)), sw_v(1, 0, 0));
+  SW_TRY(sw_mesh_add_frames(m, sw_perpendicular(along), 1, 0.0));
+  w->beam.rolls = w->beam.framed = 1;
+  s->kept.changed = wire + 1;
+  sw_course_jump(&s->course);
+  sw_scene_frame_holds(s, wire);
+  return SW_OK;
+}
+
+static sw_status change_beam(sw_scene *s, size_t wire, const sw_redrawing *as, sw_error *err) {
+  sw_scene_wire *w = &s->wires[wire];
+  size_t segments;
+  const int rolls = as->rolls && !w->beam.rolls, drawn = is_drawn(w);
+  if (!drawn && (w->beam.rolls != as->rolls || as->EA != 1) &&
+      (!rolls || w->mesh.rest || as->EA != 1))
+    return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved since it was drawn", w->name);
+  w->beam.EA *= as->EA, w->beam.EI *= as->EI, w->beam.GJ *= as->GJ, w->beam.E *= as->EA;
+  for (int k = 0; k < 2; k++) w->beam.EI_axis[k] *= as->EI;
+  w->drawing.rolls = as->rolls;
+  if (!drawn) return rolls ? add_rolling(s, wire, err) : SW_OK;
+  w->beam.framed = w->beam.EI_axis[0] != w->beam.EI_axis[1] || w->drawing.rest == SW_REST_PATH;
+  SW_TRY(sw_scene_wire_segments(s, (sw_handle){.slot = (uint32_t)wire, .generation = w->generation},
+                                &segments, err));
+  return redraw(s, wire, segments, err);
+}
+
+sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
+  sw_scene_wire *w = &s->wires[h.slot];
+  if (strcmp(w->cls->name, "rod") != 0)
+    return sw_fail(err, SW_EINVAL, "redraw: wire '%s' is a %s, not a rod", w->name, w->cls->name);
+  SW_TRY(check_fed(s, err));
+  SW_TRY(sw_scene_thaw(s));
+  const sw_beam beam = w->beam;
+  const int rolled = w->drawing.rolls;
+  const sw_status status = change_beam(s, h.slot, as, err);
+  if (status == SW_OK) return status;
+  w->beam = beam, w->drawing.rolls = rolled;
+  return status == SW_ENOMEM ? sw_fail(err, status, "scene '%s': out of memory", s->name) : status;
+}
+
+sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
+  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
+  if (!w) return SW_EDEAD;
+  *segments = (size_t)fmax(1.0, round((w->mesh.s[w->mesh.n - 1] - w->mesh.s[0]) / w->mesh.spacing));
+  return SW_OK;
+}

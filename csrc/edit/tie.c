@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
+#include "edit/tie.h"
+
+#include <math.h>
+#include <stdint.h>
+
+#include "edit/links.h"
+#include "link/hold.h"
+#include "link/joint.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/world.h"
+
+/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
+ * field may still name the places of a trial that is gone [N]. */
+static double pull_of(const sw_body *b, const sw_term *term, const double *x, double *bears) {
+  sw_field at = b->field;
+  at.x = x + 3 * b->first_node;
+  return term->cls->pull(term->args, &at, term->history, bears);
+}
+
+static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
+  for (size_t k = 0; k < b->term_count; k++) {
+    const sw_term *term = &b->terms[k];
+    if (!term->cls->pull) continue;
+    double bears;
+    const double pull = pull_of(b, term, x, &bears);
+    if (bears > 0 && sw_tie_breaks_early(pull, bears))
+      return sw_fail(err, SW_ENOCONV, "a tie breaks within the step");
+  }
+  return SW_OK;
+}
+
+static int breakable(const sw_scene *s, size_t joint) {
+  return s->joins[joint].alive && s->joins[joint].cls->joint->pull;
+}
+
+static double pull_of_joint(const sw_scene *s, size_t joint, const double *x, double *bears) {
+  return s->joins[joint].cls->joint->pull(&s->joins[joint], &s->system, x, bears);
+}
+
+int sw_scene_may_break(const sw_scene *s) {
+  double bears = 0;
+  for (size_t k = 0; k < s->join_count; k++) {
+    if (breakable(s, k)) pull_of_joint(s, k, s->system.x, &bears);
+    if (bears > 0 && isfinite(bears)) return 1;
+    bears = 0;
+  }
+  for (size_t b = 0; s->force_count && b < s->system.body_count; b++) {
+    const sw_body *body = &s->system.bodies[b];
+    for (size_t k = 0; k < body->term_count; k++) {
+      const sw_term *term = &body->terms[k];
+      bears = 0;
+      if (term->cls->pull) pull_of(body, term, s->system.x, &bears);
+      if (bears > 0) return 1;
+    }
+  }
+  return 0;
+}
+
+sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err) {
+  for (size_t k = 0; k < s->join_count; k++) {
+    double bears;
+    if (!breakable(s, k)) continue;
+    const double pull = pull_of_joint(s, k, x, &bears);
+    if (bears > 0 && sw_tie_breaks_early(pull, bears))
+      return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step", s->joins[k].name);
+  }
+  for (size_t b = 0; s->force_count && b < s->system.body_count; b++)
+    SW_TRY(check_terms(&s->system.bodies[b], x, err));
+  return SW_OK;
+}
+
+/* Ties to points, which break when their force is told of the accepted state. */
+static void tell_of_terms(sw_scene *s, size_t body) {
+  const sw_body *b = &s->system.bodies[body];
+  for (size_t k = 0; k < b->term_count; k++) {
+    const sw_term *term = &b->terms[k];
+    double bears;
+    if (!term->cls->pull) continue;
+    const double pull = pull_of(b, term, s->system.x, &bears);
+    if (bears > 0 && pull > bears)
+      sw_scene_tell(s, "tie", s->wires[body].name, NAN, pull,
+                    "a tie of wire '%s' breaks at %.4g N; it bears %.4g N", s->wires[body].name,
+                    pull, bears);
+  }
+}
+
+void sw_scene_watch_ties(sw_scene *s) {
+  for (size_t b = 0; s->force_count && b < s->system.body_count; b++) tell_of_terms(s, b);
+  for (size_t k = 0; k < s->join_count; k++) {
+    sw_joint *j = &s->joins[k];
+    double bears;
+    if (!breakable(s, k)) continue;
+    const double pull = pull_of_joint(s, k, s->system.x, &bears);
+    if (!sw_tie_suffers(pull, bears, s->time, j->fate)) continue;
+    j->cls->joint->breaks(j, &s->system);
+    sw_course_jump(&s->course);
+    s->build = ++s->builds; /* the system is another one */
+    sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
+                  j->name, pull, j->strength);
+  }
+}
+
+sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_joint *j = sw_scene_find_join(s, h, err);
+  if (!j) return SW_EDEAD;
+  if (!j->cls->joint->pull)
+    return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
+  *out = (sw_tie_state){.peak = j->fate[SW_TIE_PEAK],
+                        .broken = j->fate[SW_TIE_BROKEN] > 0,
+                        .broken_time = j->fate[SW_TIE_BROKEN_TIME],
+                        .broken_force = j->fate[SW_TIE_BROKEN_FORCE]};
+  out->distance = NAN;
+  if (j->ends[0].wire == SIZE_MAX || j->ends[1].wire == SIZE_MAX) return SW_OK;
+  SW_TRY(sw_scene_build(s, err));
+  const double *x = s->system.x;
+  const sw_link_wire one = sw_scene_link_wire(s, j->ends[0].wire);
+  const sw_link_wire two = sw_scene_link_wire(s, j->ends[1].wire);
+  double bears;
+  out->distance = sw_dist(sw_vec_at(x, sw_joint_node(&j->ends[0], &one)),
+                          sw_vec_at(x, sw_joint_node(&j->ends[1], &two)));
+  if (j->alive) out->tension = j->cls->joint->pull(j, &s->system, x, &bears);
+  return SW_OK;
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which wires touch each other, as a user says, and where they do. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/tape.h"
+#include "edit/edit.h"
+#include "scene/line.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "state/plan.h"
+
+static const sw_param rows[] = {
+    {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "a wire, an object of particles or a list of these (default: all, those to come too)"},
+    {"friction", SW_PARAM_NUMBER, "-", 0.3, 0, 100, 0, NULL,
+     offsetof(sw_wire_contact_args, friction), "Coulomb friction coefficient"},
+    {"self", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, self),
+     "false: not of a wire with itself"},
+    {"on", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_wire_contact_args, on),
+     "false: from now on they pass through each other"},
+};
+const sw_params sw_wire_contact_params = SW_PARAMS("scene:wire_contact", rows);
+
+sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
+                                const sw_handle *wires, size_t count, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  for (size_t k = 0; k < count; k++)
+    if (!sw_scene_find_body(s, wires[k], err)) return SW_EDEAD;
+  for (size_t k = 0; args->on && k < (count ? count : s->wire_count); k++)
+    SW_TRY(sw_scene_check_touching(&s->wires[count ? wires[k].slot : k], err));
+  SW_TRY(sw_scene_thaw(s));
+  uint32_t *slots = sw_alloc(count, sizeof *slots);
+  if (!slots || sw_grow((void **)&s->rules, &s->rule_capacity, s->rule_count + 1,
+                        sizeof *s->rules) != SW_OK) {
+    sw_free(slots);
+    return sw_fail(err, SW_ENOMEM, "scene:wire_contact: out of memory");
+  }
+  for (size_t k = 0; k < count; k++) slots[k] = wires[k].slot;
+  s->rules[s->rule_count++] = (sw_scene_rule){.wires = slots,
+                                              .count = count,
+                                              .self = args->self,
+                                              .rule = {.on = args->on, .friction = args->friction}};
+  return SW_OK;
+}
+
+void sw_scene_drop_rules(sw_scene *s, size_t keep) {
+  while (s->rule_count > keep) sw_free(s->rules[--s->rule_count].wires);
+}
+
+sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_still(s, err));
+  *count = s->built && s->pairs ? sw_pairs_count(s->pairs) : 0;
+  if (s->built && s->grains) *count += sw_grains_count(s->grains);
+  return SW_OK;
+}
+
+/* Where a touch is on a body: place and arc length; of a particle its place along the object. */
+static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, double *arc) {
+  const sw_body *b = &s->system.bodies[p->body[k]];
+  const size_t i = p->node[k] - b->first_node;
+  const double *x = s->system.x + 3 * p->node[k];
+  *arc = sw_plan_place(b->plan, i);
+  if (i >= b->plan->edges) return sw_load(x); /* a particle, or where the wire ends */
+  *arc += p->at[k] * b->plan->rest[i];
+  return sw_lerp(sw_load(x), sw_load(x + 3), p->at[k]);
+}
+
+static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) {
+  const sw_body *b = &s->system.bodies[p->body[k]];
+  return sw_plan_skin(b->plan, p->node[k] - b->first_node);
+}
+
+/* Of a wire and an object of particles the object comes first, whichever has the edge there. */
+static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
+  if (s->system.bodies[p.body[0]].plan->web) return p;
+  return (sw_pair_place){.body = {p.body[1], p.body[0]},
+                         .node = {p.node[1], p.node[0]},
+                         .at = {p.at[1], p.at[0]},
+                         .normal = sw_neg(p.normal),
+                         .normal_force = p.normal_force,
+                         .friction = sw_neg(p.friction),
+                         .gap = p.gap};
+}
+
+void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
+  const size_t wires = s->pairs ? sw_pairs_count(s->pairs) : 0;
+  const sw_pair_place p = number < wires
+                              ? sw_pairs_place(s->pairs, number)
+                              : loose_first(s, sw_grains_place(s->grains, number - wires));
+  sw_vec at[2];
+  for (int k = 0; k < 2; k++) {
+    at[k] = touched_at(s, &p, k, &out->s[k]);
+    memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
+  }
+  const double r1 = touching_radius(s, &p, 0), r2 = touching_radius(s, &p, 1);
+  out->point = sw_lerp(at[1], at[0], r2 / (r1 + r2));
+  out->normal = p.normal;
+  out->force = sw_madd(p.friction, p.normal, p.normal_force);
+  out->normal_force = p.normal_force;
+  out->friction = p.friction;
+}

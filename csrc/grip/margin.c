@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Margin of a rigid grip: its load over the load that its pads could bear.
+ *
+ * A touch of the pads stays where it was when the grip was frozen. It can bear friction up to
+ * mu N, and its normal force N may become anything between 0 and 2 N: a moment towards the pads
+ * takes from one edge and gives to the other. The forces and moments that such touches can
+ * balance are a convex set, and the margin is the load as a share of the largest load of its
+ * kind in that set. By the kinematic theorem of limit analysis it is the largest value, over
+ * all rigid motions of the wire between the pads, of the load's power over the power that the
+ * touches can resist
+ *
+ *     sum_i N_i (mu_i |tangential velocity| + |normal velocity|).
+ *
+ * For motions in the pads' plane this is the limit surface of Goyal, Ruina and Papadopoulos (Wear
+ * 143, 1991, 307), of which Howe and Cutkosky's ellipsoid (1996) is an approximation. The best
+ * motion is found by least squares with weights of the motion before, from which the value only
+ * grows. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "grip/frozen.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/parts.h"
+#include "solve/cholesky.h"
+#include "strand/ring.h"
+
+enum { SIX = 6, MOST_ROUNDS = 20 };
+static const double ENOUGH = 1e-4; /* growth of the margin that ends the search [-] */
+static const double STILL = 1e-6;  /* velocity that counts as none, of the motion's [-] */
+
+/* Particles that touch may stand inside of a pad: a place from which its surface is seen without
+ * doubt, so much nearer to the middle of the section, of the wire's radius. */
+static const double INSIDE = 0.2;
+
+static sw_vec inside(const sw_scene *s, size_t wire, const sw_contact_push *p) {
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const sw_web *web = b->plan->web;
+  const double *x = system->x + 3 * b->first_node;
+  const sw_vec one = sw_vec_at(system->x, p->node), two = sw_vec_at(system->x, p->other);
+  const sw_vec at = sw_lerp(one, two, p->node == p->other ? 0.0 : p->at);
+  const sw_vec middle = sw_strand_middle(web, x, sw_web_ring_of(web, p->node - b->first_node));
+  const sw_vec in = sw_unit_or(sw_sub(middle, at), sw_v(0, 0, 0));
+  return sw_madd(at, in, INSIDE * b->plan->beam.radius);
+}
+
+sw_status sw_frozen_keep_touches(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_error *err) {
+  const size_t count = sw_scene_contact(s) ? sw_contact_touches(sw_scene_contact(s)) : 0;
+  f->touch = sw_alloc(count, sizeof *f->touch);
+  if (!f->touch) return SW_ENOMEM;
+  for (size_t k = 0; k < count; k++) {
+    sw_contact_push p;
+    sw_motion_state at;
+    sw_closest near;
+    if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &p) ||
+        !sw_tool_is_pad(t, p.obstacle))
+      continue;
+    if (p.node < f->node || p.node >= f->node + f->nodes) continue;
+    const sw_scene_obstacle *o = sw_scene_obstacle_in(s, p.obstacle);
+    SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &at, err));
+    const sw_vec place = sw_pose_local(at.pose, inside(s, f->wire.slot, &p));
+    if (!sw_shape_point(o->shape, place, HUGE_VAL, &near)) continue;
+    f->touch[f->touches++] =
+        (sw_frozen_touch){.at = sw_pose_local(f->pose, p.point),
+                          .normal = sw_unrotate(f->pose.q, sw_rotate(at.pose.q, near.normal)),
+                          .force = p.normal_force,
+                          .friction = o->friction};
+  }
+  return SW_OK;
+}
+
+/* The touches' middle, by force; how far they are from it; and the forces and moments about it that
+ * normal forces make by themselves. */
+typedef struct patch {
+  sw_vec middle, force, moment; /* [m], [N], [N m] */
+  double size;                  /* [m] */
+} patch;
+
+static patch patch_of(const sw_frozen *f) {
+  patch out = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
+  double sum = 0, second = 0;
+  for (size_t k = 0; k < f->touches; k++) {
+    out.middle = sw_madd(out.middle, f->touch[k].at, f->touch[k].force);
+    sum += f->touch[k].force;
+  }
+  out.middle = sw_scale(out.middle, 1.0 / sum);
+  for (size_t k = 0; k < f->touches; k++) {
+    const sw_vec arm = sw_sub(f->touch[k].at, out.middle);
+    const sw_vec push = sw_scale(f->touch[k].normal, f->touch[k].force);
+    out.force = sw_add(out.force, push);
+    out.moment = sw_add(out.moment, sw_cross(arm, push));
+    second += f->touch[k].force * sw_norm2(arm);
+  }
+  out.size = sqrt(second / sum);
+  return out;
+}
+
+/* Sums over the touches that make the quadratic form: of weights as in all directions, and of those
+ * across the surfaces. */
+typedef struct form {
+  double A[SIX][SIX];
+  double sum, arm[3], second[SIX]; /* second: xx xy xz yy yz zz */
+} form;
+
+/* Add a touch that resists alike in all directions, but for more across its surface. */
+static void add(form *o, sw_vec arm, sw_vec normal, double all, double more) {
+  double g[SIX];
+  sw_store(g, normal);
+  sw_store(g + 3, sw_cross(arm, normal));
+  for (int i = 0; i < SIX; i++) {
+    const double scaled = more * g[i];
+    for (int j = 0; j <= i; j++) o->A[i][j] += scaled * g[j];
+  }
+  const double x = all * arm.x, y = all * arm.y, z = all * arm.z;
+  o->sum += all, o->arm[0] += x, o->arm[1] += y, o->arm[2] += z;
+  o->second[0] += x * arm.x, o->second[1] += x * arm.y, o->second[2] += x * arm.z;
+  o->second[3] += y * arm.y, o->second[4] += y * arm.z, o->second[5] += z * arm.z;
+}
+
+/* The matrix, its lower half: velocities are v + turn x arm. */
+static void close_form(form *o) {
+  const double *p = o->arm, *q = o->second;
+  const double turns[3][3] = {
+      {q[3] + q[5], 0, 0}, {-q[1], q[0] + q[5], 0}, {-q[2], -q[4], q[0] + q[3]}};
+  const double mixed[3][3] = {{0, -p[2], p[1]}, {p[2], 0, -p[0]}, {-p[1], p[0], 0}};
+  for (int i = 0; i < 3; i++) {
+    o->A[i][i] += o->sum;
+    for (int j = 0; j < 3; j++) o->A[3 + i][j] += mixed[i][j];
+    for (int j = 0; j <= i; j++) o->A[3 + i][3 + j] += turns[i][j];
+  }
+}
+
+/* What the touches resist in a motion [W]; A: its quadratic form with weights of that motion. */
+static double resistance(const sw_frozen *f, const patch *p, const double v[SIX],
+                         double A[SIX][SIX]) {
+  form o = {0};
+  double sum = 0;
+  const sw_vec way = sw_load(v), turn = sw_load(v + 3);
+  const double still = STILL * (sw_norm(way) + sw_norm(turn));
+  for (size_t k = 0; k < f->touches; k++) {
+    const sw_frozen_touch *t = &f->touch[k];
+    const sw_vec arm = sw_scale(sw_sub(t->at, p->middle), 1.0 / p->size);
+    const sw_vec u = sw_add(way, sw_cross(turn, arm));
+    const double across = sw_dot(u, t->normal);
+    const double along = sw_norm(sw_madd(u, t->normal, -across));
+    const double rub = t->friction * t->force / fmax(along, still);
+    sum += t->force * (t->friction * along + fabs(across));
+    add(&o, arm, t->normal, rub, t->force / fmax(fabs(across), still) - rub);
+  }
+  close_form(&o);
+  memcpy(A, o.A, sizeof o.A);
+  return sum;
+}
+
+double sw_frozen_margin(const sw_frozen *f, sw_vec force, sw_vec moment) {
+  double A[SIX][SIX], load[SIX], v[SIX], margin = 0;
+  if (!f->touches) return 0;
+  const patch p = patch_of(f);
+  if (!(p.size > 0)) return 0;
+  const sw_vec about = sw_sub(moment, sw_cross(p.middle, force));
+  sw_store(load, sw_sub(force, p.force));
+  sw_store(load + 3, sw_scale(sw_sub(about, p.moment), 1.0 / p.size));
+  memcpy(v, load, sizeof v);
+  for (int round = 0; round <= MOST_ROUNDS; round++) {
+    double power = 0;
+    const double most = resistance(f, &p, v, A);
+    for (int i = 0; i < SIX; i++) power += load[i] * v[i];
+    const double now = most > 0 ? power / most : 0.0;
+    if (round && now <= margin * (1.0 + ENOUGH)) return fmax(now, margin);
+    margin = fmax(margin, now);
+    memcpy(v, load, sizeof v);
+    if (!sw_cholesky_solve(&A[0][0], SIX, v)) return margin;
+  }
+  return margin;
+}

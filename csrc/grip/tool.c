@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tools: their frame, pads and holds, and what they hold. */
+#include "grip/tool.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "grip/frozen.h"
+#include "grip/jaws.h"
+#include "link/hold.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
+#include "scene/hold.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/values.h"
+#include "scene/world.h"
+#include "state/clamp.h"
+
+void sw_scene_clear_tool(sw_tool *t) {
+  sw_drive_free(&t->drive);
+  sw_frozen_release(t->frozen);
+  sw_log_free(&t->log);
+}
+
+sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {
+  if (h.slot < s->tool_count && s->tools[h.slot].generation == h.generation &&
+      s->tools[h.slot].alive)
+    return &s->tools[h.slot];
+  sw_fail(err, SW_EDEAD, "this gripper is not of scene '%s' any more", s->name);
+  return NULL;
+}
+
+const char *sw_scene_tool_name(const sw_scene *s, sw_handle h) {
+  sw_error ignored;
+  const sw_tool *t = sw_scene_find_tool(s, h, &ignored);
+  return t ? t->name : NULL;
+}
+
+static const double SLIP = 1e-4; /* that is an event, unless told [m] */
+static const double LIMIT = 0.9; /* of the margin of a frozen grip, unless told [-] */
+
+sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *out, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (sw_grow((void **)&s->tools, &s->tool_capacity, s->tool_count + 1, sizeof *s->tools) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
+  sw_tool *t = &s->tools[s->tool_count];
+  *t = (sw_tool){.generation = ++s->serial,
+                 .alive = 1,
+                 .drive = {.pose = {args->at, args->rotation}},
+                 .jaw = {.opening = args->opening, .since = s->time, .force = HUGE_VAL},
+                 .tolerance = SLIP,
+                 .limit = LIMIT,
+                 .now = {.centre = args->at, .q = args->rotation}};
+  t->now.slip_time = t->now.slip_place = t->now.lost_time = NAN;
+  sw_scene_give_name(t->name, args->name, "gripper", s->tool_count);
+  *out = (sw_handle){(uint32_t)s->tool_count++, s->serial};
+  return SW_OK;
+}
+
+/* The pose in the frame of a tool at its present place. */
+static sw_status local_pose(sw_scene *s, const sw_tool *t, sw_pose world, sw_pose *out,
+                            sw_error *err) {
+  sw_motion_state now;
+  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
+  const sw_quat back = sw_quat_conj(now.pose.q);
+  *out = (sw_pose){sw_rotate(back, sw_sub(world.p, now.pose.p)), sw_quat_mul(back, world.q)};
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_pad(sw_scene *s, sw_handle tool, sw_handle obstacle, int finger,
+                            sw_vec opens, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  sw_scene_obstacle *o = t ? sw_scene_find_obstacle(s, obstacle, err) : NULL;
+  sw_motion_state now;
+  sw_pose pose;
+  if (!o) return SW_EDEAD;
+  if (t->pads == SW_TOOL_PADS)
+    return sw_fail(err, SW_EINVAL, "gripper '%s': more than %d parts of pads", t->name,
+                   SW_TOOL_PADS);
+  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
+  SW_TRY(local_pose(s, t, now.pose, &pose, err));
+  sw_drive_free(&o->drive);
+  pose.p = sw_madd(pose.p, opens, -sw_jaw_at(&t->jaw, s->time));
+  o->drive = (sw_drive){.pose = pose, .tool = 1 + tool.slot, .opens = opens};
+  t->pad[t->pads++] = (sw_tool_pad){obstacle.slot, finger};
+  if (finger >= t->fingers) t->fingers = finger + 1;
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
+  sw_hold *h = t ? sw_scene_living_hold(s, hold, err) : NULL;
+  sw_motion_state now;
+  sw_pose pose;
+  if (!h) return SW_EDEAD;
+  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
+  SW_TRY(local_pose(s, t, now.pose, &pose, err));
+  sw_drive_free(&h->drive);
+  h->drive = (sw_drive){.pose = pose, .tool = 1 + tool.slot};
+  sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  SW_TRY(sw_scene_thaw(s));
+  for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].off = !on;
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, int relative,
+                               sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
+  for (size_t k = 0; k < s->hold_count; k++) /* pads alone push by where they are, not how fast */
+    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_pose(sw_scene *s, sw_handle tool, sw_pose *out, sw_error *err) {
+  sw_motion_state now;
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
+  *out = now.pose;
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  sw_drive_free(&t->drive);
+  t->drive = (sw_drive){.pose = pose};
+  sw_course_jump(&s->course);
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  sw_jaw *j = &t->jaw;
+  if (j->force != args->force) SW_TRY(sw_scene_thaw(s)); /* contact is told */
+  j->mode = args->mode;
+  j->goal = args->opening, j->most = args->speed, j->force = args->force;
+  j->speed = 0, j->since = s->time;
+  j->status = args->mode == SW_JAW_STILL ? SW_JAW_RESTS : SW_JAW_MOVES;
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int stops,
+                              sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  t->tolerance = tolerance, t->stops = stops;
+  t->now.slipped = sw_v(0, 0, 0);
+  t->now.slip = 0;
+  t->now.slip_time = t->now.slip_place = NAN;
+  return SW_OK;
+}
+
+/* --- what it holds ---------------------------------------------------------------- */
+
+double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
+  double sum = 0;
+  sw_motion_state at;
+  sw_error ignored; /* it was asked for this place in the trial */
+  if (!s->contact || !t->fingers || sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
+    return 0;
+  for (size_t k = 0; k < t->pads; k++) {
+    const sw_drive *d = &s->obstacles[t->pad[k].obstacle].drive;
+    sw_vec force, moment;
+    sw_contact_force(s->contact, (int)t->pad[k].obstacle, sw_v(0, 0, 0), &force, &moment);
+    sum += t->pad[k].finger < 0
+               ? 0.0
+               : sw_dot(sw_unrotate(at.pose.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
+  }
+  return sum / t->fingers;
+}
+
+/* Force of pads (of one finger, or -1: all) on wires about a point; adds. */
+static void pads_force(const sw_scene *s, const sw_tool *t, int finger, sw_vec about, sw_vec *force,
+                       sw_vec *moment) {
+  for (size_t k = 0; s->contact && k < t->pads; k++) {
+    sw_vec f, m;
+    if (finger >= 0 && t->pad[k].finger != finger) continue;
+    sw_contact_force(s->contact, (int)t->pad[k].obstacle, about, &f, &m);
+    *force = sw_sub(*force, f);
+    *moment = sw_sub(*moment, m);
+  }
+}
+
+/* The same of all pads over the last step, with what struck them. */
+static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec *force,
+                      sw_vec *moment) {
+  for (size_t k = 0; k < t->pads; k++) {
+    sw_vec f, m;
+    sw_obstacle_mean(&s->obstacles[t->pad[k].obstacle], about, &f, &m);
+    *force = sw_sub(*force, f);
+    *moment = sw_sub(*moment, m);
+  }
+}
+
+/* Those of its holds; mean: NULL, or means of steps with a jerk count and it says whether one did.
+ */
+static sw_status holds_force(sw_scene *s, size_t slot, sw_vec about, sw_vec *force, sw_vec *moment,
+                             int *mean, sw_error *err) {
+  for (size_t k = 0; k < s->hold_count; k++) {
+    const sw_hold *h = &s->holds[k];
+    sw_motion_state at;
+    if (!h->alive || h->drive.tool != 1 + slot) continue;
+    SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
+    sw_vec F = h->force, M = h->moment;
+    if (mean) *mean |= sw_hold_jerked(s, h, &F, &M);
+    *force = sw_add(*force, F);
+    *moment = sw_add(*moment, sw_add(M, sw_cross(sw_sub(at.pose.p, about), F)));
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_force(sw_scene *s, sw_handle tool, const sw_vec *about, sw_vec *force,
+                              sw_vec *moment, sw_error *err) {
+  sw_pose pose;
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_tool_pose(s, tool, &pose, err));
+  const sw_vec point = about ? *about : pose.p;
+  *force = *moment = sw_v(0, 0, 0);
+  pads_force(s, &s->tools[tool.slot], -1, point, force, moment);
+  return holds_force(s, tool.slot, point, force, moment, NULL, err);
+}
+
+sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw_vec *about,
+                               sw_vec *force, sw_vec *moment, sw_error *err) {
+  sw_pose pose;
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_tool_pose(s, tool, &pose, err));
+  const sw_tool *t = &s->tools[tool.slot];
+  if (finger < 0 || finger >= t->fingers)
+    return sw_fail(err, SW_EINVAL, "gripper '%s': there is no finger %d; it has %d", t->name,
+                   finger + 1, t->fingers);
+  *force = *moment = sw_v(0, 0, 0);
+  pads_force(s, t, finger, about ? *about : pose.p, force, moment);
+  return SW_OK;
+}
+
+/* What pads would have to bear in place of the grip that stands for them. */
+static void hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec moment) {
+  sw_tool_state *now = &t->now;
+  now->margin =
+      sw_frozen_margin(t->frozen, sw_unrotate(now->q, force), sw_unrotate(now->q, moment));
+  if (isnan(now->lost_time) && now->margin > t->limit) now->lost_time = s->time;
+}
+
+static void hold_now(const sw_scene *s, sw_tool *t) {
+  sw_contact_grip sum = {0};
+  sw_tool_state *now = &t->now;
+  for (size_t k = 0; s->contact && k < t->pads; k++)
+    if (t->pad[k].finger >= 0)
+      sw_contact_add_grip(s->contact, &s->system, (int)t->pad[k].obstacle, &sum);
+  now->opening = t->jaw.opening, now->status = t->jaw.status, now->squeeze = t->jaw.now;
+  now->normal = sum.normal, now->most = sum.most;
+  now->margin = sum.most > 0 ? sw_norm(sum.tangent) / sum.most : 0;
+  now->sliding = sum.normal > 0 ? sum.sliding / sum.normal : 0;
+  if (!(sum.normal > 0)) return;
+  now->place = sum.place / sum.normal;
+  const sw_vec way = sw_unrotate(now->q, sw_scale(sum.slip, 1.0 / sum.normal));
+  now->slipped = sw_add(now->slipped, way);
+  now->slip = sw_norm(now->slipped);
+  if (isnan(now->slip_time) && now->slip > t->tolerance)
+    now->slip_time = s->time, now->slip_place = now->place;
+}
+
+static int holds_any(const sw_scene *s, size_t slot) {
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + slot) return 1;
+  return 0;
+}
+
+sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
+  for (size_t k = 0; k < s->tool_count; k++) {
+    sw_tool *t = &s->tools[k];
+    sw_motion_state at;
+    double row[SW_LOG_TOOL_SIZE];
+    if (!t->alive) continue;
+    SW_TRY(sw_drive_eval(s, &t->drive, s->time, &at, err));
+    t->now.centre = at.pose.p;
+    t->now.q = at.pose.q;
+    sw_vec force = sw_v(0, 0, 0), moment = force;
+    pads_mean(s, t, at.pose.p, &force, &moment);
+    int mean = 0;
+    SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, &mean, err));
+    if (t->frozen)
+      hold_frozen(s, t, force, moment);
+    else
+      hold_now(s, t);
+    SW_TRY(sw_tool_look_out(s, k, err));
+    row[SW_LOG_TIME] = s->time;
+    sw_store(row + SW_LOG_FORCE, force);
+    sw_store(row + SW_LOG_MOMENT, moment);
+    sw_store(row + SW_LOG_POINT, at.pose.p);
+    row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
+    row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
+    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->course.span;
+    if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
+      return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);
+  }
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_touches(sw_scene *s, sw_handle tool, size_t *count, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_tool(s, tool, err)) return SW_EDEAD;
+  *count = s->contact ? sw_contact_touches(s->contact) : 0;
+  return SW_OK;
+}
+
+int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_tool_touch *out) {
+  const sw_tool *t = &s->tools[tool.slot];
+  sw_contact_push push;
+  if (!sw_contact_push_at(s->contact, &s->system, number, &push)) return 0;
+  for (size_t k = 0; k < t->pads; k++) {
+    if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
+    const sw_vec arm = sw_sub(push.point, t->now.centre);
+    const size_t wire = sw_system_body_of(&s->system, push.node);
+    *out = (sw_tool_touch){.finger = t->pad[k].finger,
+                           .at = sw_unrotate(t->now.q, arm),
+                           .force = sw_unrotate(t->now.q, push.force),
+                           .normal = push.normal_force,
+                           .s = push.place,
+                           .slid = push.slid,
+                           .wire = s->wires[wire].number,
+                           .name = s->wires[wire].name};
+    return 1;
+  }
+  return 0;
+}
+
+int sw_tool_slipped(const sw_scene *s) {
+  for (size_t k = 0; k < s->tool_count; k++)
+    if (s->tools[k].alive && ((s->tools[k].stops && s->tools[k].now.slip_time == s->time) ||
+                              s->tools[k].now.lost_time == s->time ||
+                              (s->tools[k].crashing && s->tools[k].crash.time == s->time)))
+      return 1;
+  return 0;
+}
+
+sw_status sw_scene_tool_limit(sw_scene *s, sw_handle tool, double margin, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  t->limit = margin;
+  t->now.lost_time = NAN;
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const sw_tool *t = sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  *out = t->now;
+  out->frozen = t->frozen != NULL;
+  const int any = t->crash.depth > 0;
+  out->crash_time = any ? t->crash.time : (double)NAN;
+  out->crash_depth = t->crash.depth;
+  out->crash_part = any ? s->obstacles[t->crash.part].name : "";
+  out->crash_obstacle = any ? s->obstacles[t->crash.obstacle].name : "";
+  out->opening = sw_jaw_at(&t->jaw, s->time);
+  out->status = t->jaw.status;
+  return SW_OK;
+}
+
+sw_status sw_scene_tool_log(sw_scene *s, sw_handle tool, const double **rows, size_t *count,
+                            sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  const int known = tool.slot < s->tool_count && s->tools[tool.slot].generation == tool.generation;
+  const sw_tool *t = known ? &s->tools[tool.slot] : sw_scene_find_tool(s, tool, err);
+  if (!t) return SW_EDEAD;
+  *rows = t->log.rows;
+  *count = t->log.count / SW_LOG_TOOL_SIZE;
+  return SW_OK;
+}

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Largest values of wires: bends, tensions, strains, now and of a run. */
+#include "read/extremes.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+#include "link/hold.h"
+#include "record/wear.h"
+#include "record/zone.h"
+#include "scene/line.h"
+#include "scene/spin.h"
+#include "scene/values.h"
+#include "scene/world.h"
+#include "state/clamp.h"
+
+/* The largest of |t2 - t1| / hinge length, squared: the curvature to second
+ * order in the hinge angle; the exact angle is taken at the place found. */
+SW_HOT
+static double largest_curvature2(size_t n, const double *restrict hinge, const double *restrict tx,
+                                 const double *restrict ty, const double *restrict tz) {
+  double largest = 0;
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
+    const double k2 = hinge[i] > 0 ? (dx * dx + dy * dy + dz * dz) / (hinge[i] * hinge[i]) : 0.0;
+    largest = largest > k2 ? largest : k2;
+  }
+  return largest;
+}
+
+static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
+
+double sw_scene_hinge_chord(const sw_field *f, size_t i) {
+  double d2 = 0;
+  for (int k = 0; k < 3; k++) {
+    const double d = f->tangent[k][i] - f->tangent[k][i - 1];
+    d2 += d * d;
+  }
+  return sqrt(d2);
+}
+
+double sw_scene_clamp_curvature(const sw_system *s, const sw_body *b, const sw_clamp_hinge *h) {
+  const sw_vec t = sw_field_tangent(&b->field, h->edge);
+  return sw_clamp_curvature(h, s->directors_now, s->normals_now, t);
+}
+
+static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  const sw_plan *p = b->plan;
+  const sw_field *f = &b->field;
+  const double bound2 =
+      largest_curvature2(p->nodes, p->hinge, f->tangent[0], f->tangent[1], f->tangent[2]);
+  *out = (sw_extreme){.s = p->s[0]};
+  for (size_t i = 1; i + 1 < p->nodes; i++) {
+    if (!(p->hinge[i] > 0)) continue;
+    const double chord = sw_scene_hinge_chord(f, i);
+    if (chord * chord < (1 - 1e-12) * bound2 * p->hinge[i] * p->hinge[i]) continue;
+    *out = (sw_extreme){.value = angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
+    break;
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    const double value = sw_scene_clamp_curvature(s, b, h);
+    if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
+  }
+}
+
+/* T: of a wire's edges. */
+static void largest_tension(const sw_body *b, const double *T, sw_extreme *out) {
+  *out = (sw_extreme){.value = -HUGE_VAL};
+  for (size_t e = 0; e < b->plan->edges; e++)
+    if (T[e] > out->value)
+      *out = (sw_extreme){.value = T[e], .s = 0.5 * (b->plan->s[e] + b->plan->s[e + 1])};
+}
+
+/* Outermost fibres at hinges, by the mean axial force of both edges and the chord
+ * |t2 - t1| for the angle, exact to its third order. */
+SW_HOT
+static double largest_hinge_strain(size_t n, double half_compliance, double radius,
+                                   const double *restrict T, const double *restrict hinge,
+                                   const double *restrict tx, const double *restrict ty,
+                                   const double *restrict tz) {
+  double largest = -HUGE_VAL;
+  for (size_t i = 1; i + 1 < n; i++) {
+    const double dx = tx[i] - tx[i - 1], dy = ty[i] - ty[i - 1], dz = tz[i] - tz[i - 1];
+    const double chord = sqrt(dx * dx + dy * dy + dz * dz);
+    const double bent = hinge[i] > 0 ? radius * chord / hinge[i] : 0.0;
+    const double strain = half_compliance * (T[i] + T[i - 1]) + bent;
+    largest = largest > strain ? largest : strain;
+  }
+  return largest;
+}
+
+static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
+  if (now->value > kept->value) *kept = *now;
+}
+
+/* The same of a wire that is not straight at rest: without the bend that it has then. */
+static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  const sw_plan *p = b->plan;
+  const double *T = sw_system_elastic(s, b), EA = p->beam.EA, radius = p->beam.radius;
+  *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]};
+  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->s[p->edges]});
+  for (size_t i = 1; i + 1 < p->nodes; i++) {
+    const double bent = radius * sw_scene_flexure(s, b, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
+    keep_largest(out, &(sw_extreme){.value = mean + bent, .s = p->s[i]});
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const double bent = radius * sw_scene_flexure(s, b, p->nodes + c);
+    keep_largest(out, &(sw_extreme){.value = T[p->clamps[c].edge] / EA + bent,
+                                    .s = p->s[p->clamps[c].node]});
+  }
+}
+
+static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out) {
+  if (b->plan->beam.curved) {
+    framed_strain(s, b, out);
+    return;
+  }
+  const sw_plan *p = b->plan;
+  const sw_field *f = &b->field;
+  const double *T = sw_system_elastic(s, b), EA = p->beam.EA, radius = p->beam.radius;
+  const double bound = largest_hinge_strain(p->nodes, 0.5 / EA, radius, T, p->hinge, f->tangent[0],
+                                            f->tangent[1], f->tangent[2]);
+  *out = (sw_extreme){.value = T[0] / EA, .s = p->s[0]}; /* free and pinned ends are not bent */
+  keep_largest(out, &(sw_extreme){.value = T[p->edges - 1] / EA, .s = p->s[p->edges]});
+  for (size_t i = 1; i + 1 < p->nodes && bound > out->value; i++) {
+    const double chord = sw_scene_hinge_chord(f, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
+    const double per_length = p->hinge[i] > 0 ? radius / p->hinge[i] : 0.0;
+    if (mean + per_length * chord < bound - 1e-12 * fabs(bound)) continue;
+    *out = (sw_extreme){.value = mean + per_length * angle_of_chord(chord), .s = p->s[i]};
+    break;
+  }
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    const double bent = radius * sw_scene_clamp_curvature(s, b, h);
+    keep_largest(out, &(sw_extreme){.value = T[h->edge] / EA + bent, .s = p->s[h->node]});
+  }
+}
+
+static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *now) {
+  if (s->wires[w].strand.web) {
+    sw_strand_extremes(s, w, tension, now);
+    now->curvature.time = now->tension.time = now->strain.time = s->time;
+    now->ovalisation.time = now->folding.time = s->time;
+    now->torsion = (sw_extreme){.value = -HUGE_VAL};
+    return;
+  }
+  curvature_extreme(&s->system, &s->system.bodies[w], &now->curvature);
+  const sw_body *b = &s->system.bodies[w];
+  largest_tension(b, sw_system_pull(&s->system, b), &now->tension);
+  strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
+  now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
+  sw_scene_torsion(&s->system, b, &now->torsion);
+  now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = s->time;
+}
+
+void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }
+
+/* Edges, or stretches between rings, whose tension is watched. */
+static size_t watched_edges(const sw_body *b) {
+  const sw_web *web = b->plan->web;
+  if (!web) return b->plan->edges;
+  return web->rings > 1 ? web->rings - 1 : 0;
+}
+
+static double watched_place(const sw_body *b, size_t e) {
+  const sw_web *web = b->plan->web;
+  if (!web) return 0.5 * (b->plan->s[e] + b->plan->s[e + 1]);
+  return 0.5 * (web->s[web->first[e]] + web->s[web->first[e + 1]]);
+}
+
+/* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
+ * are. */
+static int is_averaged(const sw_scene *s) {
+  return s->course.span > 0 &&
+         s->course.span < (1 - 1e-9) * s->course.window; /* times are rounded */
+}
+
+static sw_status fit_window(sw_scene *s, size_t w) {
+  sw_window *window = &s->wires[w].window;
+  const sw_body *b = &s->system.bodies[w];
+  const size_t n = watched_edges(b);
+  if (window->edges == n) return SW_OK;
+  double *places = sw_alloc(n, sizeof *places);
+  if (!places) return SW_ENOMEM;
+  for (size_t e = 0; e < n; e++) places[e] = watched_place(b, e);
+  const sw_status status = sw_window_fit(window, n, places);
+  sw_free(places);
+  return status;
+}
+
+/* The largest mean over the window up to now. */
+static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
+  const sw_window *window = &s->wires[w].window;
+  sw_extreme mean = {.time = window->now};
+  const size_t e = sw_window_largest(window, s->course.window, &mean.value);
+  mean.s = watched_place(&s->system.bodies[w], e);
+  keep_largest(kept, &mean);
+}
+
+/* Was the step that led here one that smears blows? */
+static int is_coarse(const sw_scene *s) { return s->course.span >= (1 - 1e-9) * SW_WINDOW; }
+
+/* A coarse step counts with its mean over time: that at its end, of a blow, says nothing of how
+ * long it lasts. */
+const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
+  const double *mean = s->course.span > 0 && is_coarse(s) ? s->course.stepper.mean : NULL;
+  return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
+}
+
+/* NULL: of a mesh, or at rest, there are only those of the state. */
+static const double *step_tension(const sw_scene *s, const sw_body *b) {
+  return b->plan->web || !(s->course.span > 0) ? NULL : sw_scene_step_tension(s, b);
+}
+
+static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
+  sw_scene_wire *wire = &s->wires[w];
+  sw_wire_extremes *kept = &wire->extremes;
+  const sw_body *b = &s->system.bodies[w];
+  const double *T = step_tension(s, b);
+  sw_extreme step = now->tension;
+  if (T) largest_tension(b, T, &step), step.time = s->time;
+  if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = s->course.span;
+  if (!is_averaged(s)) keep_largest(&kept->tension, &step);
+  if (!is_averaged(s) && !wire->window.marks) return;
+  if (!(s->course.span > 0)) {
+    sw_window_forget(&wire->window);
+    return;
+  }
+  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->course.span,
+                    s->course.window) &&
+      is_averaged(s))
+    keep_mean(s, w, &kept->tension);
+}
+
+void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
+                          sw_wire_extremes *run) {
+  const sw_window *window = &s->wires[w].window;
+  const int counted = isfinite(run->raw.value) && is_coarse(s); /* with its mean */
+  if (!counted && now->tension.value > run->raw.value)
+    run->raw = now->tension, run->raw_span = s->course.span;
+  const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
+  const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
+  if (!fits && (missing || !counted))
+    keep_largest(&run->tension, &now->tension);
+  else if (fits && (missing || (sw_window_waits(window) && is_averaged(s) &&
+                                sw_window_full(window, s->course.window))))
+    keep_mean(s, w, &run->tension);
+}
+
+void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now) {
+  keep_largest(&kept->curvature, &now->curvature);
+  keep_largest(&kept->strain, &now->strain);
+  keep_largest(&kept->ovalisation, &now->ovalisation);
+  keep_largest(&kept->torsion, &now->torsion);
+  if (!(kept->folding.value > 0)) keep_largest(&kept->folding, &now->folding); /* the first fold */
+}
+
+sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, sw_error *err) {
+  double *tension = NULL;
+  if ((is_averaged(s) || s->wires[w].window.marks) && fit_window(s, w) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'", s->wires[w].name);
+  if (s->wires[w].strand.web && s->wires[w].window.edges == watched_edges(&s->system.bodies[w]))
+    tension = sw_window_values(&s->wires[w].window);
+  wire_now(s, w, tension, now);
+  sw_scene_keep_extremes(&s->wires[w].extremes, now);
+  keep_tension(s, w, now);
+  return SW_OK;
+}
+
+void sw_scene_reset_extremes(sw_scene *s) {
+  for (size_t w = 0; w < s->wire_count; w++) {
+    const sw_extreme least = {.value = -HUGE_VAL};
+    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
+    sw_window_forget(&s->wires[w].window);
+    sw_wear_free(&s->wires[w].wear);
+    sw_zones_forget(&s->wires[w].zones);
+    if (s->built) s->system.bodies[w].pushed = 0;
+  }
+  s->deepest = (sw_extreme){0};
+  s->wears = 0;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Largest values of wires, now and of a run. */
+#ifndef SW_READ_EXTREMES_H
+#define SW_READ_EXTREMES_H
+
+#include "read/reading.h"
+#include "scene/values.h"
+#include "state/clamp.h"
+#include "state/field.h"
+#include "system/system.h"
+
+/* Extremes of wire w at the refreshed state. */
+void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
+/* The tensions of the run so far, the state now included. */
+void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extremes *now,
+                          sw_wire_extremes *run);
+/* Keep the larger ones, but for the tension. */
+void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
+void sw_scene_reset_extremes(sw_scene *scene);
+/* Axial forces of the edges of a line in the step that led here (edges) [N]. */
+const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
+/* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
+sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
+/* |t2 - t1| at inner node i of a line [-]; the curvature beside a clamp [1/m]. */
+double sw_scene_hinge_chord(const sw_field *field, size_t i);
+double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,
+                                const sw_clamp_hinge *hinge);
+
+#endif

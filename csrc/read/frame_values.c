@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What frames tell of the nodes of a wire: of a line as it is at them, of a mesh of particles at
+ * its middle line. */
+#include <math.h>
+#include <string.h>
+
+#include "base/tape.h"
+#include "contact/grains.h"
+#include "read/extremes.h"
+#include "read/kept_frames.h"
+#include "scene/line.h"
+#include "scene/parts.h"
+#include "scene/spin.h"
+#include "scene/values.h"
+#include "state/clamp.h"
+#include "state/field.h"
+#include "state/plan.h"
+#include "system/axial.h"
+
+static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
+
+/* As angle_of_chord, within 5e-9 of it and without its cost where it is small. */
+static double quick_angle(double chord) {
+  const double c2 = chord * chord;
+  return c2 < 1e-3 ? chord * (1 + c2 / 24) : angle_of_chord(chord);
+}
+
+/* The strain of the outermost fibre, of axial force and the bend beyond that at rest. */
+static double fibre_stress(const sw_beam *beam, double T, double bent) {
+  return beam->E * (T / beam->EA + beam->radius * bent);
+}
+
+static void line_values(const sw_system *s, const sw_body *b, float *out) {
+  const sw_plan *p = b->plan;
+  const double *T = sw_system_elastic(s, b);
+  const int turns = b->spin_block || b->has_twist, curved = p->beam.curved;
+  double before = T[0];
+  for (size_t i = 0; i < p->nodes; i++, out += SW_FRAME_VALUES) {
+    const double after = i < p->edges ? T[i] : before, mean = 0.5 * (before + after);
+    const int inner = i > 0 && i + 1 < p->nodes && p->hinge[i] > 0;
+    const double bent = inner ? quick_angle(sw_scene_hinge_chord(&b->field, i)) / p->hinge[i] : 0.0;
+    out[SW_FRAME_TENSION] = (float)mean;
+    out[SW_FRAME_CURVATURE] = (float)bent;
+    out[SW_FRAME_TWIST] = turns ? (float)sw_scene_torque(s, b, p->s[i]) : 0.0f;
+    out[SW_FRAME_STRESS] =
+        (float)fibre_stress(&p->beam, mean, inner && curved ? sw_scene_flexure(s, b, i) : bent);
+    out[SW_FRAME_ARC] = (float)(p->s[i] - p->s[0]);
+    before = after;
+  }
+}
+
+/* Beside clamps the bend is that towards the direction which they hold. */
+static void clamp_values(const sw_system *s, const sw_body *b, float *out) {
+  const sw_plan *p = b->plan;
+  const double *T = sw_system_elastic(s, b);
+  for (size_t c = 0; c < p->clamp_count; c++) {
+    const sw_clamp_hinge *h = &p->clamps[c];
+    float *at = out + SW_FRAME_VALUES * h->node;
+    const double bent = sw_scene_clamp_curvature(s, b, h);
+    const double beyond = p->beam.curved ? sw_scene_flexure(s, b, p->nodes + c) : bent;
+    at[SW_FRAME_CURVATURE] = fmaxf(at[SW_FRAME_CURVATURE], (float)bent);
+    at[SW_FRAME_STRESS] =
+        fmaxf(at[SW_FRAME_STRESS], (float)fibre_stress(&p->beam, T[h->edge], beyond));
+  }
+}
+
+static void strand_values(sw_scene *s, size_t w, size_t n, float *out) {
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
+  const double *arc = sw_scene_wire_in(s, w)->mesh.s;
+  for (size_t i = 0; i < n; i++, out += SW_FRAME_VALUES) {
+    sw_point_state at;
+    sw_strand_at(s, sw_scene_wire_in(s, w), b, arc[i], &at);
+    out[SW_FRAME_TENSION] = (float)at.tension, out[SW_FRAME_CURVATURE] = (float)at.curvature;
+    out[SW_FRAME_TWIST] = (float)at.twist_moment;
+    out[SW_FRAME_STRESS] = (float)(b->plan->beam.E * at.strain);
+    out[SW_FRAME_ARC] = (float)(arc[i] - arc[0]);
+  }
+}
+
+/* A share of a force presses on the node of the system, if it is the body's. */
+static void press(const sw_body *b, size_t node, double share, double normal, sw_vec force,
+                  float *out) {
+  if (node < b->first_node || node >= b->first_node + b->plan->nodes) return;
+  const sw_web *web = b->plan->web;
+  const size_t i = node - b->first_node;
+  float *at = out + SW_FRAME_VALUES * (web ? sw_web_ring_of(web, i) : i);
+  at[SW_FRAME_CONTACT] += (float)(share * normal);
+  at[SW_FRAME_FORCE] += (float)(share * force.x);
+  at[SW_FRAME_FORCE + 1] += (float)(share * force.y);
+  at[SW_FRAME_FORCE + 2] += (float)(share * force.z);
+}
+
+static void press_obstacles(const sw_scene *s, const sw_body *b, float *out) {
+  size_t k = 0, end = 0;
+  if (sw_scene_contact(s))
+    sw_contact_touches_of(sw_scene_contact(s), b->first_node, b->first_node + b->plan->nodes, &k,
+                          &end);
+  for (; k < end; k++) {
+    sw_contact_push p;
+    if (!sw_contact_push_at(sw_scene_contact(s), sw_scene_system(s), k, &p)) continue;
+    press(b, p.node, 1 - p.at, p.normal_force, p.force, out);
+    press(b, p.other, p.at, p.normal_force, p.force, out);
+  }
+}
+
+/* A place where two bodies press on each other: the first bears the force, the second its
+ * opposite. Of a particle the place along its edge is 0. */
+static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place *p, float *out) {
+  const sw_vec force = sw_madd(p->friction, p->normal, p->normal_force);
+  for (int k = 0; k < 2; k++) {
+    if (&sw_scene_system(s)->bodies[p->body[k]] != b) continue;
+    const sw_vec own = k ? sw_neg(force) : force;
+    press(b, p->node[k], 1 - p->at[k], p->normal_force, own, out);
+    if (p->at[k] > 0) press(b, p->node[k] + 1u, p->at[k], p->normal_force, own, out);
+  }
+}
+
+static void press_wires(const sw_scene *s, const sw_body *b, float *out) {
+  const size_t pairs = sw_scene_pairs(s) ? sw_pairs_count(sw_scene_pairs(s)) : 0;
+  const size_t grains = sw_scene_grains(s) ? sw_grains_count(sw_scene_grains(s)) : 0;
+  for (size_t k = 0; k < pairs + grains; k++) {
+    const sw_pair_place p = k < pairs ? sw_pairs_place(sw_scene_pairs(s), k)
+                                      : sw_grains_place(sw_scene_grains(s), k - pairs);
+    press_place(s, b, &p, out);
+  }
+}
+
+void sw_scene_node_values(sw_scene *s, size_t w, size_t n, float *out) {
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
+  memset(out, 0, SW_FRAME_VALUES * n * sizeof *out);
+  if (b->plan->web) {
+    strand_values(s, w, n, out);
+  } else {
+    line_values(system, b, out);
+    clamp_values(system, b, out);
+  }
+  press_obstacles(s, b, out);
+  press_wires(s, b, out);
+}

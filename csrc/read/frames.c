@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frames: what a picture or a player needs, stored at even times of a run. One block of floats a
+ * frame: obstacles and holds (SW_FRAME_BODY numbers and a flag: there, held), tools, then for each
+ * wire, of those that are gone too (with zeros), its node count and positions, how many values each
+ * node has and these, the number of its surface's points in a section (0: it is no mesh of
+ * particles), and these points with the force across the surface at each. */
+#include "read/frames.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "grip/jaws.h"
+#include "link/hold.h"
+#include "read/kept_frames.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/world.h"
+#include "state/web.h"
+#include "strand/ring.h"
+
+enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD, NONE = 3, LEAST = 3 }; /* NONE: of a gone body */
+
+const double SW_FRAME_MEMORY = 256e6;
+
+void sw_scene_drop_frames(sw_scene *s) {
+  for (size_t i = 0; i < s->frame_count; i++) sw_free(s->frames[i].data);
+  s->frame_count = 0;
+  s->frame_stride = 1;
+  s->frame_bytes = 0;
+}
+
+sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  sw_scene_drop_frames(s);
+  return SW_OK;
+}
+
+sw_status sw_scene_keep_frames(sw_scene *s, double memory, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  s->frame_memory = memory;
+  return SW_OK;
+}
+
+size_t sw_scene_frames_thinned(const sw_scene *s) { return s->frame_stride; }
+
+static double bytes_of(const sw_frame *f) {
+  return (double)(f->size * sizeof *f->data + sizeof *f);
+}
+
+/* Every second one goes. The last one stays: what is due next is two of them later. */
+static void thin(sw_scene *s) {
+  size_t kept = 0;
+  for (size_t i = 0; i < s->frame_count; i++) {
+    if (i % 2 == 0) {
+      s->frames[kept++] = s->frames[i];
+      continue;
+    }
+    s->frame_bytes -= bytes_of(&s->frames[i]);
+    sw_free(s->frames[i].data);
+  }
+  s->frame_count = kept;
+  s->frame_stride *= 2;
+}
+
+void sw_scene_drop_last_frame(sw_scene *s) {
+  s->frame_bytes -= bytes_of(&s->frames[--s->frame_count]);
+  sw_free(s->frames[s->frame_count].data);
+}
+
+/* Frames of a run from another state may tell of what the scene does not know, or of later. */
+static int is_of_past(const sw_scene *s, const sw_frame *f) {
+  return f->time <= s->time && f->wires <= sw_scene_bodies_made(s) &&
+         f->obstacles <= s->obstacle_count && f->holds <= s->hold_count &&
+         f->tools <= s->tool_count;
+}
+
+void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
+  const size_t ratio = s->frame_stride > stride && stride ? s->frame_stride / stride : 1;
+  size_t kept = (count + ratio - 1) / ratio;
+  if (kept > s->frame_count) kept = s->frame_count;
+  for (size_t k = 0; k < kept; k++)
+    if (!is_of_past(s, &s->frames[k])) kept = k;
+  while (s->frame_count > kept) sw_scene_drop_last_frame(s);
+}
+
+static void store_vec(float *out, sw_vec a) {
+  out[0] = (float)a.x, out[1] = (float)a.y, out[2] = (float)a.z;
+}
+
+static void store_body(float *out, sw_pose pose, sw_vec force) {
+  store_vec(out, pose.p);
+  out[3] = (float)pose.q.w, out[4] = (float)pose.q.x;
+  out[5] = (float)pose.q.y, out[6] = (float)pose.q.z;
+  store_vec(out + SW_FRAME_POSE, force);
+}
+
+/* The middle line of a mesh and its surface. */
+static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error *err) {
+  const sw_web *web = b->plan->web;
+  const size_t around = web->around_count;
+  const double *x = s->system.x + 3 * b->first_node;
+  double outline[3 * SW_OUTLINE], wide[3 * SW_OUTLINE];
+  float *p = *to;
+  double *pressed = sw_alloc(b->plan->nodes, sizeof *pressed);
+  if (!pressed) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  sw_strand_pressed(s, b, pressed, NULL);
+  *p++ = (float)web->rings;
+  for (size_t r = 0; r < web->rings; r++, p += 3) store_vec(p, sw_strand_middle(web, x, r));
+  *p++ = SW_FRAME_VALUES;
+  sw_scene_node_values(s, (size_t)(b - s->system.bodies), web->rings, p);
+  p += SW_FRAME_VALUES * web->rings;
+  *p++ = (float)around;
+  for (size_t r = 0; r < web->rings; r++) {
+    sw_strand_outline(web, x, r, outline);
+    sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin - web->proud, wide);
+    for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
+      store_vec(p, sw_vec_at(wide, k));
+      p[3] = (float)pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
+    }
+  }
+  sw_free(pressed);
+  *to = p;
+  return SW_OK;
+}
+
+/* Numbers that a wire takes in a frame. */
+static size_t size_of(const sw_plan *p) {
+  if (!p->web) return 3 + (3 + SW_FRAME_VALUES) * p->nodes;
+  if (!p->web->per_ring) return 3 + 3 * p->nodes;
+  return 3 + (3 + SW_FRAME_VALUES + SW_FRAME_SURFACE * p->web->around_count) * p->web->rings;
+}
+
+static sw_status fill_bodies(sw_scene *s, float **to, sw_error *err) {
+  float *p = *to;
+  sw_motion_state at;
+  sw_vec force, moment;
+  sw_error unknown;
+  for (size_t k = 0; k < s->obstacle_count; k++, p += HOLD) {
+    SW_TRY(sw_drive_eval(s, &s->obstacles[k].drive, s->time, &at, err));
+    sw_obstacle_mean(&s->obstacles[k], at.pose.p, &force, &moment);
+    store_body(p, at.pose, force);
+    p[SW_FRAME_BODY] = (float)s->obstacles[k].alive;
+  }
+  for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
+    const sw_hold *h = &s->holds[k];
+    at.pose = h->last_pose;
+    if (h->alive) SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
+    store_body(p, at.pose, h->alive ? h->force : sw_v(0, 0, 0));
+    p[SW_FRAME_BODY] = (float)h->alive;
+  }
+  for (size_t k = 0; k < s->tool_count; k++, p += TOOL) {
+    const sw_handle tool = {(uint32_t)k, s->tools[k].generation};
+    SW_TRY(sw_drive_eval(s, &s->tools[k].drive, s->time, &at, err));
+    if (sw_scene_tool_force(s, tool, NULL, &force, &moment, &unknown) != SW_OK)
+      force = sw_v(0, 0, 0);
+    store_body(p, at.pose, force);
+  }
+  *to = p;
+  return SW_OK;
+}
+
+static sw_status fill_body(sw_scene *s, size_t w, float **to, sw_error *err) {
+  const sw_body *b = &s->system.bodies[w];
+  const sw_web *web = b->plan->web;
+  float *p = *to;
+  if (web && web->per_ring) return fill_strand(s, b, to, err);
+  const double *x = s->system.x + 3 * b->first_node;
+  *p++ = (float)b->plan->nodes;
+  for (size_t i = 0; i < 3 * b->plan->nodes; i++) *p++ = (float)x[i];
+  *p++ = web ? 0 : SW_FRAME_VALUES;
+  if (!web) sw_scene_node_values(s, w, b->plan->nodes, p);
+  if (!web) p += SW_FRAME_VALUES * b->plan->nodes;
+  *p++ = 0;
+  *to = p;
+  return SW_OK;
+}
+
+static sw_status fill(sw_scene *s, float *p, sw_error *err) {
+  size_t w = 0;
+  SW_TRY(fill_bodies(s, &p, err));
+  for (size_t k = 0; k < sw_scene_bodies_made(s); k++) {
+    if (w == s->wire_count || s->wires[w].number != k) { /* it is gone */
+      *p++ = 0, *p++ = 0, *p++ = 0;
+      continue;
+    }
+    SW_TRY(fill_body(s, w++, &p, err));
+  }
+  return SW_OK;
+}
+
+static sw_status add_frame(sw_scene *s, sw_error *err) {
+  sw_frame f = {.time = s->time,
+                .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count) +
+                        NONE * s->gone_count,
+                .wires = sw_scene_bodies_made(s),
+                .obstacles = s->obstacle_count,
+                .holds = s->hold_count,
+                .tools = s->tool_count};
+  for (size_t w = 0; w < s->wire_count; w++) f.size += size_of(s->system.bodies[w].plan);
+  if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
+      SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  f.data = sw_alloc(f.size, sizeof *f.data);
+  if (!f.data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
+  sw_scene_frame_energies(s, f.energy);
+  const sw_status status = fill(s, f.data, err);
+  if (status != SW_OK) {
+    sw_free(f.data);
+    return status;
+  }
+  s->frames[s->frame_count++] = f;
+  s->frame_bytes += bytes_of(&f);
+  return SW_OK;
+}
+
+sw_status sw_scene_frame_now(sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_still(s, err));
+  SW_TRY(sw_scene_build(s, err));
+  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  sw_system_refresh(&s->system);
+  return add_frame(s, err);
+}
+
+sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+  SW_TRY(add_frame(s, err));
+  const sw_frame f = s->frames[s->frame_count - 1];
+  if (s->frame_count % 2 && s->frame_count > LEAST &&
+      s->frame_bytes + 2 * bytes_of(&f) > s->frame_memory)
+    thin(s);
+  return SW_OK;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A frame of a run as the scene keeps it. Of its inside. */
+#ifndef SW_READ_KEPT_FRAMES_H
+#define SW_READ_KEPT_FRAMES_H
+
+#include "read/frames.h"
+#include "system/system.h"
+
+/* Numbers of a tool, and of a hold or an obstacle, in its block [-]. */
+enum { SW_FRAME_TOOL = SW_FRAME_BODY, SW_FRAME_HOLD = SW_FRAME_BODY + 1 };
+
+typedef struct sw_frame {
+  double time;                      /* [s] */
+  double energy[SW_FRAME_ENERGIES]; /* [J] */
+  float *data;                      /* one block, see frames.c */
+  size_t size;                      /* of the block [-] */
+  size_t wires, obstacles, holds, tools;
+} sw_frame;
+
+/* How many numbers the frame's block has; 0: more than room, or its counts make no sense. */
+int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
+
+/* Kinetic, elastic, gravity energy of the state [J]. */
+void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
+sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
+void sw_scene_drop_frames(sw_scene *scene);
+/* A snapshot with so many frames, one of stride, is restored: what came later goes. */
+void sw_scene_frames_back_to(sw_scene *scene, size_t count, size_t stride);
+/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
+void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, float *out);
+
+/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
+ * NULL, in all (particles x 3) [N]. */
+void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
+
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/cycles.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Kinds of ranges: so many to an octave from the widest down, then coarser ones, then one. */
+static const double FINE = 16, FINE_OCTAVES = 2, COARSE = 2, COARSE_OCTAVES = 10;
+
+/* Which kind a range is of, where the widest is so wide; those below are of lower ones. */
+static double kind_of(double range, double widest) {
+  const double below = log2(widest / range);
+  if (below < FINE_OCTAVES) return floor(FINE * log2(range));
+  if (below < COARSE_OCTAVES) return floor(COARSE * log2(range)) - 1e6;
+  return -1e7;
+}
+
+/* Two kinds as one that damages at least as much: ranges add up as their power of the slope. */
+static sw_cycle joined(const sw_cycle *a, const sw_cycle *b) {
+  const double share = a->range / b->range, count = a->count + b->count;
+  const double mean = (a->count * pow(share, SW_CYCLES_SLOPE) + b->count) / count;
+  return (sw_cycle){.range = b->range * pow(mean, 1.0 / SW_CYCLES_SLOPE),
+                    .mean = fmax(a->mean, b->mean),
+                    .count = count};
+}
+
+/* Join neighbours that are of one kind; the two lowest where there is still no room. */
+static int condense(sw_cycle *list, int count) {
+  const double widest = list[count - 1].range;
+  int n = 0;
+  for (int k = 0; k < count; k++) {
+    const int same = n > 0 && kind_of(list[n - 1].range, widest) == kind_of(list[k].range, widest);
+    if (same)
+      list[n - 1] = joined(&list[n - 1], &list[k]);
+    else
+      list[n++] = list[k];
+  }
+  if (n <= SW_CYCLES_KEPT) return n;
+  list[0] = joined(&list[0], &list[1]);
+  memmove(&list[1], &list[2], (size_t)(n - 2) * sizeof *list);
+  return n - 1;
+}
+
+/* Ranges of which one is so much of the other are one [-]. */
+static const double SAME = 1e-12;
+
+static void keep(sw_cycles *c, double a, double b, double count) {
+  const sw_cycle new = {.range = fabs(b - a), .mean = 0.5 * (a + b), .count = count};
+  sw_cycle list[SW_CYCLES_KEPT + 1];
+  int k = c->count;
+  if (!(new.range > 0)) return;
+  while (k > 0 && c->kept[k - 1].range > new.range) k--;
+  for (int i = k > 0 ? k - 1 : 0; i <= k && i < c->count; i++) {
+    sw_cycle *old = &c->kept[i];
+    if (fabs(old->range - new.range) > SAME * new.range) continue;
+    old->count += count, old->mean = fmax(old->mean, new.mean);
+    return;
+  }
+  memcpy(list, c->kept, (size_t)k * sizeof *list);
+  list[k] = new;
+  memcpy(list + k + 1, c->kept + k, (size_t)(c->count - k) * sizeof *list);
+  c->count++;
+  if (c->count > SW_CYCLES_KEPT) c->count = condense(list, c->count);
+  memcpy(c->kept, list, (size_t)c->count * sizeof *list);
+}
+
+static void drop(sw_cycles *c, int first, int count) {
+  memmove(c->open + first, c->open + first + count,
+          (size_t)(c->opened - first - count) * sizeof *c->open);
+  c->opened -= count;
+}
+
+static void close_cycles(sw_cycles *c) {
+  double *x = c->open;
+  while (c->opened >= 3) {
+    const int n = c->opened;
+    if (fabs(x[n - 1] - x[n - 2]) < fabs(x[n - 2] - x[n - 3])) return;
+    keep(c, x[n - 3], x[n - 2], n == 3 ? 0.5 : 1.0); /* of three, the history's start is in it */
+    drop(c, n == 3 ? 0 : n - 3, n == 3 ? 1 : 2);
+  }
+}
+
+void sw_cycles_add(sw_cycles *c, double value) {
+  double *x = c->open;
+  const int n = c->opened;
+  if (!isfinite(value) || (n > 0 && value == x[n - 1])) return;
+  if (n >= 2 && (x[n - 1] > x[n - 2]) == (value > x[n - 1])) {
+    x[n - 1] = value; /* it goes on the same way */
+  } else {
+    if (n == SW_CYCLES_OPEN) { /* a swing that dies away: two of its halves are one cycle */
+      keep(c, x[n - 2], x[n - 1], 1.0);
+      drop(c, n - 2, 2);
+    }
+    x[c->opened++] = value;
+  }
+  close_cycles(c);
+}
+
+size_t sw_cycles_read(const sw_cycles *c, sw_cycle *out) {
+  size_t n = 0;
+  for (int k = 0; k < c->count; k++) out[n++] = c->kept[k];
+  for (int k = 0; k + 1 < c->opened; k++) {
+    const double a = c->open[k], b = c->open[k + 1];
+    out[n++] = (sw_cycle){.range = fabs(b - a), .mean = 0.5 * (a + b), .count = 0.5};
+  }
+  return n;
+}
+
+double sw_cycles_widest(const sw_cycles *c) {
+  double widest = c->count ? c->kept[c->count - 1].range : 0;
+  for (int k = 0; k + 1 < c->opened; k++) widest = fmax(widest, fabs(c->open[k + 1] - c->open[k]));
+  return widest;
+}
+
+int sw_cycles_fine(const sw_cycles *c) {
+  if (c->opened < 0 || c->opened > SW_CYCLES_OPEN || c->count < 0 || c->count > SW_CYCLES_KEPT)
+    return 0;
+  for (int k = 0; k < c->opened; k++)
+    if (!isfinite(c->open[k])) return 0;
+  for (int k = 0; k < c->count; k++) {
+    const sw_cycle *x = &c->kept[k];
+    if (!(isfinite(x->range + x->mean + x->count) && x->range >= 0 && x->count > 0)) return 0;
+    if (k && x->range < c->kept[k - 1].range) return 0;
+  }
+  return 1;
+}

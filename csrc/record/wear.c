@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/wear.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+
+void sw_wear_free(sw_wear *w) {
+  sw_free(w->places);
+  sw_free(w->cycles);
+  sw_free(w->across);
+  *w = (sw_wear){0};
+}
+
+static void tape_cycles(sw_tape *t, sw_cycles *c) {
+  SW_TAPE_STRUCT(t, sw_cycles, 1544);
+  sw_tape_int(t, &c->opened), sw_tape_int(t, &c->count);
+  if (sw_tape_reads(t)) {
+    const int fine = c->opened >= 0 && c->opened <= SW_CYCLES_OPEN && c->count >= 0 &&
+                     c->count <= SW_CYCLES_KEPT;
+    const sw_cycles none = {.opened = fine ? c->opened : 0, .count = fine ? c->count : 0};
+    sw_tape_expect(t, fine, "a count of cycles");
+    *c = none;
+  }
+  sw_tape_raw(t, c->open, (size_t)c->opened * sizeof *c->open);
+  sw_tape_raw(t, c->kept, (size_t)c->count * sizeof *c->kept);
+  if (sw_tape_reads(t)) sw_tape_expect(t, sw_cycles_fine(c), "a count of cycles");
+}
+
+static void tape_place(sw_tape *t, sw_wear_place *x) {
+  SW_TAPE_STRUCT(t, sw_wear_place, 104); /* load and touches are of one state */
+  sw_tape_double(t, &x->s), sw_tape_double(t, &x->rubbed), sw_tape_double(t, &x->slid);
+  sw_tape_double(t, &x->turn), sw_tape_vec(t, &x->tangent), sw_tape_vec(t, &x->across);
+  sw_tape_int(t, &x->side), sw_tape_int(t, &x->seen);
+  const double all = x->s + x->rubbed + x->slid + x->turn;
+  sw_tape_expect(t, isfinite(all) && sw_finite(x->tangent) && sw_finite(x->across), "wear");
+}
+
+void sw_tape_wear(sw_tape *t, sw_wear *w) {
+  size_t count = w->count, nodes = w->nodes;
+  SW_TAPE_STRUCT(t, sw_wear, 80); /* across is room for work */
+  sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
+  sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
+  if (!sw_tape_good(t)) return;
+  if (sw_tape_reads(t) && count != w->count) {
+    sw_wear_free(w);
+    if (count) {
+      w->places = sw_alloc(count, sizeof *w->places);
+      w->cycles = sw_alloc(SW_WEAR_SIGNALS * count, sizeof *w->cycles);
+      if (!w->places || !w->cycles) {
+        sw_wear_free(w);
+        sw_tape_fail(t, SW_ENOMEM);
+        return;
+      }
+    }
+    w->count = count;
+  }
+  w->nodes = nodes;
+  sw_tape_raw(t, &w->holds, sizeof w->holds), sw_tape_int(t, &w->partial);
+  sw_tape_double(t, &w->sidewall.value), sw_tape_double(t, &w->sidewall.s);
+  sw_tape_double(t, &w->sidewall.time);
+  for (size_t k = 0; k < w->count && sw_tape_good(t); k++) tape_place(t, &w->places[k]);
+  for (size_t k = 0; k < SW_WEAR_SIGNALS * w->count && sw_tape_good(t); k++)
+    tape_cycles(t, &w->cycles[k]);
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/window.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/simd.h"
+
+static const double SLACK = 1e-9; /* of a window, by which times may be rounded [-] */
+
+static double *sum_of(const sw_window *w) { return w->room + 2 * w->edges; }
+
+/* Mark number k, the oldest first. */
+static size_t slot(const sw_window *w, size_t k) { return (w->first + k) % SW_WINDOW_MARKS; }
+
+static double *mark_of(const sw_window *w, size_t k) {
+  return w->room + (3 + slot(w, k)) * w->edges;
+}
+
+void sw_window_free(sw_window *w) {
+  sw_free(w->room);
+  memset(w, 0, sizeof *w);
+}
+
+void sw_window_forget(sw_window *w) { w->marks = 0; }
+
+sw_status sw_window_fit(sw_window *w, size_t edges, const double *places) {
+  if (w->edges == edges) {
+    if (edges) memcpy(w->room, places, edges * sizeof *places);
+    return SW_OK;
+  }
+  double *room = edges ? sw_alloc(sw_window_size(edges), sizeof *room) : NULL;
+  if (edges && !room) return SW_ENOMEM;
+  for (size_t e = 0, old = 0; e < edges; e++) {
+    const double *was = w->room;
+    while (old + 1 < w->edges && fabs(was[old + 1] - places[e]) <= fabs(was[old] - places[e]))
+      old++;
+    room[e] = places[e];
+    for (size_t k = 1; w->edges && k < 3 + SW_WINDOW_MARKS; k++)
+      room[k * edges + e] = w->room[k * w->edges + old];
+  }
+  if (!w->edges || !edges) w->marks = 0;
+  sw_free(w->room);
+  w->room = room;
+  w->edges = edges;
+  return SW_OK;
+}
+
+SW_HOT
+static void add(size_t n, double h, const double *restrict values, double *restrict sum) {
+  for (size_t e = 0; e < n; e++) sum[e] += h * values[e];
+}
+
+SW_HOT
+static double largest_rise(size_t n, const double *restrict sum, double a,
+                           const double *restrict one, double b, const double *restrict two) {
+  double largest = -HUGE_VAL;
+  for (size_t e = 0; e < n; e++) {
+    const double rise = sum[e] - (a * one[e] + b * two[e]);
+    largest = largest > rise ? largest : rise;
+  }
+  return largest;
+}
+
+static void put_mark(sw_window *w, double time) {
+  if (w->marks == SW_WINDOW_MARKS)
+    w->first = slot(w, 1);
+  else
+    w->marks++;
+  w->time[slot(w, w->marks - 1)] = time;
+  memcpy(mark_of(w, w->marks - 1), sum_of(w), w->edges * sizeof(double));
+}
+
+int sw_window_add(sw_window *w, const double *values, double time, double h, double window) {
+  if (!w->edges) return 0;
+  if (!w->marks) {
+    memset(sum_of(w), 0, w->edges * sizeof(double));
+    w->first = 0;
+    w->begun = time - h;
+    put_mark(w, w->begun);
+  }
+  add(w->edges, h, values, sum_of(w));
+  w->now = time;
+  if (time - w->time[slot(w, w->marks - 1)] < (1 - SLACK) / SW_WINDOW_PARTS * window) return 0;
+  put_mark(w, time);
+  return sw_window_full(w, window);
+}
+
+int sw_window_full(const sw_window *w, double window) {
+  return w->marks && w->now - w->begun >= (1 - SLACK) * window;
+}
+
+int sw_window_waits(const sw_window *w) {
+  return w->marks && w->now > w->time[slot(w, w->marks - 1)];
+}
+
+size_t sw_window_largest(const sw_window *w, double window, double *mean) {
+  const double length = fmin(window, w->now - w->begun), from = w->now - length;
+  size_t k = w->marks; /* the mark after the window's beginning; the newest are looked at first */
+  while (k > 0 && !(w->time[slot(w, k - 1)] < from)) k--;
+  const double *sum = sum_of(w), *two = k < w->marks ? mark_of(w, k) : sum;
+  const double *one = k > 0 ? mark_of(w, k - 1) : two;
+  const double t2 = k < w->marks ? w->time[slot(w, k)] : w->now;
+  const double t1 = k > 0 ? w->time[slot(w, k - 1)] : t2;
+  const double b = t2 > t1 ? fmax(0.0, (from - t1) / (t2 - t1)) : 1.0, a = 1.0 - b;
+  const double largest = largest_rise(w->edges, sum, a, one, b, two);
+  size_t edge = 0;
+  for (size_t e = 0; e < w->edges; e++)
+    if (!(sum[e] - (a * one[e] + b * two[e]) < largest)) {
+      edge = e;
+      break;
+    }
+  *mean = largest / length;
+  return edge;
+}
+
+/* --- on a tape ------------------------------------------------------------------- */
+
+static void tape_times(sw_tape *t, sw_window *w) {
+  double before;
+  sw_tape_double(t, &w->now), sw_tape_double(t, &w->begun);
+  sw_tape_expect(t, w->begun <= w->now, "a window");
+  before = w->begun;
+  for (size_t k = 0; k < w->marks && sw_tape_good(t); k++) {
+    double *time = &w->time[slot(w, k)];
+    sw_tape_double(t, time);
+    sw_tape_expect(t, *time >= before && *time <= w->now, "a window");
+    before = *time;
+  }
+}
+
+/* A record that is to begin anew leaves nothing to be kept; of another one what is in use. */
+void sw_tape_window(sw_tape *t, sw_window *w) {
+  size_t edges = w->marks ? w->edges : 0, marks = w->marks;
+  SW_TAPE_STRUCT(t, sw_window, 192);
+  sw_tape_count(t, &edges, 3 * sizeof *w->room);
+  sw_tape_size(t, &marks);
+  sw_tape_expect(t, (marks > 0) == (edges > 0) && marks <= SW_WINDOW_MARKS, "a window");
+  if (!sw_tape_good(t)) return;
+  if (sw_tape_reads(t) && marks && w->edges != edges) {
+    sw_window_free(w);
+    w->room = sw_alloc(sw_window_size(edges), sizeof *w->room);
+    if (!w->room) sw_tape_fail(t, SW_ENOMEM);
+    w->edges = w->room ? edges : 0;
+  }
+  if (sw_tape_reads(t)) memset(w->time, 0, sizeof w->time);
+  if (sw_tape_reads(t)) w->marks = w->edges ? marks : 0, w->first = 0;
+  if (!w->marks || !sw_tape_good(t)) return;
+  tape_times(t, w);
+  sw_tape_raw(t, w->room, edges * sizeof *w->room);
+  sw_tape_raw(t, sum_of(w), edges * sizeof *w->room);
+  for (size_t k = 0; k < w->marks; k++) sw_tape_raw(t, mark_of(w, k), edges * sizeof *w->room);
+  if (!sw_tape_reads(t) || t->home) return;
+  sw_tape_finite(t, w->room, sw_window_size(edges), "a window");
+  for (size_t e = 0; e + 1 < edges; e++) sw_tape_expect(t, w->room[e] < w->room[e + 1], "a window");
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Momentum of a wire whose model changes: measured before, made the same afterwards. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "read/reading.h"
+#include "remodel/line.h"
+#include "scene/parts.h"
+#include "scene/values.h"
+#include "solve/dense.h"
+#include "system/system.h"
+
+/* Momentum of velocities v and its moment about a point: out, 6 numbers [N s], [N m s]. */
+static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec about,
+                     double out[6]) {
+  sw_vec P = sw_v(0, 0, 0), L = sw_v(0, 0, 0);
+  for (size_t i = 0; i < p->nodes; i++) {
+    sw_vec m = sw_scale(sw_vec_at(v, i), p->mass_own[i]);
+    if (i > 0) m = sw_madd(m, sw_vec_at(v, i - 1), p->mass_next[i - 1]);
+    if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(v, i + 1), p->mass_next[i]);
+    P = sw_add(P, m);
+    L = sw_add(L, sw_cross(sw_sub(sw_vec_at(x, i), about), m));
+  }
+  sw_store(out, P);
+  sw_store(out + 3, L);
+}
+
+/* Rigid motions that have less of what the most massive one has are none: of a straight wire about
+ * itself [-]. */
+static const double LEAST = 1e-10;
+
+/* A rigid motion of what is free: number k < 3 shifts, else turns about a point; the turn's
+ * speed is that at a distance. */
+static void rigid(const sw_plan *p, const double *x, sw_vec about, double distance, size_t k,
+                  double *v) {
+  const sw_vec unit = sw_v(k % 3 == 0, k % 3 == 1, k % 3 == 2);
+  for (size_t i = 0; i < p->nodes; i++) {
+    const sw_vec arm = sw_scale(sw_sub(sw_vec_at(x, i), about), 1.0 / distance);
+    const sw_vec at = k < 3 ? unit : sw_cross(unit, arm);
+    sw_store(v + 3 * i, p->held[i] == SW_FREE ? at : sw_v(0, 0, 0));
+  }
+}
+
+/* Give the built wire the momentum wanted. */
+sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double wanted[6]) {
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const double *x = system->x + 3 * b->first_node, size = b->plan->length;
+  double *v = system->v + 3 * b->first_node, A[6][6], y[6], now[6], column[6];
+  double *field = sw_alloc(3 * b->plan->nodes, sizeof *field);
+  if (!field) return SW_ENOMEM;
+  momentum(b->plan, x, v, about, now);
+  for (size_t k = 0; k < 6; k++) {
+    rigid(b->plan, x, about, size, k, field);
+    momentum(b->plan, x, field, about, column);
+    for (size_t i = 0; i < 6; i++) A[i][k] = column[i] / (i < 3 ? 1.0 : size);
+    y[k] = (wanted[k] - now[k]) / (k < 3 ? 1.0 : size);
+  }
+  if (!sw_dense_least(A[0], 6, y, LEAST)) memset(y, 0, sizeof y);
+  for (size_t k = 0; k < 6; k++) {
+    rigid(b->plan, x, about, size, k, field);
+    for (size_t i = 0; i < 3 * b->plan->nodes; i++) v[i] += y[k] * field[i];
+  }
+  sw_free(field);
+  return SW_OK;
+}
+
+void sw_momentum_of(const sw_scene *s, size_t wire, sw_vec *about, double out[6]) {
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const double *x = system->x + 3 * b->first_node;
+  double mass = 0;
+  sw_vec sum = sw_v(0, 0, 0);
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    sum = sw_madd(sum, sw_vec_at(x, i), b->plan->lumped[i]);
+    mass += b->plan->lumped[i];
+  }
+  *about = sw_scale(sum, 1.0 / mass);
+  momentum(b->plan, x, system->v + 3 * b->first_node, *about, out);
+}
+
+void sw_momentum_about(const sw_scene *s, size_t wire, sw_vec about, double out[6]) {
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
+  const size_t at = 3 * b->first_node;
+  momentum(b->plan, system->x + at, system->v + at, about, out);
+}
+
+void sw_inertia_of(const sw_system *s, const double *a, double *out) {
+  for (size_t b = 0; b < s->body_count; b++) {
+    const sw_plan *p = s->bodies[b].plan;
+    const double *own = a + 3 * s->bodies[b].first_node;
+    double *to = out + 3 * s->bodies[b].first_node;
+    for (size_t i = 0; i < p->nodes; i++) {
+      sw_vec m = sw_scale(sw_vec_at(own, i), p->mass_own[i]);
+      if (i > 0) m = sw_madd(m, sw_vec_at(own, i - 1), p->mass_next[i - 1]);
+      if (i + 1 < p->nodes) m = sw_madd(m, sw_vec_at(own, i + 1), p->mass_next[i]);
+      sw_store(to + 3 * i, sw_neg(m));
+    }
+  }
+}
+
+double sw_scene_total_energy(sw_scene *s, sw_error *err) {
+  sw_energy e;
+  double sum = 0;
+  if (sw_scene_energy(s, &e, err) != SW_OK) return (double)NAN;
+  for (size_t k = 0; k < e.count; k++) sum += e.value[k];
+  return sum;
+}

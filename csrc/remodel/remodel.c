@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Another model for a wire in mid-run: shape, stretch, twist and velocity go over through the
+ * wire's middle line. Mass and arc lengths are the same; momentum and angular momentum are made
+ * the same by the smallest rigid motion that does it. Sections of a new mesh give way to stretch,
+ * bend and twist as those of an endless one do. What else deformed them, as squeezing does, is
+ * lost; the energy tells how much. */
+#include "remodel/remodel.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "grip/jaws.h"
+#include "link/hold.h"
+#include "read/reading.h"
+#include "remodel/line.h"
+#include "save/life.h"
+#include "scene/drive.h"
+#include "scene/gripper.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/world.h"
+#include "state/plan.h"
+
+static const sw_param rows[] = {
+    {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the model that the wire is to have"},
+    {"segments", SW_PARAM_INTEGER, "-", 0, 0, 1e7, 0, NULL, offsetof(sw_wire_args, segments),
+     "number of segments, 2 or more (default 50; of a mesh slices, as many as their spacing "
+     "gives)"},
+    {"region", SW_PARAM_OTHER, "m", 0, 0, 0, 0, NULL, 0,
+     "{s1, s2}: only there, and beside clamps, the wire is the mesh; elsewhere a line of particles "
+     "of a rod's EA and EI, without twist (not given: all of it)"},
+};
+const sw_params sw_remodel_params = SW_PARAMS("remodel", rows);
+
+static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w, const sw_line *l,
+                              sw_scene_wire *out, sw_error *err) {
+  const sw_strand_lie lie = {.frames = l->frame,
+                             .strains = l->strain,
+                             .ring = l->stations->ring,
+                             .spacing = l->stations->spacing};
+  SW_TRY(sw_strand_new(plan, &w->beam, &out->mesh, &lie, &out->strand, err));
+  sw_line_spin(l, out->strand.web, out->strand.x, out->strand.v);
+  return SW_OK;
+}
+
+/* --- holds ---------------------------------------------------------------------------------- */
+
+/* The wire's living holds take hold of what it has become, each where its pose is now. */
+static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
+  unsigned char *waits = sw_alloc(s->hold_count, 1);
+  if (!waits) return SW_ENOMEM;
+  for (size_t k = 0; k < s->hold_count; k++) {
+    sw_hold *h = &s->holds[k];
+    waits[k] = h->alive && h->wire == wire;
+    if (waits[k]) h->alive = 0; /* where it held the wire that was is not in the others' way */
+  }
+  sw_status status = SW_OK;
+  for (size_t k = 0; k < s->hold_count && status == SW_OK; k++) {
+    sw_motion_state now;
+    if (!waits[k]) continue;
+    status = sw_drive_eval(s, &s->holds[k].drive, s->time, &now, err);
+    if (status == SW_OK) status = sw_scene_rehold(s, &s->holds[k], now.pose, err);
+  }
+  sw_free(waits);
+  return status;
+}
+
+/* --- all of it ----------------------------------------------------------------------- */
+
+static void replace(sw_scene *s, size_t wire, sw_scene_wire *with) {
+  sw_scene_wire *w = &s->wires[wire];
+  sw_mesh_free(&w->mesh);
+  sw_strand_free(&w->strand);
+  sw_free(w->twisted);
+  w->cls = with->cls, w->mesh = with->mesh, w->strand = with->strand;
+  w->twisted = with->twisted, w->twisted_count = with->twisted_count, w->untwisted = 0;
+  s->kept.changed = wire + 1;
+  sw_course_jump(&s->course);
+}
+
+static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls, sw_error *err) {
+  const sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire as = *w;
+  as.cls = cls;
+  if (w->mesh.rest)
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: wire '%s' is curved at rest, has two values of EI or rolls; only "
+                   "wires without frames are remodelled",
+                   w->name);
+  if (w->drawing.rest == SW_REST_PATH)
+    return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is curved at rest", w->name);
+  if (w->mesh.s[0] != 0) return sw_fail(err, SW_EINVAL, "remodel: wire '%s' has been fed", w->name);
+  if (cls->mesh && sw_scene_joined(s, wire)) return sw_scene_check_line(&as, "scene:join", err);
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].wire == wire && sw_hold_passes(&s->holds[k]))
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name,
+                     s->holds[k].name);
+  for (size_t k = 0; k < s->hold_count; k++)
+    if (s->holds[k].alive && s->holds[k].wire == wire && s->holds[k].cls->hold->rail)
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name,
+                     s->holds[k].name);
+  return sw_scene_check_rules(s, wire, &as, err);
+}
+
+sw_status sw_scene_replace_wire(sw_scene *s, size_t wire, sw_scene_wire *with, sw_error *err) {
+  replace(s, wire, with);
+  return retake(s, wire, err);
+}
+
+static sw_status make(sw_scene *s, size_t wire, const sw_strand_plan *plan, const sw_line *l,
+                      sw_scene_wire *out, sw_error *err) {
+  const sw_scene_wire *w = &s->wires[wire];
+  sw_status status = sw_line_mesh(w, l, &out->mesh);
+  if (status == SW_OK)
+    status = out->cls->mesh ? becomes_mesh(plan, w, l, out, err) : sw_line_twist(l, out);
+  if (status == SW_OK) return SW_OK;
+  sw_mesh_free(&out->mesh);
+  sw_strand_free(&out->strand);
+  sw_free(out->twisted);
+  return status == SW_ENOMEM ? sw_fail(err, status, "remodel: out of memory") : status;
+}
+
+/* The line, once the number of its nodes is known. */
+static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
+                           const sw_strand_plan *plan, const sw_wire_class *cls,
+                           const sw_stations *stations, sw_line *out, sw_error *err) {
+  size_t segments = stations->n ? stations->n - 1 : (size_t)args->segments;
+  double length;
+  SW_TRY(sw_scene_wire_length(s, h, &length, err));
+  if (!segments && cls->mesh)
+    SW_TRY(sw_strand_slices(plan, &s->wires[h.slot].beam, length, &segments, err));
+  if (segments < 2) segments = 50;
+  if (cls->mesh) SW_TRY(sw_strand_check_count(plan, segments + 1, 1, err));
+  return sw_line_read(s, h, segments + 1, stations->s, out, err);
+}
+
+enum { USUAL_SEGMENTS = 50 }; /* of a wire that is a line, when nobody says [-] */
+
+static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
+                             const sw_strand_plan *plan, const double *region, sw_stations *out,
+                             sw_error *err) {
+  const sw_scene_wire *w = &s->wires[h.slot];
+  size_t slices;
+  double length;
+  SW_TRY(sw_scene_wire_length(s, h, &length, err));
+  if (!plan->mesh)
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: region goes with a model that is a mesh, not with a "
+                   "line; without it the whole wire changes");
+  if (!(region[0] >= 0) || !(region[1] <= length * (1 + 1e-9)) || !(region[0] < region[1]))
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: region = {%.6g, %.6g} m is not on wire '%s'; it must be two arc "
+                   "lengths, the first one less, within [0, %.6g] m",
+                   region[0], region[1], w->name, length);
+  if (w->beam.rest_twist != 0)
+    return sw_fail(err, SW_EINVAL,
+                   "remodel: wire '%s' is twisted without load, which lines beside a region are "
+                   "not; leave region out",
+                   w->name);
+  SW_TRY(sw_strand_slices(plan, &w->beam, length, &slices, err));
+  const double segments = args->segments ? (double)args->segments : USUAL_SEGMENTS;
+  return sw_region_plan(s, h.slot, region, length / (double)slices, length / segments, out, err);
+}
+
+/* More than this is lost in lines [rad]. */
+static const double LEAST_TWIST = 1e-3;
+
+static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error *err) {
+  double most = 0;
+  for (size_t i = 0; l->turn && i < l->n; i++) most = fmax(most, fabs(l->turn[i]));
+  if (most <= LEAST_TWIST) return SW_OK;
+  return sw_fail(err, SW_EINVAL,
+                 "remodel: wire '%s' is twisted by %.3g rad, which lines beside a region cannot "
+                 "carry; leave region out",
+                 w->name, most);
+}
+
+static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, const sw_line *l,
+                        sw_scene_wire *next, sw_remodel_report *out, sw_error *err) {
+  sw_vec about;
+  sw_momentum_of(s, h.slot, &about, out->before);
+  out->about = about;
+  out->energy_before = sw_scene_total_energy(s, err);
+  SW_TRY(make(s, h.slot, plan, l, next, err));
+  const sw_status thawed = sw_scene_thaw(s);
+  if (thawed != SW_OK) {
+    sw_mesh_free(&next->mesh);
+    sw_strand_free(&next->strand);
+    sw_free(next->twisted);
+    return sw_fail(err, thawed, "remodel: out of memory");
+  }
+  SW_TRY(sw_scene_replace_wire(s, h.slot, next, err));
+  SW_TRY(sw_scene_build(s, err));
+  if (sw_momentum_match(s, h.slot, about, out->before) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
+  sw_momentum_about(s, h.slot, about, out->after);
+  out->energy_after = sw_scene_total_energy(s, err);
+  return SW_OK;
+}
+
+sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
+                           const sw_wire_mesh_args *mesh, const double *region,
+                           sw_remodel_report *out, sw_error *err) {
+  *out = (sw_remodel_report){0};
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
+  const sw_wire_class *cls = sw_wire_all()[args->model];
+  SW_TRY(check(s, h.slot, cls, err));
+  SW_TRY(sw_scene_build(s, err));
+  const sw_strand_plan plan = sw_scene_strand_plan(&s->wires[h.slot], cls, mesh);
+  sw_line l = {0};
+  sw_scene_wire next = {.cls = cls};
+  sw_snapshot *before = NULL;
+  sw_error ignored;
+  sw_stations stations = {0};
+  sw_status status = region ? plan_region(s, h, args, &plan, region, &stations, err) : SW_OK;
+  if (status == SW_OK) status = read_line(s, h, args, &plan, cls, &stations, &l, err);
+  l.stations = &stations;
+  if (status == SW_OK && region) status = check_twist(&s->wires[h.slot], &l, err);
+  if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
+  if (status == SW_OK) status = change(s, h, &plan, &l, &next, out, err);
+  if (status != SW_OK && before) sw_scene_restore(s, before, &ignored);
+  sw_snapshot_free(before);
+  sw_region_free(&stations);
+  sw_line_free(&l);
+  return status;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Life of a scene. */
+#include "save/life.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/edit.h"
+#include "grip/jaws.h"
+#include "read/kept_frames.h"
+#include "save/save.h"
+#include "scene/forces.h"
+#include "scene/gripper.h"
+#include "scene/history.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/scene.h"
+#include "scene/touching.h"
+#include "scene/world.h"
+#include "watch/watches.h"
+#include "watch/zone.h"
+
+static const sw_param scene_rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_scene_args, name),
+     "name used in messages and files"},
+    {"gravity", SW_PARAM_VECTOR, "m/s2", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
+     offsetof(sw_scene_args, gravity), "gravity (default {0, 0, -9.81})"},
+};
+const sw_params sw_scene_params = SW_PARAMS("scene", scene_rows);
+
+static const double STANDARD_GRAVITY = 9.81; /* [m/s2] */
+
+sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err) {
+  sw_scene *s = sw_alloc(1, sizeof *s);
+  if (!s) return sw_fail(err, SW_ENOMEM, "scene: out of memory");
+  memcpy(s->name, args->name[0] ? args->name : "scene", args->name[0] ? sizeof s->name : 6);
+  s->gravity = isnan(args->gravity.x) ? sw_v(0, 0, -STANDARD_GRAVITY) : args->gravity;
+  s->course.window = SW_WINDOW;
+  s->frame_stride = 1, s->frame_memory = SW_FRAME_MEMORY;
+  *out = s;
+  return SW_OK;
+}
+
+void sw_scene_free(sw_scene *s) {
+  if (!s) return;
+  for (size_t i = 0; i < s->wire_count; i++) sw_scene_clear_body(&s->wires[i]);
+  for (size_t i = 0; i < s->force_count; i++) sw_scene_clear_force(&s->forces[i]);
+  for (size_t i = 0; i < s->hold_count; i++) sw_hold_clear(&s->holds[i]);
+  for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
+  for (size_t i = 0; i < s->tool_count; i++) sw_scene_clear_tool(&s->tools[i]);
+  for (size_t i = 0; i < s->zone_count; i++) sw_scene_clear_zone(&s->zones[i]);
+  sw_scene_orphan_snapshots(s);
+  sw_stepper_free(&s->course.stepper);
+  sw_contact_free(s->contact);
+  sw_log_free(&s->contact_steps);
+  sw_pairs_free(s->pairs);
+  sw_grains_free(s->grains);
+  sw_crowd_free(s->crowd);
+  sw_scene_drop_rules(s, 0);
+  sw_free(s->rules);
+  sw_system_free(&s->system);
+  sw_scene_forget_contact(s);
+  sw_scene_forget_histories(s);
+  sw_scene_drop_frames(s);
+  sw_free(s->frames);
+  sw_events_clear(&s->events);
+  sw_watches_clear(&s->watches);
+  sw_ledger_free(&s->books);
+  sw_free(s->hold_slot);
+  sw_free(s->hold_loads);
+  sw_free(s->wires);
+  sw_free(s->gone);
+  sw_free(s->holds);
+  sw_free(s->obstacles);
+  sw_free(s->tools);
+  sw_free(s->forces);
+  sw_free(s->zones);
+  sw_free(s->joins);
+  sw_free(s);
+}
+
+sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  s->gravity = gravity;
+  sw_course_jump(&s->course);
+  return SW_OK;
+}

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a place on a line is like: between its nodes, and beside what holds it. */
+#include <math.h>
+
+#include "scene/body.h"
+#include "scene/line.h"
+#include "scene/spin.h"
+#include "scene/values.h"
+#include "scene/world.h"
+#include "state/clamp.h"
+
+/* The clamp hinge at a node that looks along edge, or NULL. */
+static const sw_clamp_hinge *clamp_at(const sw_plan *p, size_t node, size_t edge) {
+  for (size_t c = 0; c < p->clamp_count; c++)
+    if (p->clamps[c].node == node && p->clamps[c].edge == edge) return &p->clamps[c];
+  return NULL;
+}
+
+static sw_vec director(const sw_system *s, const sw_clamp_hinge *h) {
+  return sw_load(s->directors_now + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
+}
+
+static double angle_between(sw_vec a, sw_vec b) {
+  return 2.0 * asin(fmin(1.0, 0.5 * sw_dist(a, b)));
+}
+
+/* The clamp hinge at a node, whichever edge it looks along, or NULL. */
+static const sw_clamp_hinge *face_at(const sw_plan *p, size_t node) {
+  for (size_t c = 0; c < p->clamp_count; c++)
+    if (p->clamps[c].node == node) return &p->clamps[c];
+  return NULL;
+}
+
+/* Tangent and curvature at a node as seen from one of its edges. */
+static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t edge,
+                       sw_vec *tangent, double *curvature) {
+  const sw_plan *p = b->plan;
+  const sw_field *f = &b->field;
+  const sw_clamp_hinge *c = clamp_at(p, node, edge);
+  const sw_vec own = sw_field_tangent(f, edge);
+  *curvature = 0.0;
+  *tangent = own;
+  if (c) {
+    *tangent = director(s, c);
+    *curvature = sw_clamp_curvature(c, s->directors_now, s->normals_now, own);
+  } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
+             (c = face_at(p, node)) != NULL) { /* from inside a grip, at its face */
+    *tangent = director(s, c);
+  } else if (node > 0 && node + 1 < p->nodes) {
+    const sw_vec t1 = sw_field_tangent(f, node - 1), t2 = sw_field_tangent(f, node);
+    const double l1 = p->rest[node - 1], l2 = p->rest[node];
+    *tangent = sw_unit_or(sw_add(sw_scale(t1, l2), sw_scale(t2, l1)), own);
+    if (p->hinge[node] > 0) *curvature = angle_between(t1, t2) / p->hinge[node];
+  } else if (p->edges > 1) { /* free or pinned end: no moment, so no further bend */
+    const size_t inner = node == 0 ? 1 : p->edges - 2;
+    const sw_vec t2 = sw_field_tangent(f, inner);
+    const double share = 0.25 * 2.0 * p->rest[edge] / (p->rest[edge] + p->rest[inner]);
+    *tangent = sw_unit_or(sw_madd(own, sw_sub(own, t2), share), own);
+  }
+}
+
+/* What edges have at a place, linear between their middles. */
+static double between_middles(const sw_plan *p, const double *T, double at) {
+  double fraction;
+  const size_t e = sw_plan_locate(p, at, &fraction);
+  if (p->edges == 1) return T[0];
+  size_t k = fraction < 0.5 ? (e > 0 ? e - 1 : 0) : e;
+  if (k + 1 >= p->edges) k = p->edges - 2;
+  const double m0 = 0.5 * (p->s[k] + p->s[k + 1]), m1 = 0.5 * (p->s[k + 1] + p->s[k + 2]);
+  return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
+}
+
+/* Rate at which a wire that rolls turns about its axis, linear between edge middles. */
+static double spin_at(const sw_system *s, const sw_body *b, double at) {
+  if (!b->roll_block) return 0.0;
+  const double *rate = s->v + 3 * s->nodes + b->first_roll;
+  return between_middles(b->plan, rate, at);
+}
+
+/* Torque of hinge number k, of the plan's list with clamps after nodes. */
+static double hinge_torque(const sw_body *b, size_t number, double length) {
+  const double off = b->field.hinge_twist[number] - b->plan->rest_twist[number];
+  return length > 0 ? b->plan->beam.GJ / length * off : 0.0;
+}
+
+/* The torque at a node of a wire with frames as seen from one of its edges. */
+static double node_torque(const sw_body *b, size_t node, size_t edge) {
+  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
+  if (!c) return hinge_torque(b, node, b->plan->hinge[node]);
+  return hinge_torque(b, b->plan->nodes + (size_t)(c - b->plan->clamps), c->length);
+}
+
+/* Bend beyond that at rest, at a node as seen from one of its edges. */
+static double node_flexure(const sw_system *s, const sw_body *b, size_t node, size_t edge) {
+  const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
+  return sw_scene_flexure(s, b, c ? b->plan->nodes + (size_t)(c - b->plan->clamps) : node);
+}
+
+/* Torque of the span that holds arc length at; 0 outside of spans. */
+double sw_scene_torque(const sw_system *s, const sw_body *b, double at) {
+  if (b->spin_block) {
+    double f;
+    const size_t e = sw_plan_locate(b->plan, at, &f);
+    return (1 - f) * node_torque(b, e, e) + f * node_torque(b, e + 1, e);
+  }
+  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
+    const sw_span *span = &b->plan->spans[k];
+    if (at >= b->plan->s[span->first] && at <= b->plan->s[span->last + 1])
+      return sw_span_torque(b->plan, span, b->plan->beam.GJ, s->twist[b->first_span + k]);
+  }
+  return 0.0;
+}
+
+void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, double at,
+                sw_point_state *out) {
+  sw_vec t0, t1;
+  double k0, k1, f;
+  const size_t e = sw_plan_locate(b->plan, at, &f);
+  const double *x = s->system.x + 3 * (b->first_node + e);
+  const double *v = s->system.v + 3 * (b->first_node + e);
+  node_state(&s->system, b, e, e, &t0, &k0);
+  node_state(&s->system, b, e + 1, e, &t1, &k1);
+  /* cubic through both ends with their tangents; the chord keeps its length */
+  const double l = b->field.length[e], h00 = (1 + 2 * f) * (1 - f) * (1 - f);
+  const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
+  out->position = sw_add(sw_add(sw_scale(sw_load(x), h00), sw_scale(t0, l * h10)),
+                         sw_add(sw_scale(sw_load(x + 3), h01), sw_scale(t1, l * h11)));
+  out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
+  out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
+  out->curvature = k0 + f * (k1 - k0);
+  out->elastic = between_middles(b->plan, s->system.tension + b->first_edge, at);
+  out->tension = between_middles(b->plan, sw_system_pull(&s->system, b), at);
+  out->spin = spin_at(&s->system, b, at);
+  if (b->spin_block) {
+    k0 = node_flexure(&s->system, b, e, e);
+    k1 = node_flexure(&s->system, b, e + 1, e);
+  }
+  const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
+  out->strain = out->elastic / w->beam.EA + bent;
+  out->least_strain = out->elastic / w->beam.EA - bent;
+  out->twist_moment = sw_scene_torque(&s->system, b, at);
+}

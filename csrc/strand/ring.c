@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rings of a mesh of particles: where they are, and which way they face. */
+#include "strand/ring.h"
+
+#include <math.h>
+
+void sw_strand_rings(const sw_mesh *m, double *s1, double *s2) {
+  const double middle = 0.5 * (*s1 + *s2), slack = 1e-9 * m->s[m->n - 1];
+  size_t first = 0, last = m->n - 1, nearest = 0;
+  while (first + 1 < m->n && m->s[first] < *s1 - slack) first++;
+  while (last > 0 && m->s[last] > *s2 + slack) last--;
+  for (size_t i = 1; i < m->n; i++)
+    if (fabs(m->s[i] - middle) < fabs(m->s[nearest] - middle)) nearest = i;
+  if (first > last) first = last = nearest;
+  *s1 = m->s[first], *s2 = m->s[last];
+}
+
+sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
+  double at[3];
+  sw_web_middle(w, x, ring, at);
+  return sw_load(at);
+}
+
+/* Direction of a line of particles at one of them: of both parts beside it, the shorter one's
+ * counting more. */
+static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
+  const sw_vec at = sw_strand_middle(w, x, ring);
+  sw_vec before = sw_v(0, 0, 0), after = before;
+  if (ring > 0) before = sw_sub(at, sw_strand_middle(w, x, ring - 1));
+  if (ring + 1 < w->rings) after = sw_sub(sw_strand_middle(w, x, ring + 1), at);
+  const double b2 = sw_norm2(before), a2 = sw_norm2(after);
+  if (!(b2 > 0) || !(a2 > 0)) return sw_unit_or(sw_add(before, after), sw_v(1, 0, 0));
+  return sw_unit_or(sw_add(sw_scale(before, a2), sw_scale(after, b2)), sw_v(1, 0, 0));
+}
+
+sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
+  if (!sw_web_is_ring(w, ring)) return line_direction(w, x, ring);
+  const double *at = x + 3 * w->first[ring];
+  const sw_vec middle = sw_strand_middle(w, x, ring);
+  sw_vec sum = sw_v(0, 0, 0);
+  for (size_t k = 0; k < w->around_count; k++) {
+    const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);
+    const sw_vec q = sw_sub(sw_vec_at(at, w->around[(k + 1) % w->around_count]), middle);
+    sum = sw_add(sum, sw_cross(p, q));
+  }
+  return sw_unit_or(sum, sw_v(1, 0, 0));
+}

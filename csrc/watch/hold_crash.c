@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Are holds driven into obstacles? What they hold goes where they go, so nothing stops it: the wire
+ * there is looked at in every step, and on the way from the step before. And do they push or pull
+ * with more than any wire bears? Both are noticed and told. */
+#include <math.h>
+
+#include "edit/links.h"
+#include "grip/jaws.h"
+#include "link/hold.h"
+#include "scene/drive.h"
+#include "scene/events.h"
+#include "scene/gripper.h"
+#include "scene/hold.h"
+#include "scene/line.h"
+#include "scene/obstacle.h"
+#include "scene/parts.h"
+#include "watch/series.h"
+#include "watch/tell.h"
+
+/* A held place may be so much deeper in an obstacle than where it was taken hold of, of the
+ * distance from there to the surface [-]. Contact itself lets wires in by far less. */
+static const double ALLOWED = 0.25;
+static const double NOTICED = 1e-5; /* at least [m] */
+
+/* Between two steps places are looked at so that none moves by more than this share of the
+ * distance to its surface; at most so often [-]. */
+static const double STRIDE = 0.5;
+enum { MOST_LOOKS = 32 };
+
+static double skin_of(const sw_scene *s, const sw_hold *h) {
+  return sw_plan_skin(sw_scene_system(s)->bodies[h->wire].plan, h->particle ? h->particle[0] : 0);
+}
+
+static double reach_of(const sw_hold *h) {
+  double far = 0;
+  for (size_t i = 0; i < h->count; i++) far = fmax(far, sw_norm(sw_vec_at(h->local, i)));
+  return far;
+}
+
+/* How deep the held places, and what is between them, are in a shape in which the hold has this
+ * pose [m]. */
+static double depth_at(const sw_hold *h, const sw_shape *shape, sw_pose pose, double skin) {
+  double depth = 0;
+  sw_vec before = sw_v(0, 0, 0);
+  for (size_t i = 0; i < h->count; i++) {
+    const sw_vec at = sw_pose_point(pose, sw_vec_at(h->local, i));
+    sw_closest near[SW_CLOSEST_MAX];
+    if (sw_shape_point(shape, at, skin, near)) depth = fmax(depth, skin - near[0].gap);
+    const int n = i && !h->particle ? sw_shape_segment(shape, before, at, skin, near) : 0;
+    for (int k = 0; k < n; k++) depth = fmax(depth, skin - near[k].gap);
+    before = at;
+  }
+  return depth;
+}
+
+static sw_pose pose_in(sw_pose hold, sw_pose other) {
+  return (sw_pose){sw_pose_local(other, hold.p), sw_quat_mul(sw_quat_conj(other.q), hold.q)};
+}
+
+/* 1: a place is farther than this from the bounds along one of their axes. */
+static int is_off(const sw_bounds *b, sw_vec p, double far) {
+  return p.x < b->min.x - far || p.x > b->max.x + far || p.y < b->min.y - far ||
+         p.y > b->max.y + far || p.z < b->min.z - far || p.z > b->max.z + far;
+}
+
+/* The deepest on the way from one pose to the other, both as the shape sees them [m]. */
+static double depth_on_way(const sw_hold *h, const sw_shape *shape, sw_pose from, sw_pose to,
+                           double skin) {
+  const sw_bounds b = sw_shape_bounds(shape);
+  const sw_vec turn = sw_quat_log(sw_quat_mul(to.q, sw_quat_conj(from.q)));
+  const double reach = reach_of(h), way = sw_dist(from.p, to.p) + sw_norm(turn) * reach;
+  const double size = 0.5 * sw_dist(b.min, b.max);
+  if (is_off(&b, to.p, reach + skin + way)) return 0;
+  const int looks =
+      isfinite(size) ? (int)fmin(MOST_LOOKS, 1.0 + way / fmax(STRIDE * skin, NOTICED)) : 1;
+  double depth = 0;
+  for (int k = 1; k <= looks; k++) {
+    const double share = (double)k / looks;
+    const sw_pose at = {sw_lerp(from.p, to.p, share),
+                        sw_quat_unit(sw_quat_mul(sw_quat_exp(sw_scale(turn, share)), from.q))};
+    depth = fmax(depth, depth_at(h, shape, k < looks ? at : to, skin));
+  }
+  return depth;
+}
+
+/* The obstacle that the hold is deepest in. */
+static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_error *err) {
+  const double skin = skin_of(s, h), before = h->watch.looking ? h->watch.looked : sw_scene_time(s);
+  sw_motion_state to, from, there, was;
+  *out = (sw_crash){.time = sw_scene_time(s)};
+  SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &to, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, before, &from, err));
+  for (size_t i = 0; i < sw_scene_obstacle_slots(s); i++) {
+    const sw_scene_obstacle *o = sw_scene_obstacle_in(s, i);
+    if (!o->alive || o->off || (o->drive.tool && o->drive.tool == h->drive.tool)) continue;
+    SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &there, err));
+    SW_TRY(sw_drive_eval(s, &o->drive, before, &was, err));
+    const double depth =
+        depth_on_way(h, o->shape, pose_in(from.pose, was.pose), pose_in(to.pose, there.pose), skin);
+    if (depth > out->depth) out->depth = depth, out->obstacle = i;
+  }
+  return SW_OK;
+}
+
+/* What no wire bears: of the strongest steel there is, or twice as long as it is [Pa]. */
+static const double STRONGEST = 4e9;
+
+static void watch_force(sw_scene *s, const sw_hold *h, double arc) {
+  const sw_beam *b = &sw_scene_wire_in(s, h->wire)->beam;
+  const double force = sw_norm(h->force);
+  const double most = fmin(b->EA, STRONGEST * M_PI * b->radius * b->radius);
+  if (!(most > 0) || force <= most) return;
+  sw_scene_tell(s, "overload", h->name, arc, force,
+                "%s '%s' drives wire '%s' with %.4g N, more than any wire like it bears (%.3g N)",
+                h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, force, most);
+}
+
+sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
+  sw_crash now;
+  const double arc = 0.5 * (h->s1 + h->s2) - sw_scene_wire_in(s, h->wire)->mesh.s[0];
+  watch_force(s, h, arc);
+  if (!sw_scene_obstacle_slots(s) || h->cls->hold->rail)
+    return SW_OK; /* rails lead where they lead */
+  SW_TRY(find_crash(s, h, &now, err));
+  if (!h->watch.looking) h->watch.given = now.depth;
+  h->watch.looking = 1, h->watch.looked = sw_scene_time(s);
+  const double most = h->watch.given + fmax(ALLOWED * skin_of(s, h), NOTICED);
+  const int crashing = now.depth > most;
+  if (crashing && !h->watch.crashing) h->watch.crash = now; /* a new one */
+  h->watch.crashing = crashing;
+  if (!crashing) return SW_OK;
+  sw_scene_tell(s, "crash", h->name, arc, now.depth,
+                "%s '%s' drives wire '%s' %.3g mm deep into '%s', which nothing stops",
+                h->cls->name, h->name, sw_scene_wire_in(s, h->wire)->name, 1e3 * now.depth,
+                sw_scene_obstacle_in(s, now.obstacle)->name);
+  return SW_OK;
+}
+
+int sw_hold_crashed(const sw_scene *s) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
+    if (sw_scene_hold_in(s, k)->alive && sw_scene_hold_in(s, k)->watch.crashing &&
+        sw_scene_hold_in(s, k)->watch.crash.time == sw_scene_time(s))
+      return 1;
+  return 0;
+}
+
+sw_status sw_scene_hold_crash(const sw_scene *s, sw_handle hold, double *time, double *depth,
+                              const char **obstacle, sw_error *err) {
+  const sw_hold *h = sw_scene_find_hold(s, hold, err);
+  if (!h) return SW_EDEAD;
+  const sw_crash *c = &h->watch.crash;
+  *time = c->depth > 0 ? c->time : (double)NAN;
+  *depth = c->depth;
+  *obstacle = c->depth > 0 ? sw_scene_obstacle_in(s, c->obstacle)->name : "";
+  return SW_OK;
+}

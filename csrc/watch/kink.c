@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Kinks of tubes whose wall is known. Bent, a tube flattens by a^2 of its radius, with a =
+ * curvature R^2/t, and its moment has a limit at a = sqrt(2)/3 (Brazier). Its compressed side, less
+ * curved the flatter it is, buckles in short waves a little before, at a (1 - a^2) = (1 - 3 a^2)/
+ * sqrt 3. Either way there is nothing to be found beyond but a tube that is folded at one place. */
+#include <math.h>
+
+#include "scene/events.h"
+#include "scene/line.h"
+#include "scene/parts.h"
+#include "scene/values.h"
+#include "strand/ring.h"
+#include "watch/tell.h"
+
+static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
+/* A fold is far beyond both, where the tube has nowhere that width any more [-]. */
+static const double BEYOND = 1.5, FLAT = 0.35;
+
+static double radius2(const sw_beam *beam) { return 2.0 * beam->EI_axis[0] / beam->EA; }
+
+/* The wall's thickness, from its bending and axial stiffness per length round it [m]. */
+static double thickness(const sw_beam *beam, double wall) {
+  const double Et = beam->EA / (2.0 * M_PI * sqrt(radius2(beam)));
+  return sqrt(12.0 * wall / Et);
+}
+
+/* Curvature by which a is one [1/m]. */
+static double unit_curvature(const sw_beam *beam, double wall) {
+  return thickness(beam, wall) / radius2(beam);
+}
+
+/* A tube that is pressed or bent flat: nothing keeps its walls from passing through each other, so
+ * what it does beyond that is not right, and is told. */
+static void watch_walls(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
+  sw_system *system = sw_scene_system(s);
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  const sw_body *b = &system->bodies[wire];
+  const sw_web *web = w->strand.web;
+  const double *x = system->x + 3 * b->first_node, at = now->ovalisation.s;
+  const double apart = sw_strand_walls_apart(web, x, at);
+  const double wall = web->wall > 0 ? thickness(&w->beam, web->wall) : 0.0;
+  if (!(apart <= wall)) return;
+  sw_event *known = sw_events_go_on(sw_scene_events_of(s), "walls", w->name, sw_scene_time(s));
+  if (known) known->count++;
+  if (known) return;
+  sw_scene_tell(
+      s, "walls", w->name, at - w->mesh.s[0], apart,
+      "tube '%s' is flat at s = %.4g m: the middles of opposite walls are %.3g m apart, "
+      "which are %.3g m thick; they do not touch each other, so that it is too soft there "
+      "from now on",
+      w->name, at - w->mesh.s[0], apart, wall);
+}
+
+void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
+  sw_system *system = sw_scene_system(s);
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  const sw_web *web = w->strand.web;
+  if (!web || !web->per_ring || !(now->ovalisation.value > FLAT)) return;
+  watch_walls(s, wire, now);
+  if (!(web->wall > 0)) return;
+  const double unit = unit_curvature(&w->beam, web->wall);
+  if (!(now->curvature.value > BEYOND * LIMIT * unit)) return;
+  const sw_body *b = &system->bodies[wire];
+  const double moment = sw_strand_moment(b->plan, system->x + 3 * b->first_node, now->curvature.s);
+  const double most = w->beam.EI_axis[0] * BUCKLES * unit * (1.0 - 1.5 * BUCKLES * BUCKLES);
+  sw_event *known = sw_events_go_on(sw_scene_events_of(s), "kink", w->name, sw_scene_time(s));
+  if (known) known->count++;
+  if (known) return;
+  sw_scene_tell(s, "kink", w->name, now->curvature.s - w->mesh.s[0], now->curvature.value,
+                "tube '%s' kinks at s = %.4g m: it is bent by %.3g 1/m and bears %.3g N m there; "
+                "its wall buckles at about %.3g 1/m and %.3g N m",
+                w->name, now->curvature.s - w->mesh.s[0], now->curvature.value, moment,
+                BUCKLES * unit, most);
+}

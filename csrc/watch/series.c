@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "watch/series.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "edit/forces.h"
+#include "link/hold.h"
+#include "link/joint.h"
+#include "record/watches.h"
+#include "scene/forces.h"
+#include "scene/hold.h"
+#include "scene/join.h"
+#include "scene/line.h"
+#include "scene/scene.h"
+#include "scene/values.h"
+#include "scene/world.h"
+#include "watch/watches.h"
+
+enum { OF_WIRE, OF_FORCE, OF_TIE };
+
+struct sw_watch {
+  int kind;
+  sw_handle of;
+  sw_log log;
+};
+
+static size_t width_of(int kind) { return kind == OF_WIRE ? SW_LOG_WIRE_SIZE : SW_LOG_FORCE_SIZE; }
+
+static sw_watch *find(sw_watches *w, int kind, sw_handle of) {
+  for (size_t tried = 0; tried < w->count; tried++, w->next++) {
+    if (w->next >= w->count) w->next = 0;
+    sw_watch *one = &w->list[w->next];
+    if (one->kind != kind || one->of.generation != of.generation) continue;
+    w->next++;
+    return one;
+  }
+  return NULL;
+}
+
+static sw_status add(sw_scene *s, int kind, sw_handle of, const double *row, const char *name,
+                     sw_error *err) {
+  sw_watches *w = &s->watches;
+  sw_watch *one = find(w, kind, of);
+  sw_status status = SW_OK;
+  if (!one) {
+    status = sw_grow((void **)&w->list, &w->capacity, w->count + 1, sizeof *w->list);
+    if (status == SW_OK) {
+      one = &w->list[w->count++];
+      *one = (sw_watch){.kind = kind, .of = of};
+    }
+  }
+  if (status == SW_OK) status = sw_log_add(&one->log, row, width_of(kind));
+  if (status == SW_OK) return SW_OK;
+  return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", name);
+}
+
+sw_status sw_watch_wire(sw_scene *s, size_t slot, const sw_wire_extremes *now, sw_error *err) {
+  const sw_scene_wire *w = &s->wires[slot];
+  const double row[SW_LOG_WIRE_SIZE] = {s->time, now->tension.value, now->curvature.value};
+  if (sw_scene_is_loose(w)) return SW_OK; /* an object of particles */
+  return add(s, OF_WIRE, (sw_handle){(uint32_t)slot, w->generation}, row, w->name, err);
+}
+
+/* Where force_x stands among the values that the force has to read; -1: nowhere. */
+static int place_of_force(const sw_force_class *cls) {
+  for (int k = 0; cls->read && cls->outputs[k]; k++)
+    if (strcmp(cls->outputs[k], "force_x") == 0) return k;
+  return -1;
+}
+
+static sw_vec force_of(const sw_scene *s, size_t slot, int place) {
+  double values[SW_FORCE_OUTPUTS_MAX];
+  sw_vec sum = sw_v(0, 0, 0);
+  for (size_t b = 0; b < s->system.body_count; b++)
+    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
+      const sw_term *term = &s->system.bodies[b].terms[k];
+      if (term->id != (long)slot) continue;
+      term->cls->read(term->args, &s->system.bodies[b].field, term->history, values);
+      sum = sw_add(sum, sw_load(values + place));
+    }
+  return sum;
+}
+
+sw_status sw_watch_forces(sw_scene *s, sw_error *err) {
+  for (size_t k = 0; k < s->force_count; k++) {
+    const sw_scene_force *f = &s->forces[k];
+    const int place = f->alive ? place_of_force(f->cls) : -1;
+    double row[SW_LOG_FORCE_SIZE] = {s->time};
+    if (place < 0) continue;
+    sw_store(row + 1, force_of(s, k, place));
+    SW_TRY(add(s, OF_FORCE, (sw_handle){(uint32_t)k, f->generation}, row, f->cls->name, err));
+  }
+  return SW_OK;
+}
+
+sw_status sw_watch_ties(sw_scene *s, sw_error *err) {
+  for (size_t k = 0; k < s->join_count; k++) {
+    const sw_joint *j = &s->joins[k];
+    double row[SW_LOG_FORCE_SIZE] = {s->time};
+    if (!j->alive || !j->cls->joint->pull || !s->system.joins) continue;
+    sw_vec force, moment;
+    const sw_link_wire w = sw_scene_link_wire(s, j->ends[0].wire);
+    j->cls->joint->force(j, &w, 0, &force, &moment);
+    sw_store(row + 1, j->fate[SW_TIE_BROKEN] > 0 ? sw_v(0, 0, 0) : force);
+    SW_TRY(add(s, OF_TIE, (sw_handle){(uint32_t)k, j->generation}, row, j->name, err));
+  }
+  return SW_OK;
+}
+
+void sw_watches_clear(sw_watches *w) {
+  for (size_t k = 0; k < w->count; k++) sw_log_free(&w->list[k].log);
+  sw_free(w->list);
+  *w = (sw_watches){0};
+}
+
+static void read_log(sw_scene *s, int kind, sw_handle of, const double **rows, size_t *count) {
+  const sw_watch *one = find(&s->watches, kind, of);
+  *rows = one ? one->log.rows : NULL;
+  *count = one ? one->log.count / width_of(kind) : 0;
+}
+
+sw_status sw_scene_wire_log(sw_scene *s, sw_handle wire, const double **rows, size_t *count,
+                            sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  double gone; /* the series of a wire that was taken away can still be read */
+  if (!sw_scene_gone_name(s, wire, &gone) && !sw_scene_find_body(s, wire, err)) return SW_EDEAD;
+  read_log(s, OF_WIRE, wire, rows, count);
+  return SW_OK;
+}
+
+sw_status sw_scene_force_log(sw_scene *s, sw_handle force, const double **rows, size_t *count,
+                             sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_force_class(s, force))
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  read_log(s, OF_FORCE, force, rows, count);
+  return SW_OK;
+}
+
+sw_status sw_scene_tie_log(sw_scene *s, sw_handle join, const double **rows, size_t *count,
+                           sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  if (!sw_scene_find_join(s, join, err)) return SW_EDEAD;
+  read_log(s, OF_TIE, join, rows, count);
+  return SW_OK;
+}
+
+void sw_tape_watches(sw_tape *t, sw_watches *w) {
+  size_t n = w->count;
+  SW_TAPE_STRUCT(t, sw_watch, 40);
+  sw_tape_count(t, &n, 16);
+  if (sw_tape_reads(t) && sw_tape_good(t) &&
+      sw_grow((void **)&w->list, &w->capacity, n, sizeof *w->list) != SW_OK)
+    sw_tape_fail(t, SW_ENOMEM);
+  if (sw_tape_reads(t) && sw_tape_good(t))
+    while (w->count > n) sw_log_free(&w->list[--w->count].log);
+  for (size_t k = 0; k < n && sw_tape_good(t); k++) {
+    if (k == w->count) w->list[w->count++] = (sw_watch){0};
+    sw_watch *x = &w->list[k];
+    sw_tape_int(t, &x->kind), sw_tape_uint32(t, &x->of.slot), sw_tape_uint32(t, &x->of.generation);
+    sw_tape_log(t, &x->log);
+    sw_tape_expect(t, x->kind >= OF_WIRE && x->kind <= OF_TIE, "a record");
+    sw_tape_expect(t, x->log.count % width_of(x->kind) == 0, "a record");
+  }
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is told of a run: breaking loads, kinks, crashes, what presses hard, wires that may buckle.
+ */
+#ifndef SW_WATCH_TELL_H
+#define SW_WATCH_TELL_H
+
+#include "read/reading.h"
+#include "scene/parts.h"
+#include "scene/values.h"
+
+/* Tells of a wire whose largest tension is above its breaking load. */
+void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* The same at the end of a run, of runs that were shorter than the window. */
+void sw_scene_end_breaking(sw_scene *scene);
+/* And as the end of a sentence, or nothing. */
+void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
+/* Tells of a tube that is folded at one place. */
+void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+
+/* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
+sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
+/* 1: one was driven into an obstacle in the last step. */
+int sw_hold_crashed(const sw_scene *scene);
+
+/* The obstacle that presses a wire hard, as the end of a sentence, or nothing. */
+void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
+
+/* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
+ */
+sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
+
+#endif

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run does to each place of its wires that only adds up over all steps: cycles of tension
+ * and of bending, work of friction. Kept where a run asks for it, of wires that are lines.
+ *
+ * Bending is counted as the fibres feel it, in SW_WEAR_WAYS directions that turn with the wire, so
+ * that to and fro is one cycle of the whole range. They are those of its material frames where it
+ * has them; else they are carried along it from the holds, twisted as it is twisted evenly between
+ * two of them, and where nothing holds it from its first edge, which does not roll. */
+#ifndef SW_WATCH_WEAR_H
+#define SW_WATCH_WEAR_H
+
+#include "base/tape.h"
+#include "base/vec.h"
+#include "scene/scene.h"
+#include "system/system.h"
+
+/* The state of wire w is one of the run; rubs: reached by a step, in which touches slid. SW_ENOMEM.
+ */
+sw_status sw_wear_note(sw_scene *scene, size_t w, int rubs, sw_error *err);
+
+/* The wire's directions across its edges (edges), carried from what holds it; first: that of its
+ * first edge where nothing does [-]. */
+void sw_wear_axes(const sw_system *system, const sw_body *body, sw_vec first, sw_vec *across);
+
+#endif

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "watch/zone.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "record/zone.h"
+#include "scene/line.h"
+#include "scene/world.h"
+
+static const sw_param rows[] = {
+    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_zone_args, name),
+     "name used in checks"},
+    {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(sw_zone_args, at),
+     "place of the shape's origin"},
+    {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, 0, NULL, offsetof(sw_zone_args, rotation),
+     "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
+    {"temperature", SW_PARAM_NUMBER, "degC", NAN, -273.15, 5000, 0, NULL,
+     offsetof(sw_zone_args, temperature),
+     "that wires are exposed to in it; without one they are to keep out of it"},
+};
+const sw_params sw_zone_params = SW_PARAMS("zone", rows);
+
+void sw_scene_clear_zone(sw_zone *z) { sw_shape_release(z->shape); }
+
+sw_status sw_scene_add_zone(sw_scene *s, sw_shape *shape, const sw_zone_args *args, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  if (sw_grow((void **)&s->zones, &s->zone_capacity, s->zone_count + 1, sizeof *s->zones) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+  sw_zone *z = &s->zones[s->zone_count];
+  *z = (sw_zone){.pose = {args->at, args->rotation}, .temperature = args->temperature};
+  sw_scene_give_name(z->name, args->name, "zone", s->zone_count);
+  for (size_t k = 0; k < s->zone_count; k++)
+    if (strcmp(s->zones[k].name, z->name) == 0)
+      return sw_fail(err, SW_EINVAL, "scene '%s': there is another zone '%s'", s->name, z->name);
+  z->shape = sw_shape_retain(shape);
+  s->zone_count++;
+  return SW_OK;
+}
+
+size_t sw_scene_zones(const sw_scene *s) { return s->zone_count; }
+const sw_zone *sw_scene_zone(const sw_scene *s, size_t k) { return &s->zones[k]; }
+
+const sw_zone_past *sw_scene_zone_past(const sw_scene *s, sw_handle h, size_t k) {
+  const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
+  return w && k < w->zones.zones && w->zones.past[k].until > -HUGE_VAL ? &w->zones.past[k] : NULL;
+}
+
+/* --- distances ------------------------------------------------------------------- */
+
+/* Pieces that a wire is seen as: its edges, or the particles of a mesh. */
+static size_t pieces_of(const sw_plan *p) { return p->web ? p->nodes : p->edges; }
+
+static double gap_at(const sw_shape *shape, sw_vec p) {
+  sw_closest at;
+  return sw_shape_point(shape, p, HUGE_VAL, &at) ? at.gap : HUGE_VAL;
+}
+
+/* Of the piece a-b from the zone, and how far along it that is. */
+static double gap_of(const sw_zone *z, sw_vec a, sw_vec b, double *along) {
+  sw_closest list[SW_CLOSEST_MAX];
+  const sw_vec p = sw_pose_local(z->pose, a), q = sw_pose_local(z->pose, b);
+  const double one = gap_at(z->shape, p), two = gap_at(z->shape, q);
+  double least = fmin(one, two);
+  *along = two < one;
+  const int count = sw_shape_segment(z->shape, p, q, HUGE_VAL, list);
+  for (int k = 0; k < count; k++)
+    if (list[k].gap < least) least = list[k].gap, *along = list[k].at;
+  return least;
+}
+
+static void piece(const sw_system *s, const sw_body *b, size_t e, sw_vec *from, sw_vec *to) {
+  *from = sw_vec_at(s->x, b->first_node + e);
+  *to = b->plan->web ? *from : sw_vec_at(s->x, b->first_node + e + 1);
+}
+
+static double place_of(const sw_plan *p, size_t e, double along) {
+  if (p->web) return p->web->s[e];
+  return p->s[e] + along * (p->s[e + 1] - p->s[e]);
+}
+
+/* How far an end of the piece has moved since the last step's end. */
+static double moved(const sw_zone_watch *w, size_t e, sw_vec from, sw_vec to) {
+  return fmax(sw_dist(sw_load(w->x + 6 * e), from), sw_dist(sw_load(w->x + 6 * e + 3), to));
+}
+
+/* The farthest that any node may have gone since a time. */
+static double farthest(const sw_scene *s, const sw_body *b, double since) {
+  double most = 0;
+  if (!(s->time > since)) return 0;
+  if (!(s->course.span > 0)) return HUGE_VAL; /* poses have no speeds */
+  for (size_t i = 0; i < b->plan->nodes; i++)
+    most = fmax(most, sw_norm(sw_vec_at(s->system.v, b->first_node + i)));
+  return most * (s->time - since);
+}
+
+static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
+  const sw_body *b = &s->system.bodies[w];
+  sw_zone_watch *watch = &s->wires[w].zones;
+  sw_zone_past *past = &watch->past[k];
+  const int seen = past->until > -HUGE_VAL;
+  const double before = past->last, far = seen && !same ? farthest(s, b, past->until) : 0;
+  double *gaps = watch->gaps + k * watch->edges;
+  past->last = HUGE_VAL;
+  for (size_t e = 0; e < watch->edges; e++) {
+    sw_vec from, to;
+    double along;
+    piece(&s->system, b, e, &from, &to);
+    const double gap = gap_of(&s->zones[k], from, to, &along) - sw_plan_skin(b->plan, e);
+    /* a place that was `old` away and is `gap` away now was never nearer than this */
+    const double way = same ? moved(watch, e, from, to) : far, old = same ? gaps[e] : before;
+    past->between = fmin(past->between, seen ? fmin(gap, 0.5 * (old + gap - way)) : gap);
+    gaps[e] = gap, past->last = fmin(past->last, gap);
+    if (gap < past->gap)
+      past->gap = gap, past->s = place_of(b->plan, e, along), past->time = s->time;
+  }
+  if (past->last < 0 && seen) past->inside += s->time - past->until;
+  past->until = s->time;
+}
+
+static sw_status fit(sw_scene *s, size_t w, int *same) {
+  sw_zone_watch *watch = &s->wires[w].zones;
+  const size_t pieces = pieces_of(s->system.bodies[w].plan);
+  *same = watch->edges == pieces && watch->zones == s->zone_count;
+  if (*same) return SW_OK;
+  sw_zone_watch new = {.zones = s->zone_count, .edges = pieces};
+  new.past = sw_alloc(new.zones, sizeof *new.past);
+  new.gaps = sw_alloc(new.zones *pieces, sizeof *new.gaps);
+  new.x = sw_alloc(6 * pieces, sizeof *new.x);
+  if (!new.past || !new.gaps || !new.x) {
+    sw_zones_forget(&new);
+    return SW_ENOMEM;
+  }
+  for (size_t k = 0; k < new.zones; k++)
+    new.past[k] = k < watch->zones
+                      ? watch->past[k]
+                      : (sw_zone_past){.gap = HUGE_VAL, .between = HUGE_VAL, .until = -HUGE_VAL};
+  sw_zones_forget(watch);
+  *watch = new;
+  return SW_OK;
+}
+
+sw_status sw_zones_note(sw_scene *s, size_t w, sw_error *err) {
+  int same;
+  if (!s->zone_count) return SW_OK;
+  if (fit(s, w, &same) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for zones near '%s'", s->wires[w].name);
+  sw_zone_watch *watch = &s->wires[w].zones;
+  for (size_t k = 0; k < watch->zones; k++) note_zone(s, w, k, same);
+  for (size_t e = 0; e < watch->edges; e++) {
+    sw_vec from, to;
+    piece(&s->system, &s->system.bodies[w], e, &from, &to);
+    sw_store(watch->x + 6 * e, from), sw_store(watch->x + 6 * e + 3, to);
+  }
+  return SW_OK;
+}
+
+/* --- on a tape ------------------------------------------------------------------- */
+
+void sw_tape_zone(sw_tape *t, sw_zone *z) {
+  SW_TAPE_STRUCT(t, sw_zone, 136);
+  sw_tape_name(t, z->name), sw_tape_shape(t, &z->shape);
+  sw_tape_pose(t, &z->pose), sw_tape_double(t, &z->temperature);
+  sw_tape_expect(t, z->shape && sw_finite(z->pose.p), "a zone");
+}
