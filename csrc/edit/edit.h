@@ -6,8 +6,8 @@
 #include "edit/wires.h"
 #include "link/hold.h"
 #include "scene/forces.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 
 /* What a mesh of this class for the wire is to be of. */
 sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_class *cls,

@@ -6,9 +6,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/open.h"
 #include "edit/objects.h"
 #include "link/hold.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/field.h"
 

@@ -5,12 +5,14 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "body/build.h"
+#include "body/hold.h"
+#include "body/join.h"
 #include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own

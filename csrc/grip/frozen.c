@@ -10,9 +10,9 @@
 #include "contact/contact.h"
 #include "grip/jaws.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
+#include "scene/wire.h"
 #include "state/state_tape.h"
 #include "strand/ring.h"
 

@@ -22,9 +22,9 @@
 #include "grip/frozen.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "solve/cholesky.h"
 #include "strand/ring.h"
 

@@ -6,7 +6,7 @@
  * The node stays in the guide and its arc length changes with time, in every stage of every
  * integrator, so that the first edge grows or shrinks smoothly while all other nodes keep to their
  * material. The wire's velocity at the guide is that of the guide and the feeding speed along it.
- * Nodes are inserted and removed between steps (scene/guide.c). */
+ * Nodes are inserted and removed between steps (body/guide.c). */
 #include <math.h>
 
 #include "link/feeding.h"

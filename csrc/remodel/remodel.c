@@ -10,6 +10,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/hold.h"
+#include "body/join.h"
 #include "edit/edit.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
@@ -18,9 +21,8 @@
 #include "save/life.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/plan.h"
 

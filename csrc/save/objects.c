@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/obstacle_log.h"
+#include "body/touching.h"
 #include "edit/edit.h"
 #include "force/solid.h"
 #include "link/joint.h"
@@ -13,11 +15,10 @@
 #include "save/save.h"
 #include "scene/drive.h"
 #include "scene/forces.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "scene/touching.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "state/state_tape.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)

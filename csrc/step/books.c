@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "contact/grains.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/step.h"

@@ -8,10 +8,10 @@
 
 #include <math.h>
 
+#include "body/guide.h"
+#include "body/hold.h"
 #include "link/hold.h"
 #include "scene/course.h"
-#include "scene/feed.h"
-#include "scene/hold.h"
 #include "scene/parts.h"
 #include "state/field.h"
 #include "step/obey.h"

@@ -5,13 +5,13 @@
 
 #include "base/alloc.h"
 #include "base/tape.h"
+#include "body/hold.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 

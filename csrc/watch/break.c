@@ -6,10 +6,10 @@
 
 #include "edit/wires.h"
 #include "scene/events.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "watch/tell.h"
 
 typedef struct amount {

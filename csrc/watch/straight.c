@@ -3,12 +3,12 @@
  * not even rounding. Real ones buckle, and the run says so. */
 #include <math.h>
 
+#include "body/join.h"
 #include "modal/modal.h"
 #include "read/linear.h"
 #include "scene/events.h"
-#include "scene/join.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "system/system.h"
 #include "watch/tell.h"
 

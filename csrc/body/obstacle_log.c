@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series of the forces on obstacles. Where nothing touches there is nothing to write: rows without
  * a force are added when something does, or when the series is read. */
+#include "body/obstacle_log.h"
+
 #include <string.h>
 
+#include "body/touching.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
 #include "scene/values.h"
 #include "scene/world.h"
 
