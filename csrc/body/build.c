@@ -8,7 +8,6 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "base/tape.h"
 #include "body/body.h"
 #include "body/history.h"
 #include "body/hold.h"
@@ -22,7 +21,6 @@
 #include "scene/obstacle.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 #include "state/mesh.h"
 
 static void drop(sw_scene *s) {

@@ -6,12 +6,10 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/tape.h"
 #include "body/hold.h"
 #include "scene/drive.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
-#include "state/plan.h"
 #include "system/system.h"
 
 static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table) {

@@ -2,14 +2,11 @@
 /* What a user asks of a feed (link/feed.c). */
 #include <math.h>
 
-#include "body/hold.h"
 #include "edit/links.h"
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
-#include "scene/wire.h"
-#include "state/clamp.h"
 
 static sw_hold *feeding(sw_scene *s, sw_handle hold, sw_error *err) {
   sw_hold *h = sw_scene_living_hold(s, hold, err);

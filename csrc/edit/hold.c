@@ -14,7 +14,6 @@
 #include "body/obstacle_log.h"
 #include "edit/edit.h"
 #include "edit/links.h"
-#include "grip/jaws.h"
 #include "link/joint.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
@@ -23,7 +22,6 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 

@@ -8,7 +8,6 @@
 #include "body/obstacle_log.h"
 #include "edit/edit.h"
 #include "edit/links.h"
-#include "grip/jaws.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/lookup.h"

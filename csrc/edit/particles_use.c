@@ -13,7 +13,6 @@
 #include "scene/lookup.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 
 static sw_scene_wire *find(const sw_scene *s, sw_handle h, sw_error *err) {
   sw_scene_wire *w = sw_scene_find_body(s, h, err);

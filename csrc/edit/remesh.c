@@ -7,13 +7,11 @@
 #include "base/alloc.h"
 #include "body/build.h"
 #include "body/hold.h"
-#include "body/join.h"
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "scene/lookup.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 

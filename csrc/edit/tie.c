@@ -7,12 +7,10 @@
 
 #include "body/build.h"
 #include "body/hold.h"
-#include "body/join.h"
 #include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"
 #include "scene/lookup.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own

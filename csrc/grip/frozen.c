@@ -12,7 +12,6 @@
 #include "scene/gripper.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
-#include "scene/wire.h"
 #include "state/state_tape.h"
 #include "strand/ring.h"
 

@@ -24,7 +24,6 @@
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "scene/wire.h"
 #include "solve/cholesky.h"
 #include "strand/ring.h"
 

@@ -17,9 +17,7 @@
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/values.h"
-#include "scene/wire.h"
 #include "scene/world.h"
-#include "state/clamp.h"
 
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);

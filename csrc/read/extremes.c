@@ -8,7 +8,6 @@
 #include "base/simd.h"
 #include "body/section.h"
 #include "body/spin.h"
-#include "link/hold.h"
 #include "record/wear.h"
 #include "record/zone.h"
 #include "scene/values.h"

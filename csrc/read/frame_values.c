@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/tape.h"
 #include "body/section.h"
 #include "body/spin.h"
 #include "contact/grains.h"
@@ -12,9 +11,6 @@
 #include "read/kept_frames.h"
 #include "scene/parts.h"
 #include "scene/values.h"
-#include "scene/wire.h"
-#include "state/clamp.h"
-#include "state/field.h"
 #include "state/plan.h"
 #include "system/axial.h"
 

@@ -6,7 +6,6 @@
 #include "read/reading.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
-#include "scene/wire.h"
 
 /* Node forces out of what the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {

@@ -18,7 +18,6 @@
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "scene/wire.h"
 #include "solve/dense.h"
 #include "strand/ring.h"
 #include "system/linear.h"

@@ -2,11 +2,9 @@
 /* The objects of a scene on a tape, field by field. */
 #include <string.h>
 
-#include "base/alloc.h"
 #include "body/obstacle_log.h"
 #include "body/touching.h"
 #include "edit/edit.h"
-#include "force/solid.h"
 #include "link/joint.h"
 #include "read/frames.h"
 #include "read/kept_frames.h"

@@ -13,7 +13,6 @@
 #include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
-#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/wire.h"
 #include "scene/world.h"

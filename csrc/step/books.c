@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "contact/grains.h"
-#include "scene/obstacle.h"
 #include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"

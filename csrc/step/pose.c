@@ -3,11 +3,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "body/join.h"
 #include "body/live.h"
 #include "contact/contact.h"
 #include "edit/tie.h"
-#include "grip/jaws.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/wire.h"

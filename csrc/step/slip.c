@@ -13,7 +13,6 @@
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/parts.h"
-#include "state/field.h"
 #include "step/obey.h"
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */

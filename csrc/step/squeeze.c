@@ -5,7 +5,6 @@
 
 #include "base/alloc.h"
 #include "body/live.h"
-#include "grip/jaws.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
 #include "step/jaw.h"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One trial by the run's method, whose stages the system solves: is it one to believe? */
-#include "body/join.h"
 #include "edit/tie.h"
 #include "scene/course.h"
 #include "scene/parts.h"

@@ -4,12 +4,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/tape.h"
 #include "body/hold.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/drive.h"
-#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/wire.h"
 #include "scene/world.h"

@@ -4,17 +4,12 @@
  * with more than any wire bears? Both are noticed and told. */
 #include <math.h>
 
-#include "body/hold.h"
-#include "edit/links.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/events.h"
-#include "scene/gripper.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "scene/wire.h"
 #include "watch/series.h"
 #include "watch/tell.h"
 

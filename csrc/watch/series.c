@@ -6,7 +6,6 @@
 
 #include "base/alloc.h"
 #include "body/hold.h"
-#include "body/join.h"
 #include "edit/forces.h"
 #include "link/hold.h"
 #include "link/joint.h"
