@@ -35,11 +35,6 @@ sw_status sw_obstacle_log_fill(sw_scene *s, sw_scene_obstacle *o) {
   return fill(s, o, steps_of(s));
 }
 
-sw_status sw_obstacle_log_fill_all(sw_scene *s) {
-  for (size_t k = 0; k < s->obstacle_count; k++) SW_TRY(fill(s, &s->obstacles[k], steps_of(s)));
-  return SW_OK;
-}
-
 sw_status sw_obstacle_log_state(sw_scene *s) {
   const double step[STEP] = {[TIME] = s->time, [SPAN] = s->course.span};
   size_t count;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Wires are opened to be read: the scene is built, their state refreshed. */
-#include "body/open.h"
 
 #include "body/build.h"
 #include "scene/lookup.h"

@@ -7,7 +7,6 @@
 
 #include "base/alloc.h"
 #include "body/build.h"
-#include "body/open.h"
 #include "edit/objects.h"
 #include "link/hold.h"
 #include "scene/lookup.h"

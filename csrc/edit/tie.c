@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
-#include "edit/tie.h"
 
 #include <math.h>
 #include <stdint.h>
 
 #include "body/build.h"
 #include "body/hold.h"
+#include "edit/edit.h"
 #include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"

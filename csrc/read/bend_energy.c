@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "body/open.h"
+#include "body/build.h"
 #include "body/section.h"
 #include "read/readout.h"
 #include "scene/parts.h"

@@ -5,7 +5,6 @@
 
 #include "body/body.h"
 #include "body/build.h"
-#include "body/open.h"
 #include "body/spin.h"
 #include "body/touching.h"
 #include "read/extremes.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "body/open.h"
+#include "body/build.h"
 #include "contact/contact.h"
 #include "force/solid.h"
 #include "read/kept_frames.h"

@@ -3,7 +3,7 @@
  * of the surface. */
 #include <math.h>
 
-#include "body/open.h"
+#include "body/build.h"
 #include "read/section.h"
 #include "scene/parts.h"
 #include "scene/wire.h"

@@ -19,7 +19,7 @@
 #include "scene/scene.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "watch/watches.h"
+#include "watch/observe.h"
 #include "watch/zone.h"
 
 static const sw_param scene_rows[] = {

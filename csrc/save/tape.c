@@ -16,7 +16,7 @@
 #include "scene/obstacle.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "watch/watches.h"
+#include "watch/observe.h"
 #include "watch/zone.h"
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "body/live.h"
 #include "contact/contact.h"
-#include "edit/tie.h"
+#include "edit/edit.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/wire.h"

@@ -21,7 +21,6 @@
 #include "step/rest.h"
 #include "step/run_check.h"
 #include "watch/observe.h"
-#include "watch/tell.h"
 
 /* The next frame is due after t; frames that steps have passed are left out. */
 static void next_frame(sw_scene *s, double every, double t) {

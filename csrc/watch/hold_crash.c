@@ -10,8 +10,8 @@
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "watch/observe.h"
 #include "watch/series.h"
-#include "watch/tell.h"
 
 /* A held place may be so much deeper in an obstacle than where it was taken hold of, of the
  * distance from there to the surface [-]. Contact itself lets wires in by far less. */

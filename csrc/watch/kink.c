@@ -11,7 +11,7 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "strand/ring.h"
-#include "watch/tell.h"
+#include "watch/observe.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
 /* A fold is far beyond both, where the tube has nowhere that width any more [-]. */

@@ -6,7 +6,7 @@
 #include "body/hold.h"
 #include "body/obstacle_log.h"
 #include "body/touching.h"
-#include "edit/tie.h"
+#include "edit/edit.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/extremes.h"
@@ -14,8 +14,6 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "scene/world.h"
-#include "watch/tell.h"
-#include "watch/watches.h"
 #include "watch/wear.h"
 #include "watch/zone.h"
 

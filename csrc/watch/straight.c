@@ -10,7 +10,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
-#include "watch/tell.h"
+#include "watch/observe.h"
 
 /* Tangents that differ by less than this are those of a straight wire [-]. */
 static const double STRAIGHT = 1e-9;
