@@ -24,23 +24,31 @@ local ROOMS = {
   calibrate = { "base", "wire", "force", "solve" },
   record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
-  scene = { "base", "motion", "shape", "state", "wire", "force", "solve", "system", "integrate",
-    "contact", "link", "calibrate", "modal", "record", "strand" },
-  grip = { "base", "motion", "state", "solve", "system", "contact", "link", "strand", "scene" },
-  edit = { "base", "motion", "state", "wire", "shape", "force", "calibrate", "link", "record", "strand",
-    "scene", "grip" }, -- wires, holds, obstacles, forces: made, changed, taken away
-  read = { "base", "state", "force", "solve", "system", "modal", "contact", "link", "record", "strand",
-    "scene", "grip", "edit" }, -- what may be asked of the state
-  watch = { "base", "state", "shape", "force", "modal", "system", "contact", "link", "record", "strand",
-    "scene", "grip", "edit", "read" }, -- what is kept and told of every accepted state
-  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
-    "calibrate", "record", "strand", "scene", "grip", "edit", "read",
-    "watch" }, -- the scene as a whole: its life, snapshots, files
-  remodel = { "base", "state", "wire", "force", "solve", "system", "contact", "link", "strand", "scene",
-    "grip", "edit", "read", "save" }, -- changes of a wire's model, back to a snapshot where they fail
+  -- The rooms of a scene. Its lists, and what is in them:
+  scene = { "base", "state", "wire", "force", "system", "integrate", "contact", "link", "record", "strand" },
+  -- all as one system of bodies, lines and webs, and back
+  body = { "base", "state", "force", "system", "integrate", "contact", "link", "strand", "scene" },
+  -- grippers
+  grip = { "base", "motion", "state", "solve", "contact", "link", "strand", "scene", "body" },
+  -- wires, holds, obstacles, forces: made, changed, taken away
+  edit = { "base", "motion", "shape", "state", "wire", "force", "calibrate", "link", "record", "scene",
+    "body", "grip" },
+  -- what may be asked of the state
+  read = { "base", "state", "force", "system", "modal", "contact", "link", "record", "strand", "scene",
+    "body", "grip" },
+  -- what is kept and told of every accepted state
+  watch = { "base", "shape", "state", "system", "modal", "contact", "link", "record", "strand", "scene",
+    "body", "grip", "edit", "read" },
+  -- the scene as a whole: its life, snapshots, files
+  save = { "base", "state", "force", "system", "link", "record", "strand", "scene", "body", "grip", "edit",
+    "read", "watch" },
+  -- another model for a wire, back to a snapshot where that fails
+  remodel = { "base", "state", "solve", "system", "contact", "link", "strand", "scene", "body", "grip",
+    "edit", "read", "save" },
+  -- what makes it go on
   step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
-    "grip", "edit", "read", "watch" },
-  film = { "base", "scene", "read" },
+    "body", "grip", "edit", "read", "watch" },
+  film = { "base", "read" },
   view = { "base" }, -- bytes for pages; never a scene
   draw = { "base", "film" }, -- of film: bytes made few
   bind = {}, -- the core through softworld.h
@@ -59,10 +67,9 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
--- The rooms that together are a scene, and what makes it go on: each sees the headers of those in its
--- row, which are private to everybody else.
-local INSIDE = { "record", "strand", "scene", "grip", "edit", "read", "watch",
-  "save", "remodel", "step" }
+-- The rooms of a scene: each sees the headers of those in its row, which are private to everybody else.
+local INSIDE = { "record", "strand", "scene", "body", "grip", "edit", "read", "watch", "save",
+  "remodel", "step" }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }

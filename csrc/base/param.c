@@ -49,7 +49,7 @@ const sw_param *sw_params_find(const sw_params *params, const char *name) {
   return NULL;
 }
 
-void sw_param_range_text(const sw_param *row, char *buffer, size_t n) {
+static void range_text(const sw_param *row, char *buffer, size_t n) {
   const char *unit = strcmp(row->unit, "-") == 0 ? "" : row->unit;
   const char *space = *unit ? " " : "";
   const int low = isfinite(row->min), high = isfinite(row->max);
@@ -75,7 +75,7 @@ sw_status sw_param_check(const char *object, const sw_param *row, double value, 
     return sw_fail(err, SW_EINVAL, "%s: %s = %.6g must be a whole number", object, row->name,
                    value);
   if (fine) return SW_OK;
-  sw_param_range_text(row, range, sizeof range);
+  range_text(row, range, sizeof range);
   return sw_fail(err, SW_EINVAL, "%s: %s = %.6g%s%s is not allowed; it must be %s", object,
                  row->name, value, *unit ? " " : "", unit, range);
 }

@@ -71,7 +71,6 @@ sw_status sw_params_check(const sw_params *params, const void *args, int lenient
 void sw_param_store(const sw_param *row, void *args, double value);
 
 /* "in (0, 1] m" for messages, into a buffer of size n. */
-void sw_param_range_text(const sw_param *row, char *buffer, size_t n);
 
 /* The candidate (of count names, each found at names + i * stride) nearest to
  * word by edit distance, or NULL when none is near enough to be a typo. */

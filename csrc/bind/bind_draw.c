@@ -154,25 +154,18 @@ static int meth_mesh(lua_State *L) {
   return 0;
 }
 
-/* drawing:tube(points, radius, colour or colours, gloss) */
-static int meth_tube(lua_State *L) {
+static int draw_round(lua_State *L, const char *what, __typeof__(sw_drawing_tube) *draw) {
   sw_drawing *d = drawing_at(L, 1);
   size_t count;
   const double *p = numbers(L, 2, 3, &count), radius = luaL_checknumber(L, 3);
   const sw_paint paint = paint_at(L, 4, count);
-  must(L, sw_drawing_tube(d, p, count, radius, &paint), "drawing: tube");
+  must(L, draw(d, p, count, radius, &paint), what);
   return 0;
 }
 
-/* drawing:balls(points, radius, colour or colours, gloss) */
-static int meth_balls(lua_State *L) {
-  sw_drawing *d = drawing_at(L, 1);
-  size_t count;
-  const double *p = numbers(L, 2, 3, &count), radius = luaL_checknumber(L, 3);
-  const sw_paint paint = paint_at(L, 4, count);
-  must(L, sw_drawing_balls(d, p, count, radius, &paint), "drawing: balls");
-  return 0;
-}
+/* drawing:tube, drawing:balls(points, radius, colour or colours, gloss) */
+static int meth_tube(lua_State *L) { return draw_round(L, "drawing: tube", sw_drawing_tube); }
+static int meth_balls(lua_State *L) { return draw_round(L, "drawing: balls", sw_drawing_balls); }
 
 /* drawing:lines(points, two for each; colour or colours of the points) */
 static int meth_lines(lua_State *L) {

@@ -34,12 +34,8 @@ sw_motion *lsw_motion_make(lua_State *L, int index, const char *what, const lsw_
  * very value that the Lua function raised, else as lsw_raise does. */
 int lsw_motion_rethrow(lua_State *L, sw_status status, const sw_error *err);
 
-/* Push the value that a trajectory's function raised last and forget it; nil when
- * there is none. Returns 1 when there was one. */
-int lsw_motion_error(lua_State *L);
-
 /* The same for other bindings' callbacks: keep the value on top of L's stack
- * (popped) for lsw_motion_error, and write it as text to err. Never raises. */
+ * (popped) for lsw_motion_rethrow, and write it as text to err. Never raises. */
 sw_status lsw_motion_keep_error(lua_State *L, sw_error *err);
 
 /* --- between the files of this binding ---------------------------------------- */

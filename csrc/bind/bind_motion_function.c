@@ -98,7 +98,9 @@ sw_status lsw_motion_keep_error(lua_State *L, sw_error *err) {
   return SW_ECALLBACK;
 }
 
-int lsw_motion_error(lua_State *L) {
+/* Push the value that a trajectory's function raised last and forget it; nil when
+ * there is none. Returns 1 when there was one. */
+static int take_error(lua_State *L) {
   lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key);
   lua_rawgeti(L, -1, 2);
   const int some = lua_toboolean(L, -1);
@@ -115,7 +117,7 @@ int lsw_motion_error(lua_State *L) {
 
 int lsw_motion_rethrow(lua_State *L, sw_status status, const sw_error *err) {
   if (status != SW_ECALLBACK) return lsw_raise(L, status, err);
-  if (lsw_motion_error(L)) return lua_error(L);
+  if (take_error(L)) return lua_error(L);
   return lsw_raise(L, status, err);
 }
 

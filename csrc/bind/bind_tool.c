@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lua class tool and scene:tool: a gripper's frame, jaws and pads (see scene/tool.h). Users meet
+/* Lua class tool and scene:tool: a gripper's frame, jaws and pads (see grip/tool.h). Users meet
  * it as scene:gripper. */
 #include <math.h>
 #include <stdio.h>

@@ -5,26 +5,26 @@
 
 /* A flat list of range, mean, number. */
 static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
-  lua_createtable(L, (int)(3 * count), 0);
-  for (size_t k = 0; k < count; k++) {
-    const double row[3] = {list[k].range, list[k].mean, list[k].count};
-    for (size_t i = 0; i < 3; i++) {
-      lua_pushnumber(L, row[i]);
-      lua_rawseti(L, -2, (lua_Integer)(3 * k + i + 1));
-    }
-  }
+  _Static_assert(sizeof *list == 3 * sizeof(double), "a cycle is three numbers");
+  lsw_push_flat(L, (const double *)list, 3 * count);
   return 1;
+}
+
+/* The wire at 1, and how many places of it are kept; partial: of a part of the run only. */
+static const lsw_child *wire_at(lua_State *L, sw_scene **scene, size_t *places, int *partial) {
+  sw_error err = {""};
+  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, scene);
+  lsw_must(L, sw_scene_worn(*scene, w->id, places, partial, &err), &err);
+  return w;
 }
 
 /* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }, is it of a part of the run
  * only?; nil where nothing is kept */
 static int mod_worn(lua_State *L) {
   sw_scene *scene;
-  sw_error err = {""};
   size_t count;
   int partial;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
+  const lsw_child *w = wire_at(L, &scene, &count, &partial);
   if (!count) return 0;
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {
@@ -45,16 +45,12 @@ static int mod_worn(lua_State *L) {
  * where nothing is kept, or of a part of the run only */
 static int mod_worn_sidewall(lua_State *L) {
   sw_scene *scene;
-  sw_error err = {""};
   size_t count;
   int partial;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
+  const lsw_child *w = wire_at(L, &scene, &count, &partial);
   if (!count || partial) return 0;
   const sw_extreme x = sw_scene_worn_sidewall(scene, w->id);
-  lua_pushnumber(L, x.value);
-  lua_pushnumber(L, x.s);
-  lua_pushnumber(L, x.time);
+  lua_pushnumber(L, x.value), lua_pushnumber(L, x.s), lua_pushnumber(L, x.time);
   return 3;
 }
 
@@ -63,14 +59,12 @@ static int mod_worn_sidewall(lua_State *L) {
  * one of 12 directions over half a turn [1/m] */
 static int mod_worn_cycles(lua_State *L) {
   sw_scene *scene;
-  sw_error err = {""};
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
   size_t count;
   int partial;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_child *w = wire_at(L, &scene, &count, &partial);
   const lua_Integer k = lsw_integer(L, 2, "worn_cycles: the place");
   const lua_Integer signal = lsw_integer(L, 3, "worn_cycles: the signal");
-  lsw_must(L, sw_scene_worn(scene, w->id, &count, &partial, &err), &err);
   luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
   luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
   double open[SW_CYCLES_OPEN];

@@ -6,8 +6,9 @@
 #include "edit/wires.h"
 #include "link/hold.h"
 #include "scene/forces.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/scene.h"
+#include "scene/wire.h"
 
 /* What a mesh of this class for the wire is to be of. */
 sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *wire, const sw_wire_class *cls,
@@ -41,5 +42,12 @@ sw_status sw_scene_rehold(sw_scene *scene, sw_hold *hold, sw_pose pose, sw_error
 sw_status sw_scene_retake_joins(sw_scene *scene, size_t wire);
 /* Meshes are others: joins of wires that lie as drawn keep what these have now. */
 void sw_scene_measure_joins(sw_scene *scene);
+
+/* 1: there is a tie that has a strength, and is not broken. */
+int sw_scene_may_break(const sw_scene *scene);
+/* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
+sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
+/* After a step, before histories follow: ties that were pulled too hard break. */
+void sw_scene_watch_ties(sw_scene *scene);
 
 #endif

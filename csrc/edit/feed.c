@@ -5,10 +5,8 @@
 #include "edit/links.h"
 #include "link/hold.h"
 #include "scene/course.h"
-#include "scene/hold.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/parts.h"
-#include "state/clamp.h"
 
 static sw_hold *feeding(sw_scene *s, sw_handle hold, sw_error *err) {
   sw_hold *h = sw_scene_living_hold(s, hold, err);

@@ -6,10 +6,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/touching.h"
 #include "edit/edit.h"
 #include "edit/forces.h"
-#include "scene/line.h"
-#include "scene/touching.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Joins: points where wires are fixed to each other. */
-#include "scene/join.h"
+#include "body/join.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "edit/edit.h"
 #include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 

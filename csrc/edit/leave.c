@@ -11,21 +11,19 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/log.h"
+#include "body/build.h"
+#include "body/history.h"
+#include "body/obstacle_log.h"
+#include "body/touching.h"
 #include "edit/edit.h"
 #include "grip/frozen.h"
 #include "grip/jaws.h"
-#include "grip/tool.h"
 #include "link/joint.h"
 #include "scene/drive.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/history.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
-#include "scene/obstacle.h"
-#include "scene/touching.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 /* --- what leaves with a body ---------------------------------------------------------------- */

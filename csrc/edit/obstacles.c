@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/obstacle_log.h"
 #include "edit/edit.h"
 #include "edit/links.h"
-#include "grip/jaws.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
+#include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 

@@ -9,11 +9,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "edit/edit.h"
 #include "edit/forces.h"
 #include "force/solid.h"
-#include "scene/line.h"
 #include "scene/scene.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 

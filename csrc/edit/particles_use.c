@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "edit/objects.h"
 #include "link/hold.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 
 static sw_scene_wire *find(const sw_scene *s, sw_handle h, sw_error *err) {
   sw_scene_wire *w = sw_scene_find_body(s, h, err);

@@ -5,13 +5,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/hold.h"
 #include "edit/edit.h"
 #include "link/hold.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 

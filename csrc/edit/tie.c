@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
-#include "edit/tie.h"
 
 #include <math.h>
 #include <stdint.h>
 
+#include "body/build.h"
+#include "body/hold.h"
+#include "edit/edit.h"
 #include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/world.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own

@@ -4,9 +4,11 @@
 
 #include "base/alloc.h"
 #include "base/tape.h"
+#include "body/build.h"
+#include "body/touching.h"
 #include "edit/edit.h"
-#include "scene/line.h"
-#include "scene/touching.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/plan.h"
 

@@ -5,10 +5,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "edit/edit.h"
 #include "record/wear.h"
 #include "record/zone.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/mesh.h"
 #include "state/plan.h"

@@ -27,4 +27,22 @@ sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *field,
 void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *field,
                        double *history);
 
+/* What such a force evaluates, commits and tells of a clamp: eval, commit and clamp_moment, by
+ * law_of(args, plan). */
+#define SW_MEMORY_FORCE(law_of)                                                                  \
+  static sw_status eval(const void *args, sw_field *f, sw_error *err) {                          \
+    const sw_memory_law law = law_of(args, f->plan);                                             \
+    (void)err;                                                                                   \
+    sw_memory_eval(&law, f);                                                                     \
+    return SW_OK;                                                                                \
+  }                                                                                              \
+  static void commit(const void *args, const sw_field *f, double *history) {                     \
+    const sw_memory_law law = law_of(args, f->plan);                                             \
+    sw_memory_commit(&law, f, history);                                                          \
+  }                                                                                              \
+  static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *hinge) { \
+    const sw_memory_law law = law_of(args, f->plan);                                             \
+    return sw_memory_clamp_moment(&law, f, hinge);                                               \
+  }
+
 #endif

@@ -41,22 +41,7 @@ static sw_memory_law law_of(const void *args, const sw_plan *plan) {
   return (sw_memory_law){stiffness, stiffness, 0.0, a->friction_moment};
 }
 
-static sw_status eval(const void *args, sw_field *f, sw_error *err) {
-  const sw_memory_law law = law_of(args, f->plan);
-  (void)err;
-  sw_memory_eval(&law, f);
-  return SW_OK;
-}
-
-static void commit(const void *args, const sw_field *f, double *history) {
-  const sw_memory_law law = law_of(args, f->plan);
-  sw_memory_commit(&law, f, history);
-}
-
-static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *hinge) {
-  const sw_memory_law law = law_of(args, f->plan);
-  return sw_memory_clamp_moment(&law, f, hinge);
-}
+SW_MEMORY_FORCE(law_of)
 
 /* As for bending, with both stiffnesses together. */
 static double stable_dt(const void *args, const sw_plan *plan) {

@@ -10,7 +10,6 @@
 #include "contact/contact.h"
 #include "grip/jaws.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
 #include "state/state_tape.h"

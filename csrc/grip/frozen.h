@@ -5,8 +5,8 @@
 #define SW_GRIP_FROZEN_H
 
 #include "base/tape.h"
+#include "body/region.h"
 #include "scene/gripper.h"
-#include "scene/region.h"
 #include "state/mesh.h"
 #include "strand/strand.h"
 

@@ -22,7 +22,6 @@
 #include "grip/frozen.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "solve/cholesky.h"

@@ -6,17 +6,18 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/hold.h"
+#include "body/obstacle_log.h"
 #include "grip/frozen.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/values.h"
 #include "scene/world.h"
-#include "state/clamp.h"
 
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);

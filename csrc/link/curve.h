@@ -15,7 +15,6 @@ typedef struct sw_curve sw_curve;
 sw_status sw_curve_spline(const double *points, size_t count, int closed, sw_curve **out);
 /* A line through the origin, without ends. SW_ENOMEM. */
 sw_status sw_curve_line(sw_vec direction, sw_curve **out);
-sw_curve *sw_curve_retain(sw_curve *curve);
 void sw_curve_release(sw_curve *curve); /* NULL is allowed */
 
 /* Of a closed one p is taken modulo its length; beyond the ends of an open one it goes on straight.

@@ -19,11 +19,6 @@ struct sw_curve {
   sw_vec direction;            /* of a line [-] */
 };
 
-sw_curve *sw_curve_retain(sw_curve *c) {
-  if (c) c->references++;
-  return c;
-}
-
 void sw_curve_release(sw_curve *c) {
   if (!c || --c->references > 0) return;
   for (int k = 0; k < 3; k++)
@@ -161,7 +156,9 @@ double sw_curve_nearest(const sw_curve *c, sw_vec point) {
   return best;
 }
 
-static void retain(void *c) { sw_curve_retain(c); }
+static void retain(void *c) {
+  if (c) ((sw_curve *)c)->references++;
+}
 static void release(void *c) { sw_curve_release(c); }
 
 void sw_tape_curve(sw_tape *t, sw_curve **curve) {

@@ -6,7 +6,7 @@
  * The node stays in the guide and its arc length changes with time, in every stage of every
  * integrator, so that the first edge grows or shrinks smoothly while all other nodes keep to their
  * material. The wire's velocity at the guide is that of the guide and the feeding speed along it.
- * Nodes are inserted and removed between steps (scene/guide.c). */
+ * Nodes are inserted and removed between steps (body/guide.c). */
 #include <math.h>
 
 #include "link/feeding.h"
@@ -92,7 +92,8 @@ void sw_feed_spare(const sw_feed *f, double fed, double spare[2]) {
     spare[k] = f->spare[k] * fmax(0, 1 - fabs(fed - f->spare_fed[k]) / f->size);
 }
 
-void sw_feed_rest(sw_hold *h, double s) {
+/* What the hold knows of the unloaded frame at arc length s of the mesh. */
+static void set_rest(sw_hold *h, double s) {
   const sw_quat q = sw_spool_at(&h->feed.shape, s).q;
   for (int side = 0; side < 2; side++) {
     h->frame[side].rest_tangent = sw_spool_tangent(q);
@@ -108,7 +109,7 @@ static void reshape(sw_hold *h, const sw_link_wire *w, const sw_plan *p) {
   m->s[h->node] = p->s[h->node];
   sw_spool_node(m, &h->feed.shape, h->node);
   m->s[h->node] = kept;
-  sw_feed_rest(h, p->s[h->node]);
+  set_rest(h, p->s[h->node]);
   w->reshaped(w->user, w->body, h->node);
 }
 

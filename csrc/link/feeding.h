@@ -48,7 +48,5 @@ void sw_feed_stop(struct sw_hold *hold, double t);
 double sw_feed_reserve(const struct sw_hold *hold, const sw_mesh *mesh, double length);
 /* What is left of the spare lengths when so much is fed [m]. */
 void sw_feed_spare(const sw_feed *feed, double fed, double spare[2]);
-/* What the hold knows of the unloaded frame at arc length s of the mesh. */
-void sw_feed_rest(struct sw_hold *hold, double s);
 
 #endif

@@ -27,22 +27,20 @@ static const double STIFFER = 100.0;
 
 typedef sw_joint_end end;
 
-size_t sw_joint_mesh_node(const end *e, const sw_link_wire *w) {
-  return sw_mesh_node(w->mesh, e->s);
-}
+static size_t mesh_node(const end *e, const sw_link_wire *w) { return sw_mesh_node(w->mesh, e->s); }
 
 static uint32_t system_node(const sw_link_wire *w, size_t node) {
   return (uint32_t)(w->system->bodies[w->body].first_node + node);
 }
 
 uint32_t sw_joint_node(const end *e, const sw_link_wire *w) {
-  return system_node(w, sw_joint_mesh_node(e, w));
+  return system_node(w, mesh_node(e, w));
 }
 
 /* The nodes between which the wire's direction at the join is taken: the edge there where it
  * ends, the two beside it in mid-wire. */
 static void arm_of(const end *e, const sw_link_wire *w, size_t nodes[2]) {
-  const size_t i = sw_joint_mesh_node(e, w), last = w->mesh->n - 1;
+  const size_t i = mesh_node(e, w), last = w->mesh->n - 1;
   nodes[0] = i == 0 ? 0 : i - 1;
   nodes[1] = i == last ? last : i + 1;
 }
@@ -54,13 +52,13 @@ static void arm_of(const end *e, const sw_link_wire *w, size_t nodes[2]) {
 static sw_vec direction_of(const end *e, const sw_link_wire *w) {
   size_t nodes[2];
   arm_of(e, w, nodes);
-  if (!w->beam->curved) return sw_mesh_tangent(w->mesh, sw_joint_mesh_node(e, w));
+  if (!w->beam->curved) return sw_mesh_tangent(w->mesh, mesh_node(e, w));
   return sw_unit_or(sw_sub(sw_vec_at(w->mesh->x, nodes[1]), sw_vec_at(w->mesh->x, nodes[0])),
                     sw_v(1, 0, 0));
 }
 
 static sw_vec place_of(const end *e, const sw_link_wire *w) {
-  return sw_vec_at(w->mesh->x, sw_joint_mesh_node(e, w));
+  return sw_vec_at(w->mesh->x, mesh_node(e, w));
 }
 
 static void measure(sw_joint *j, const sw_link_wire *wires) {

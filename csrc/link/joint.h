@@ -47,8 +47,7 @@ typedef struct sw_joint_acts {
 
 /* The class of joints with these arguments. */
 const sw_link_class *sw_joint_class(double slack);
-/* Node of an end in its wire's mesh, and in the system. */
-size_t sw_joint_mesh_node(const sw_joint_end *end, const sw_link_wire *wire);
+/* Node of an end in the system. */
 uint32_t sw_joint_node(const sw_joint_end *end, const sw_link_wire *wire);
 
 #endif

@@ -77,8 +77,6 @@ typedef struct sw_motion_given {
   sw_waypoint *points;
 } sw_motion_given;
 
-void sw_motion_forget(sw_motion_given *given); /* NULL is allowed */
-
 /* A view of the motion that still looks the same. NULL: out of memory. */
 sw_motion *sw_motion_view(sw_motion *motion);
 

@@ -74,7 +74,7 @@ static sw_status plan_motion(const sw_motion_plan *plan, sw_route *route, sw_mot
   return law->plan(law, plan, route, motion, err);
 }
 
-void sw_motion_forget(sw_motion_given *given) {
+static void forget(sw_motion_given *given) {
   if (given) sw_free(given->points);
   sw_free(given);
 }
@@ -182,6 +182,6 @@ void sw_motion_release(sw_motion *motion) {
     sw_motion_release(motion->inner);
   else if (motion->body)
     motion->law->destroy(motion->body);
-  sw_motion_forget(motion->given);
+  forget(motion->given);
   sw_free(motion);
 }

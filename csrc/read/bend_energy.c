@@ -8,9 +8,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "body/build.h"
+#include "body/section.h"
 #include "read/readout.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 
 static double of_line(sw_scene *s, size_t body) {
   sw_system *system = sw_scene_system(s);

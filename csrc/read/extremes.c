@@ -6,12 +6,12 @@
 
 #include "base/alloc.h"
 #include "base/simd.h"
-#include "link/hold.h"
+#include "body/section.h"
+#include "body/spin.h"
 #include "record/wear.h"
 #include "record/zone.h"
-#include "scene/line.h"
-#include "scene/spin.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

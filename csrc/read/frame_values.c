@@ -4,16 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/tape.h"
+#include "body/section.h"
+#include "body/spin.h"
 #include "contact/grains.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
-#include "scene/line.h"
 #include "scene/parts.h"
-#include "scene/spin.h"
 #include "scene/values.h"
-#include "state/clamp.h"
-#include "state/field.h"
 #include "state/plan.h"
 #include "system/axial.h"
 

@@ -10,13 +10,15 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/obstacle_log.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/kept_frames.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/web.h"
 #include "strand/ring.h"

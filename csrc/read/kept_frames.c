@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD };

@@ -3,13 +3,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "body/body.h"
+#include "body/build.h"
+#include "body/spin.h"
+#include "body/touching.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
-#include "scene/body.h"
-#include "scene/line.h"
-#include "scene/spin.h"
-#include "scene/touching.h"
+#include "scene/lookup.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 #include "system/join.h"

@@ -3,15 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/tape.h"
+#include "body/build.h"
+#include "body/join.h"
 #include "contact/grains.h"
-#include "link/hold.h"
 #include "link/joint.h"
 #include "modal/modal.h"
 #include "read/linear.h"
 #include "read/reading.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/world.h"
 #include "system/linear.h"
 

@@ -2,9 +2,10 @@
 /* What a wire has at a place, and the list of all read-outs. */
 #include "read/reading.h"
 #include "read/readout.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/parts.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 
 const sw_readout *const *sw_readout_all(void) {
 #define ONE(name) &sw_readout_##name,

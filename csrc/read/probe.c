@@ -2,8 +2,9 @@
 /* What one kind of force does to one wire, at the present state or at given
  * positions and velocities: energy, node forces, and its stiffness times a
  * direction. For specs, and for anyone who wants to look inside. */
+#include "body/build.h"
 #include "read/reading.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/parts.h"
 
 /* Node forces out of what the terms have left in the field. */

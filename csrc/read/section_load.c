@@ -3,12 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "body/build.h"
 #include "contact/contact.h"
 #include "force/solid.h"
 #include "read/kept_frames.h"
 #include "read/section.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "strand/ring.h"
 
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, const sw_body **body,

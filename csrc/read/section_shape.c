@@ -3,9 +3,10 @@
  * of the surface. */
 #include <math.h>
 
+#include "body/build.h"
 #include "read/section.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "state/hinge.h"
 #include "strand/ring.h"
 

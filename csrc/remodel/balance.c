@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "grip/frozen.h"
 #include "remodel/exchange.h"
 #include "remodel/remodel.h"
 #include "save/life.h"

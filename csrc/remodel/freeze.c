@@ -6,17 +6,19 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/body.h"
+#include "body/build.h"
 #include "contact/contact.h"
 #include "edit/links.h"
 #include "grip/frozen.h"
 #include "grip/jaws.h"
 #include "remodel/exchange.h"
 #include "remodel/remodel.h"
-#include "scene/body.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "state/hinge.h"
 
 /* Rings that the tool presses; 0: there are none. */

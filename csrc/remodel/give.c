@@ -16,7 +16,6 @@
 #include "read/linear.h"
 #include "remodel/exchange.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "solve/dense.h"

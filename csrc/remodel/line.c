@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The middle line of a wire, as it goes over to another model. */
-#include "scene/line.h"
+#include "remodel/line.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,9 +8,9 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "read/reading.h"
-#include "remodel/line.h"
 #include "scene/parts.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "state/hinge.h"
 
 static sw_status new_line(size_t n, sw_line *out) {

@@ -3,8 +3,8 @@
 #ifndef SW_REMODEL_LINE_H
 #define SW_REMODEL_LINE_H
 
+#include "body/region.h"
 #include "scene/parts.h"
-#include "scene/region.h"
 #include "state/mesh.h"
 
 /* The middle line at even arc lengths, or at given ones. */

@@ -7,7 +7,6 @@
 #include "read/reading.h"
 #include "remodel/line.h"
 #include "scene/parts.h"
-#include "scene/values.h"
 #include "solve/dense.h"
 #include "system/system.h"
 

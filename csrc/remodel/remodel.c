@@ -10,19 +10,17 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/join.h"
 #include "edit/edit.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/reading.h"
 #include "remodel/line.h"
 #include "save/life.h"
 #include "scene/drive.h"
-#include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "state/plan.h"
 
 static const sw_param rows[] = {
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the model that the wire is to have"},

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "contact/contact.h"
 #include "edit/links.h"
 #include "grip/frozen.h"
@@ -13,9 +14,9 @@
 #include "remodel/remodel.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
+#include "scene/wire.h"
 #include "state/hinge.h"
 
 /* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/touching.h"
 #include "edit/edit.h"
 #include "edit/leave.h"
 #include "edit/links.h"
@@ -14,10 +15,9 @@
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "strand/ring.h"
 

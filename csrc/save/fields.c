@@ -2,13 +2,13 @@
 /* The fields of a scene's objects as they lie in memory, for specs that look whether a tape has
  * them all: those of a scene that was restored in place are those of before. */
 #include "base/alloc.h"
+#include "body/touching.h"
 #include "link/joint.h"
 #include "save/file.h"
 #include "save/save.h"
 #include "scene/forces.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "watch/zone.h"
 

@@ -8,15 +8,15 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/hold.h"
+#include "body/touching.h"
 #include "link/joint.h"
 #include "save/life.h"
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 typedef struct head {

@@ -6,19 +6,20 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/history.h"
+#include "body/touching.h"
 #include "edit/edit.h"
 #include "grip/jaws.h"
 #include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/history.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "watch/watches.h"
+#include "watch/observe.h"
 #include "watch/zone.h"
 
 static const sw_param scene_rows[] = {

@@ -2,9 +2,9 @@
 /* The objects of a scene on a tape, field by field. */
 #include <string.h>
 
-#include "base/alloc.h"
+#include "body/obstacle_log.h"
+#include "body/touching.h"
 #include "edit/edit.h"
-#include "force/solid.h"
 #include "link/joint.h"
 #include "read/frames.h"
 #include "read/kept_frames.h"
@@ -13,11 +13,10 @@
 #include "save/save.h"
 #include "scene/drive.h"
 #include "scene/forces.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "scene/touching.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "state/state_tape.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)

@@ -4,10 +4,10 @@
 #define SW_SAVE_SAVE_H
 
 #include "base/tape.h"
+#include "body/live.h"
 #include "grip/jaws.h"
 #include "read/reading.h"
 #include "scene/gripper.h"
-#include "scene/live.h"
 #include "scene/parts.h"
 #include "scene/values.h"
 #include "system/system.h"

@@ -4,16 +4,17 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/hold.h"
 #include "link/joint.h"
 #include "read/kept_frames.h"
 #include "record/wear.h"
 #include "save/life.h"
 #include "save/save.h"
 #include "scene/forces.h"
-#include "scene/hold.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 struct sw_snapshot {

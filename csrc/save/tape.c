@@ -3,20 +3,20 @@
  * objects, and the state of the built scene or what an edited one remembers. A scene that is not
  * built is put on it as it is: building it between two edits would not give the same bits. */
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/history.h"
+#include "body/live.h"
+#include "body/touching.h"
 #include "edit/leave.h"
 #include "grip/jaws.h"
 #include "link/joint.h"
 #include "read/kept_frames.h"
 #include "save/save.h"
 #include "scene/forces.h"
-#include "scene/gripper.h"
-#include "scene/history.h"
-#include "scene/line.h"
-#include "scene/live.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "watch/watches.h"
+#include "watch/observe.h"
 #include "watch/zone.h"
 
 enum { LEAST = 32 }; /* no object takes less on a tape [B] */

@@ -55,8 +55,8 @@ typedef struct sw_event {
   double value;             /* in the text's unit; NAN = none */
   size_t count;             /* how often it happened, one soon after the other [-] */
 } sw_event;
-size_t sw_scene_events(const sw_scene *scene);         /* of the last run [-] */
 size_t sw_scene_events_dropped(const sw_scene *scene); /* for want of room [-] */
+/* Number k of the last run; NULL: it has no more. */
 const sw_event *sw_scene_event(const sw_scene *scene, size_t k);
 /* Book one at the scene's time; value and arc may be NAN. */
 sw_status sw_scene_book_event(sw_scene *scene, const char *kind, const char *object, double arc,

@@ -8,7 +8,6 @@
 #include "link/hold.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
-#include "state/clamp.h"
 
 void sw_drive_free(sw_drive *d) {
   sw_motion_release(d->motion);

@@ -71,7 +71,6 @@ void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc
   va_end(arguments);
 }
 
-size_t sw_scene_events(const sw_scene *s) { return s->events.count; }
 size_t sw_scene_events_dropped(const sw_scene *s) { return s->events.dropped; }
 const sw_event *sw_scene_event(const sw_scene *s, size_t k) {
   return k < s->events.count ? &s->events.list[k] : NULL;

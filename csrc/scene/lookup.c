@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is found in a scene: objects by their handles, their names, and whether it may be changed or
  * read now. */
+#include "scene/lookup.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "link/joint.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 const char *sw_scene_name(const sw_scene *s) { return s->name; }

@@ -2,8 +2,9 @@
 /* Bodies by number and handle, those that have left too. */
 #include <stdint.h>
 
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/scene.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 const sw_scene_wire *sw_scene_numbered(const sw_scene *s, size_t number, const sw_gone **gone) {

@@ -2,9 +2,8 @@
 #include "scene/parts.h"
 
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 size_t sw_scene_wire_slots(const sw_scene *s) { return s->wire_count; }

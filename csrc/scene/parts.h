@@ -7,16 +7,16 @@
 #include "scene/scene.h"
 
 /* Each in a header of its own. */
-typedef struct sw_scene_wire sw_scene_wire;         /* line.h */
-typedef struct sw_hold sw_hold;                     /* hold.h */
+typedef struct sw_scene_wire sw_scene_wire;         /* wire.h */
+typedef struct sw_hold sw_hold;                     /* link/hold.h */
 typedef struct sw_scene_obstacle sw_scene_obstacle; /* obstacle.h */
 typedef struct sw_tool sw_tool;                     /* gripper.h */
-typedef struct sw_gone sw_gone;                     /* line.h */
+typedef struct sw_gone sw_gone;                     /* wire.h */
 typedef struct sw_scene_force sw_scene_force;       /* forces.h */
-typedef struct sw_joint sw_joint;                   /* join.h */
-typedef struct sw_frame sw_frame;                   /* kept_frames.h */
-typedef struct sw_kept_history sw_kept_history;     /* history.h */
-typedef struct sw_scene_rule sw_scene_rule;         /* touching.h */
+typedef struct sw_joint sw_joint;                   /* link/joint.h */
+typedef struct sw_frame sw_frame;                   /* read/kept_frames.h */
+typedef struct sw_kept_history sw_kept_history;     /* body/history.h */
+typedef struct sw_scene_rule sw_scene_rule;         /* body/touching.h */
 typedef struct sw_course sw_course;                 /* course.h */
 typedef struct sw_books sw_books;                   /* ledger.h */
 typedef struct sw_events sw_events;                 /* events.h */
@@ -49,11 +49,6 @@ sw_grains *sw_scene_grains(const sw_scene *scene);
 sw_course *sw_scene_course(const sw_scene *scene);
 sw_books *sw_scene_books(const sw_scene *scene);
 sw_events *sw_scene_events_of(const sw_scene *scene);
-
-/* Leave the built state: the meshes become authoritative again. */
-sw_status sw_scene_thaw(sw_scene *scene);
-/* Make the system from the meshes and holds, if it is not. */
-sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 
 /* The given name, or kind and a number. */
 void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);

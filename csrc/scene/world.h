@@ -5,12 +5,20 @@
 #define SW_SCENE_WORLD_H
 
 #include "base/log.h"
-#include "record/watches.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
 #include "scene/parts.h"
 #include "system/system.h"
+
+/* The series of wires and forces. */
+typedef struct sw_watch sw_watch; /* the rows of one object */
+
+typedef struct sw_watches {
+  sw_watch *list;
+  size_t count, capacity;
+  size_t next; /* where the object that is noted next is likely to be [-] */
+} sw_watches;
 
 typedef struct sw_crowd sw_crowd;
 typedef struct sw_zone sw_zone; /* watch/zone.h */

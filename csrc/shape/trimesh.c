@@ -118,9 +118,9 @@ static sw_status weld_all(sw_trimesh *mesh, welder *w, const double *vertices, s
   return SW_OK;
 }
 
-sw_status sw_trimesh_clean(sw_trimesh *mesh, const char *object, const double *vertices,
-                           size_t vertex_count, const int *indices, size_t triangle_count,
-                           sw_error *err) {
+static sw_status clean(sw_trimesh *mesh, const char *object, const double *vertices,
+                       size_t vertex_count, const int *indices, size_t triangle_count,
+                       sw_error *err) {
   const double cells = 8; /* cell side in weld distances: few vertices look in two cells [-] */
   size_t slots = 1;
   SW_TRY(measure(mesh, object, vertices, vertex_count, err));
@@ -158,8 +158,7 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
                            size_t vertex_count, const int *indices, size_t triangle_count,
                            sw_error *err) {
   SW_TRY(check_counts(object, vertex_count, indices, triangle_count, err));
-  sw_status status =
-      sw_trimesh_clean(mesh, object, vertices, vertex_count, indices, triangle_count, err);
+  sw_status status = clean(mesh, object, vertices, vertex_count, indices, triangle_count, err);
   if (status == SW_OK && mesh->triangle_count == 0)
     return sw_fail(err, SW_EINVAL, "%s: none of the %zu triangles has an area", object,
                    triangle_count);

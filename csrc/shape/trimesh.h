@@ -56,9 +56,6 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
 void sw_trimesh_free(sw_trimesh *mesh);
 
 /* Parts of the build, one per file. */
-sw_status sw_trimesh_clean(sw_trimesh *mesh, const char *object, const double *vertices,
-                           size_t vertex_count, const int *indices, size_t triangle_count,
-                           sw_error *err);
 sw_status sw_trimesh_tree(sw_trimesh *mesh);
 sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err);
 

@@ -2,8 +2,8 @@
 /* A trial becomes the state: it is committed, observed and booked. */
 #include <math.h>
 
-#include "scene/hold.h"
-#include "scene/touching.h"
+#include "body/hold.h"
+#include "body/touching.h"
 #include "scene/world.h"
 #include "step/believe.h"
 #include "step/energy.h"

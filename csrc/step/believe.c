@@ -11,8 +11,8 @@
 #include "read/reading.h"
 #include "scene/course.h"
 #include "scene/events.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 
 static const double LARGEST_STRAIN = 10.0; /* beyond it a run has diverged [-] */
 

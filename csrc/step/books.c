@@ -4,14 +4,14 @@
 #include <math.h>
 
 #include "contact/grains.h"
-#include "scene/line.h"
-#include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/step.h"
-#include "watch/tell.h"
+#include "watch/observe.h"
 
-const double SW_LEDGER_REMARK = 0.02, SW_LEDGER_FAILURE = 0.05;
+/* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
+static const double REMARK = 0.02, FAILURE = 0.05;
 
 /* A held point is off its hold by more than rounding [m]. */
 static const double JUMP = 1e-9;
@@ -207,8 +207,8 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
     tell_retries(s, "redone, more than 1 % of all, for they made energy", &l->redone);
-  if (!(share > SW_LEDGER_REMARK)) return SW_OK;
-  if (!(share > SW_LEDGER_FAILURE)) {
+  if (!(share > REMARK)) return SW_OK;
+  if (!(share > FAILURE)) {
     sw_scene_tell(s, "energy", "", NAN, share,
                   "steps made %.3g J from nowhere, %.2g %% of what was in play; smaller steps show "
                   "what that changes",

@@ -6,11 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/join.h"
-#include "scene/line.h"
-#include "scene/live.h"
+#include "body/join.h"
+#include "body/live.h"
+#include "body/touching.h"
 #include "scene/parts.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "state/mesh.h"
 #include "step/statics.h"
 

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "body/touching.h"
 #include "force/force.h"
-#include "scene/touching.h"
 #include "scene/world.h"
 #include "step/blow.h"
 #include "step/restart.h"

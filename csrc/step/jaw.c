@@ -9,7 +9,7 @@
 
 #include "grip/jaws.h"
 #include "scene/gripper.h"
-#include "scene/line.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/obey.h"
 

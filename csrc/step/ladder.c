@@ -7,10 +7,10 @@
 
 #include "base/alloc.h"
 #include "base/quota.h"
+#include "body/guide.h"
+#include "body/touching.h"
 #include "scene/course.h"
-#include "scene/feed.h"
 #include "scene/parts.h"
-#include "scene/touching.h"
 #include "step/energy.h"
 #include "step/restart.h"
 

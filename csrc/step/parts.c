@@ -5,8 +5,8 @@
 
 #include <math.h>
 
+#include "body/guide.h"
 #include "scene/course.h"
-#include "scene/feed.h"
 #include "step/blow.h"
 #include "step/passing.h"
 #include "step/restart.h"

@@ -3,14 +3,12 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "body/live.h"
 #include "contact/contact.h"
-#include "edit/tie.h"
-#include "grip/jaws.h"
+#include "edit/edit.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/join.h"
-#include "scene/line.h"
-#include "scene/live.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/jaw.h"

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "body/hold.h"
+#include "body/touching.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/reading.h"
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "system/join.h"

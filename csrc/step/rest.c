@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/live.h"
+#include "body/live.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
 #include "step/statics.h"

@@ -5,22 +5,22 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
+#include "body/hold.h"
+#include "body/touching.h"
 #include "grip/jaws.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
 #include "read/linear.h"
 #include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/ladder.h"
 #include "step/rest.h"
 #include "step/run_check.h"
 #include "watch/observe.h"
-#include "watch/tell.h"
 
 /* The next frame is due after t; frames that steps have passed are left out. */
 static void next_frame(sw_scene *s, double every, double t) {

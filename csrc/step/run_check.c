@@ -3,10 +3,10 @@
 
 #include <math.h>
 
+#include "body/join.h"
 #include "link/hold.h"
 #include "link/joint.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/slip.h"
 

@@ -2,6 +2,7 @@
 /* scene:settle: the equilibrium where the scene is. */
 #include <string.h>
 
+#include "body/build.h"
 #include "read/extremes.h"
 #include "scene/course.h"
 #include "scene/parts.h"

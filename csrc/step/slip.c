@@ -8,12 +8,11 @@
 
 #include <math.h>
 
+#include "body/guide.h"
+#include "body/hold.h"
 #include "link/hold.h"
 #include "scene/course.h"
-#include "scene/feed.h"
-#include "scene/hold.h"
 #include "scene/parts.h"
-#include "state/field.h"
 #include "step/obey.h"
 
 static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */

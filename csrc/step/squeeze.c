@@ -4,9 +4,8 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "grip/jaws.h"
+#include "body/live.h"
 #include "scene/gripper.h"
-#include "scene/live.h"
 #include "scene/parts.h"
 #include "step/jaw.h"
 #include "step/rest.h"

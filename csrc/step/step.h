@@ -25,8 +25,6 @@ extern const sw_params sw_run_params;
 /* A run begins: extremes of wires and of penetration start anew. wear: is that of wires kept? */
 sw_status sw_scene_begin_run(sw_scene *scene, int wear, sw_error *err);
 
-/* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
-extern const double SW_LEDGER_REMARK, SW_LEDGER_FAILURE;
 /* The run has ended: tell what there is to tell. SW_EDIVERGED when it made too much energy to be
  * believed; the scene then refuses to be read. */
 sw_status sw_scene_end_run(sw_scene *scene, sw_error *why);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One trial by the run's method, whose stages the system solves: is it one to believe? */
-#include "edit/tie.h"
+#include "edit/edit.h"
 #include "scene/course.h"
-#include "scene/join.h"
 #include "scene/parts.h"
 #include "step/believe.h"
 #include "step/restart.h"

@@ -4,14 +4,11 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/tape.h"
-#include "grip/jaws.h"
+#include "body/hold.h"
 #include "link/hold.h"
 #include "scene/drive.h"
-#include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 

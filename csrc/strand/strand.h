@@ -65,8 +65,4 @@ sw_status sw_strand_copy(const sw_strand *from, sw_strand *to);
 /* On a tape; placed: it says where the particles are, for nothing else does. */
 void sw_tape_strand(sw_tape *tape, sw_strand *strand, int placed);
 
-/* How fast the web's solid elements swing, by their stiffness at the places x, which bounds the
- * steps of explicit methods. SW_ENOMEM. */
-sw_status sw_strand_bound_solids(sw_web *web, const double *x);
-
 #endif

@@ -236,7 +236,9 @@ static void find_around(const sw_lattice *l, uint32_t *around, size_t *count) {
   } while (at != first && *count < n);
 }
 
-sw_status sw_strand_bound_solids(sw_web *w, const double *x) {
+/* How fast the web's solid elements swing, by their stiffness at the places x, which bounds the
+ * steps of explicit methods. SW_ENOMEM. */
+static sw_status bound_solids(sw_web *w, const double *x) {
   double at[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
   double *sum = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
@@ -323,7 +325,7 @@ sw_status sw_strand_fill(sw_strand_maker *m) {
     const double l = sw_dist(sw_vec_at(x, w->link[e].a), sw_vec_at(x, w->link[e].b));
     m->strand->axial[e] = w->link[e].k * (l - w->link[e].rest);
   }
-  SW_TRY(sw_strand_bound_solids(w, x));
+  SW_TRY(bound_solids(w, x));
   SW_TRY(sw_web_bound_rate(w));
   SW_TRY(sw_web_bound_slides(w));
   return sw_web_add_surface(w);

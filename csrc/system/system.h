@@ -202,9 +202,6 @@ sw_status sw_system_enable_twist(sw_system *system, size_t body);
  * to the state. */
 void sw_system_follow(sw_system *system, const double *x);
 
-/* The holds' present orientations (as last placed) go with the state's twist. */
-void sw_system_take_turns(sw_system *system);
-
 /* Bring every field's geometry up to the state (system->x). */
 void sw_system_refresh(sw_system *system);
 

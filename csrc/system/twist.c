@@ -226,7 +226,8 @@ void sw_twist_react(sw_held_node *h, const sw_body *b) {
   }
 }
 
-void sw_system_take_turns(sw_system *s) {
+/* The holds' present orientations (as last placed) go with the state's twist. */
+static void take_turns(sw_system *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_quat q = s->hold_states[k].pose.q;
     double *out = s->turn + 4 * k;
@@ -242,5 +243,5 @@ void sw_system_follow(sw_system *s, const double *x) {
       s->twist[body->first_span + k] +=
           span_change(s, body, &body->plan->spans[k], x + 3 * body->first_node);
   }
-  sw_system_take_turns(s);
+  take_turns(s);
 }

@@ -5,12 +5,13 @@
 #include <stdio.h>
 
 #include "edit/wires.h"
+#include "read/reading.h"
 #include "scene/events.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 #include "scene/values.h"
-#include "watch/tell.h"
+#include "scene/wire.h"
+#include "watch/observe.h"
 
 typedef struct amount {
   double value;

@@ -4,18 +4,14 @@
  * with more than any wire bears? Both are noticed and told. */
 #include <math.h>
 
-#include "edit/links.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/drive.h"
 #include "scene/events.h"
-#include "scene/gripper.h"
-#include "scene/hold.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
+#include "watch/observe.h"
 #include "watch/series.h"
-#include "watch/tell.h"
 
 /* A held place may be so much deeper in an obstacle than where it was taken hold of, of the
  * distance from there to the surface [-]. Contact itself lets wires in by far less. */

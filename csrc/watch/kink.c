@@ -5,12 +5,13 @@
  * sqrt 3. Either way there is nothing to be found beyond but a tube that is folded at one place. */
 #include <math.h>
 
+#include "body/section.h"
 #include "scene/events.h"
-#include "scene/line.h"
 #include "scene/parts.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "strand/ring.h"
-#include "watch/tell.h"
+#include "watch/observe.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
 /* A fold is far beyond both, where the tube has nowhere that width any more [-]. */

@@ -1,14 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Records of every accepted state: histories, extremes, logs. Of the scene's inside. */
+/* What is kept and told of every accepted state: histories, extremes, series, and events: breaking
+ * loads, kinks, crashes, what presses hard, wires that may buckle. */
 #ifndef SW_WATCH_OBSERVE_H
 #define SW_WATCH_OBSERVE_H
 
-#include "scene/scene.h"
+#include "base/tape.h"
+#include "scene/parts.h"
+#include "scene/values.h"
 
 /* After an accepted state, which holds and jaws follow: histories, extremes, logs. */
 sw_status sw_scene_observe(sw_scene *scene, sw_error *err);
 /* Steps are to begin at the state, whose holds are placed: the wear of wires goes on from it, and
  * zones see it. SW_ENOMEM. */
 sw_status sw_scene_begin_watching(sw_scene *scene, sw_error *err);
+
+/* Tells of a wire whose largest tension is above its breaking load. */
+void sw_scene_watch_breaking(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+/* The same at the end of a run, of runs that were shorter than the window. */
+void sw_scene_end_breaking(sw_scene *scene);
+/* And as the end of a sentence, or nothing. */
+void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
+/* Tells of a tube that is folded at one place. */
+void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
+
+/* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
+sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
+/* 1: one was driven into an obstacle in the last step. */
+int sw_hold_crashed(const sw_scene *scene);
+
+/* The obstacle that presses a wire hard, as the end of a sentence, or nothing. */
+void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
+
+/* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
+ */
+sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
+
+typedef struct sw_watches sw_watches; /* world.h */
+/* Add a row of the accepted state. */
+sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);
+/* The same of all forces that tell what they do to wires (clips, ties). */
+sw_status sw_watch_forces(sw_scene *scene, sw_error *err);
+/* Ties between wires. */
+sw_status sw_watch_ties(sw_scene *scene, sw_error *err);
+void sw_watches_clear(sw_watches *watches);
+void sw_tape_watches(sw_tape *tape, sw_watches *watches);
 
 #endif

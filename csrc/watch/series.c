@@ -5,18 +5,17 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/hold.h"
 #include "edit/forces.h"
 #include "link/hold.h"
 #include "link/joint.h"
-#include "record/watches.h"
 #include "scene/forces.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
 #include "scene/scene.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "watch/watches.h"
+#include "watch/observe.h"
 
 enum { OF_WIRE, OF_FORCE, OF_TIE };
 

@@ -3,14 +3,14 @@
  * not even rounding. Real ones buckle, and the run says so. */
 #include <math.h>
 
+#include "body/join.h"
 #include "modal/modal.h"
 #include "read/linear.h"
 #include "scene/events.h"
-#include "scene/join.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "system/system.h"
-#include "watch/tell.h"
+#include "watch/observe.h"
 
 /* Tangents that differ by less than this are those of a straight wire [-]. */
 static const double STRAIGHT = 1e-9;

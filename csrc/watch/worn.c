@@ -2,7 +2,8 @@
 #include "watch/worn.h"
 
 #include "record/wear.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "watch/wear.h"
 

@@ -6,7 +6,8 @@
 
 #include "base/alloc.h"
 #include "record/zone.h"
-#include "scene/line.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 static const sw_param rows[] = {

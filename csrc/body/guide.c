@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The mesh beside guides: nodes that come out of them and go into them. */
+#include "body/guide.h"
+
 #include <math.h>
 
 #include "base/alloc.h"
+#include "body/build.h"
 #include "contact/grains.h"
 #include "link/hold.h"
 #include "link/spool.h"
-#include "scene/feed.h"
-#include "scene/line.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 

@@ -2,7 +2,7 @@
 /* The largest torsion of a wire that is a line. */
 #include <math.h>
 
-#include "scene/spin.h"
+#include "body/spin.h"
 #include "system/system.h"
 
 static void keep(sw_extreme *out, double value, double s) {

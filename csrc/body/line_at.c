@@ -2,10 +2,10 @@
 /* What a place on a line is like: between its nodes, and beside what holds it. */
 #include <math.h>
 
-#include "scene/body.h"
-#include "scene/line.h"
-#include "scene/spin.h"
+#include "body/body.h"
+#include "body/spin.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/clamp.h"
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A wire that is a mesh of particles read as a wire: the line through the middles of its rings,
  * the forces that its sections carry, and their deformation. */
+#include "body/section.h"
+
 #include <math.h>
 
 #include "force/solid.h"
-#include "scene/line.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "strand/ring.h"
 

@@ -2,12 +2,12 @@
 /* A body of the scene is a line of nodes along an arc or a web of particles, and all that building,
  * holding and taking it back do otherwise for one than for the other is a member of this class.
  * Of this room only. */
-#ifndef SW_SCENE_BODY_H
-#define SW_SCENE_BODY_H
+#ifndef SW_BODY_BODY_H
+#define SW_BODY_BODY_H
 
-#include "scene/line.h"
 #include "scene/parts.h"
 #include "scene/values.h"
+#include "scene/wire.h"
 #include "state/plan.h"
 #include "system/system.h"
 

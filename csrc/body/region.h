@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A wire of which only a region is a mesh of rings, the rest lines of particles. */
-#ifndef SW_SCENE_REGION_H
-#define SW_SCENE_REGION_H
+#ifndef SW_BODY_REGION_H
+#define SW_BODY_REGION_H
 
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames of wires that turn about themselves. Of the scene's inside. */
-#ifndef SW_SCENE_SPIN_H
-#define SW_SCENE_SPIN_H
+#ifndef SW_BODY_SPIN_H
+#define SW_BODY_SPIN_H
 
 #include "scene/scene.h"
 #include "system/system.h"

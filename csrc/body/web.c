@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bodies that are webs: meshes of particles ring by ring along a wire, and objects of particles. */
+#include "state/web.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/body.h"
+#include "body/section.h"
 #include "link/hold.h"
-#include "scene/body.h"
 #include "state/mesh.h"
-#include "state/web.h"
 #include "strand/ring.h"
 
 /* --- place ---------------------------------------------------------------------- */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Holds and joins as the built scene sees them, and wires as these do. */
+#include "body/hold.h"
+#include "body/join.h"
+#include "body/spin.h"
 #include "link/hold.h"
 #include "link/joint.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
-#include "scene/spin.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "system/system.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steps in which wire goes through holds. Of this room and of steps. */
-#ifndef SW_SCENE_FEED_H
-#define SW_SCENE_FEED_H
+#ifndef SW_BODY_GUIDE_H
+#define SW_BODY_GUIDE_H
 
 #include "link/hold.h"
 #include "scene/scene.h"

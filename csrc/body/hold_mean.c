@@ -4,8 +4,8 @@
  * without end as steps get shorter, and that at the step's end says nothing of the impulse. */
 #include <math.h>
 
+#include "body/hold.h"
 #include "link/hold.h"
-#include "scene/hold.h"
 #include "scene/world.h"
 
 static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec first) {

@@ -3,10 +3,10 @@
  * is wire that can be meshed. */
 #include <math.h>
 
+#include "body/body.h"
+#include "body/hold.h"
 #include "link/hold.h"
-#include "scene/body.h"
-#include "scene/hold.h"
-#include "scene/line.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 static const double SAME_PLACE = 1e-9; /* of the wire's length: rounding [-] */

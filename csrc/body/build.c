@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the edited scene to a system that can be advanced, and back. */
+#include "body/build.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "base/tape.h"
+#include "body/body.h"
+#include "body/history.h"
+#include "body/hold.h"
+#include "body/join.h"
+#include "body/spin.h"
+#include "body/touching.h"
 #include "link/hold.h"
-#include "scene/body.h"
 #include "scene/drive.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/history.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/line.h"
 #include "scene/obstacle.h"
-#include "scene/spin.h"
-#include "scene/touching.h"
+#include "scene/wire.h"
 #include "scene/world.h"
-#include "state/field.h"
 #include "state/mesh.h"
 
 static void drop(sw_scene *s) {

@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What wires touch: obstacles, each other, themselves. Which wires touch each other is a
  * list of statements, the later ones overruling the earlier; the system gets a table. */
-#include "scene/touching.h"
+#include "body/touching.h"
 
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/tape.h"
+#include "body/hold.h"
 #include "scene/drive.h"
-#include "scene/hold.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
-#include "state/plan.h"
 #include "system/system.h"
 
 static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table) {

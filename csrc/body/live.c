@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a built scene has besides its objects: the state of the system, of contact and of the
  * stepper. Put back into a scene built of the same objects it gives the same bits. */
-#include "scene/live.h"
+#include "body/live.h"
 
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/body.h"
 #include "contact/grains.h"
-#include "scene/body.h"
-#include "scene/line.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 sw_live sw_live_of(const sw_scene *s) {

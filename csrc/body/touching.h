@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the wires touch: obstacles and wires in one (see sw_contact and sw_pairs). Of the scene's
  * inside. */
-#ifndef SW_SCENE_TOUCHING_H
-#define SW_SCENE_TOUCHING_H
+#ifndef SW_BODY_TOUCHING_H
+#define SW_BODY_TOUCHING_H
 
 #include "contact/contact.h"
 #include "contact/crowd.h"
@@ -18,8 +18,6 @@ typedef struct sw_scene_rule {
   sw_pair_rule rule;
 } sw_scene_rule;
 
-/* Drop the contact memory kept for the next system. */
-void sw_scene_forget_contact(sw_scene *scene);
 /* SW_ENOMEM. */
 sw_status sw_scene_new_pairs(sw_scene *scene);
 void sw_scene_couple(sw_scene *scene);

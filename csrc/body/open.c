@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Wires are opened to be read: the scene is built, their state refreshed. */
-#include "scene/line.h"
+
+#include "body/build.h"
+#include "scene/lookup.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 
 sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What forces remember outlives a change of the system. Of the scene's inside. */
-#ifndef SW_SCENE_HISTORY_H
-#define SW_SCENE_HISTORY_H
+#ifndef SW_BODY_HISTORY_H
+#define SW_BODY_HISTORY_H
 
 #include "base/tape.h"
 #include "force/force.h"

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series of the forces on obstacles. Where nothing touches there is nothing to write: rows without
  * a force are added when something does, or when the series is read. */
+#include "body/obstacle_log.h"
+
 #include <string.h>
 
+#include "body/touching.h"
 #include "scene/obstacle.h"
-#include "scene/touching.h"
 #include "scene/values.h"
 #include "scene/world.h"
 
@@ -31,11 +33,6 @@ static sw_status fill(sw_scene *s, sw_scene_obstacle *o, size_t end) {
 
 sw_status sw_obstacle_log_fill(sw_scene *s, sw_scene_obstacle *o) {
   return fill(s, o, steps_of(s));
-}
-
-sw_status sw_obstacle_log_fill_all(sw_scene *s) {
-  for (size_t k = 0; k < s->obstacle_count; k++) SW_TRY(fill(s, &s->obstacles[k], steps_of(s)));
-  return SW_OK;
 }
 
 sw_status sw_obstacle_log_state(sw_scene *s) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Material frames between the meshes and the system. */
-#include "scene/spin.h"
+#include "body/spin.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "link/hold.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 

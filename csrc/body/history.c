@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What forces remember outlives a change of the system: clamps put on and taken
  * off, nodes moved and inserted, other forces made. */
-#include "scene/history.h"
+#include "body/history.h"
 
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "contact/grains.h"
 #include "force/solid.h"
 #include "scene/forces.h"
-#include "scene/line.h"
+#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/state_tape.h"
 

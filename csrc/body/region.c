@@ -2,15 +2,15 @@
 /* Where a wire of which only a region is meshed has rings, and where the particles of its lines:
  * rings at even distances in the region and a little on both sides of everything that holds the
  * wire's direction, for a line has no section to be held by. */
-#include "scene/region.h"
+#include "body/region.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/alloc.h"
 #include "link/hold.h"
-#include "scene/line.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 
 enum { BESIDE = 2 };              /* slices beside what clamps [-] */
 static const double NARROW = 4.0; /* parts nearer than this are one, of slices [-] */

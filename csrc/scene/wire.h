@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire of the scene, and read-outs of one that is a mesh of particles. Of this room and
- * of steps. */
-#ifndef SW_SCENE_LINE_H
-#define SW_SCENE_LINE_H
+/* A wire of the scene, or an object of particles. */
+#ifndef SW_SCENE_WIRE_H
+#define SW_SCENE_WIRE_H
 
 #include "link/hold.h"
 #include "record/wear.h"
@@ -72,38 +71,5 @@ static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
 static inline int sw_scene_has_sections(const sw_scene_wire *wire) {
   return wire->strand.web && wire->strand.web->per_ring;
 }
-
-/* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
-sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);
-/* May it touch others? Wires that are lines and objects of particles do, sections of meshes do not.
- */
-sw_status sw_scene_check_touching(const sw_scene_wire *wire, sw_error *err);
-
-/* Read-outs at arc length s; extremes. */
-void sw_strand_at(const sw_scene *scene, const sw_scene_wire *wire, const sw_body *body, double s,
-                  sw_point_state *out);
-/* Bending moment in the slice of a mesh that has a place [m], [N m]. */
-double sw_strand_moment(const sw_plan *plan, const double *x, double place);
-/* tension (rings - 1), or NULL: what is carried between two rings [N]. */
-void sw_strand_extremes(const sw_scene *scene, size_t wire, double *tension, sw_wire_extremes *now);
-
-/* The wire of a handle, in a scene that is built, readable and refreshed. */
-sw_status sw_scene_open_wire(sw_scene *scene, sw_handle h, sw_scene_wire **wire, sw_error *err);
-/* SW_EINVAL when place is no arc length of the wire. */
-sw_status sw_scene_check_place(const sw_scene_wire *wire, double place, sw_error *err);
-
-/* The wire is as drawn: not twisted anywhere. SW_ENOMEM. */
-sw_status sw_scene_draw_untwisted(sw_scene_wire *wire);
-
-/* The object of a handle, or NULL with err set. A body is a wire or an object of particles. */
-sw_scene_wire *sw_scene_find_body(const sw_scene *scene, sw_handle h, sw_error *err);
-sw_scene_wire *sw_scene_find_wire(const sw_scene *scene, sw_handle h, sw_error *err);
-/* The body of a handle, in a scene that is built, readable and refreshed. */
-sw_status sw_scene_open_body(sw_scene *scene, sw_handle h, sw_scene_wire **body, sw_error *err);
-/* SW_EINVAL for a speed that nothing has [m/s]. */
-sw_status sw_scene_check_speed(const sw_scene *scene, const sw_scene_wire *body, double speed,
-                               sw_error *err);
-/* The body of a number in frames, or NULL when it is gone; then what is known of it. */
-const sw_scene_wire *sw_scene_numbered(const sw_scene *scene, size_t number, const sw_gone **gone);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Holds: clamps, pins, grips, feeds. Of this room and of steps. */
-#ifndef SW_SCENE_HOLD_H
-#define SW_SCENE_HOLD_H
+#ifndef SW_BODY_HOLD_H
+#define SW_BODY_HOLD_H
 
 #include "link/hold.h"
 #include "scene/scene.h"
@@ -15,9 +15,6 @@ int sw_hold_jerked(const sw_scene *scene, const sw_hold *hold, sw_vec *force, sw
  * whose end it is the force [s]. */
 double sw_hold_span(const sw_scene *scene, int mean);
 
-sw_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
-/* The same of a hold that has not been released. */
-sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err);
 /* Nodes for the wire's living holds in another mesh of the same length. SW_ENOMEM. */
 sw_status sw_scene_make_places(const sw_scene *scene, size_t wire, sw_mesh *mesh);
 

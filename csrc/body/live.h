@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of a built scene, of contact and of the stepper. Of the scene's inside. */
-#ifndef SW_SCENE_LIVE_H
-#define SW_SCENE_LIVE_H
+#ifndef SW_BODY_LIVE_H
+#define SW_BODY_LIVE_H
 
 #include "base/tape.h"
 #include "integrate/integrate.h"

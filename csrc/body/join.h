@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Joins and ties between wires. Of this room and of steps. */
-#ifndef SW_SCENE_JOIN_H
-#define SW_SCENE_JOIN_H
+#ifndef SW_BODY_JOIN_H
+#define SW_BODY_JOIN_H
 
 #include "link/joint.h"
 #include "scene/scene.h"
@@ -15,7 +15,5 @@ void sw_scene_joint_wires(const sw_scene *scene, const sw_joint *join,
                           sw_link_wire out[SW_JOIN_ENDS]);
 /* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
-/* NULL: the scene does not know it. */
-sw_joint *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
 
 #endif

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/body.h"
+#include "body/hold.h"
+#include "body/join.h"
+#include "body/spin.h"
 #include "link/hold.h"
-#include "scene/body.h"
-#include "scene/hold.h"
-#include "scene/join.h"
-#include "scene/spin.h"
 #include "state/mesh.h"
 
 static int is_on(const sw_hold *h, size_t wire) { return h->alive && h->wire == wire; }
