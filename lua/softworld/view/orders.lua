@@ -289,7 +289,8 @@ local function changes_of(lines)
   list[#list + 1] = "  local changes = {"
   for _, line in ipairs(lines) do
     local time = literal.number(line.time)
-    list[#list + 1] = line.text and ("    { %s, function() %s end },"):format(time, line.text)
+    list[#list + 1] = line.text == "" and ("    { %s, function() end }, -- it was left here"):format(time)
+      or line.text and ("    { %s, function() %s end },"):format(time, line.text)
       or ("    { %s }, -- the run is ended"):format(time)
   end
   list[#list + 1] = "  }"
