@@ -24,6 +24,7 @@ typedef struct host_options {
   int codes;       /* number of -e options */
   int interactive; /* -i, or nothing to do and a terminal to do it on */
   int view;        /* --view: scenes are shown in a browser while they run */
+  int functions;   /* --functions: its pages may type Lua functions */
   int check;       /* --check: the exit code tells what the script's checks found */
   int version, help;
   const char *log; /* file of --log, or NULL */

@@ -28,10 +28,12 @@ static int run_all(lua_State *L, const host_options *o) {
   if (o->command) return host_run_command(L, o);
   while (status == HOST_OK && (code = host_options_code(o, &at))) status = host_run_code(L, code);
   const int nothing = !o->codes && !o->version && !o->interactive;
-  if (o->view && !o->script)
-    return host_run_code(L, "require('softworld'); require('softworld.view.view').begin()");
-  if (status == HOST_OK && o->view)
-    status = host_run_code(L, "require('softworld.view.view').all {}");
+  const char *may = o->functions ? "{ functions = true }" : "{}";
+  char view[100];
+  snprintf(view, sizeof view, "require('softworld'); require('softworld.view.view').%s %s",
+           o->script ? "all" : "begin", may);
+  if (o->view && !o->script) return host_run_code(L, view);
+  if (status == HOST_OK && o->view) status = host_run_code(L, view);
   if (status == HOST_OK && (o->script || nothing)) status = host_run_script(L, o);
   if (status == HOST_OK && o->view)
     status = host_run_code(L, "require('softworld.view.view').stay()");

@@ -20,6 +20,7 @@ static const char help_text[] =
     "  -i           go on at the prompt afterwards\n"
     "  --view       show the script's scenes in a browser while they run, until Ctrl-C;\n"
     "               without a script: begin with nothing, and put a scene together there\n"
+    "  --functions  with --view: pages may type Lua functions, which can do whatever you can\n"
     "  -v           show the version (also --version)\n"
     "  -h           show this text (also --help)\n"
     "  --           end of the options\n"
@@ -34,7 +35,8 @@ void host_options_help(void) { fputs(help_text, stdout); }
 static int usage(const char *what, const char *word) {
   fprintf(stderr, "softworld: %s '%s'\n", what, word);
   fputs(
-      "usage: softworld [-e code] [-i] [-v] [--view] [--check] [--log file] [script [arguments]]; "
+      "usage: softworld [-e code] [-i] [-v] [--view [--functions]] [--check] [--log file] [script "
+      "[arguments]]; "
       "softworld "
       "doc [topic]; "
       "softworld --help tells more\n",
@@ -55,6 +57,8 @@ static int read_option(host_options *o, int *at) {
     o->interactive = 1;
   } else if (strcmp(word, "--view") == 0) {
     o->view = 1;
+  } else if (strcmp(word, "--functions") == 0) {
+    o->functions = 1;
   } else if (strcmp(word, "--check") == 0) {
     o->check = 1;
   } else if (strcmp(word, "-v") == 0 || strcmp(word, "--version") == 0) {
@@ -89,6 +93,7 @@ int host_options_read(host_options *o, int argc, char **argv) {
   o->script = i < argc && !o->command ? i : 0;
   if (o->view && !o->script && (o->codes || o->version || o->interactive))
     return usage("a script is missing after", "--view");
+  if (o->functions && !o->view) return usage("--view is missing beside", "--functions");
   if (o->check && !o->script) return usage("a script is missing after", "--check");
   if (o->check && (o->interactive || o->view))
     return usage("neither -i nor --view goes with", "--check");

@@ -350,6 +350,13 @@ describe("a view that begins with nothing", function()
   end)
 end)
 
+local function choose(kind)
+  page:run([[
+    const s = document.querySelector(".form-box .choose select");
+    s.value = arguments[0];
+    s.dispatchEvent(new Event("change"));]], kind)
+end
+
 describe("softworld --view without a script", function()
   it("opens a page to begin with nothing, until Ctrl-C, a run or not", function()
     stop()
@@ -369,12 +376,6 @@ describe("softworld --view without a script", function()
   end)
 
   it("joins wires, makes a net, and waits for what a gripper bears", function()
-    local function choose(kind)
-      page:run([[
-        const s = document.querySelector(".form-box .choose select");
-        s.value = arguments[0];
-        s.dispatchEvent(new Event("change"));]], kind)
-    end
     page:go(begin "--view")
     for _, name in ipairs { "cord", "branch" } do
       add "wire"
@@ -424,6 +425,52 @@ describe("softworld --view without a script", function()
     for _, line in ipairs(page:console()) do
       assert.is_true(line.level ~= "SEVERE" or line.message:find("CONNECTION_REFUSED") ~= nil, line.message)
     end
+    stop()
+  end)
+
+  it("takes functions where it was told to, shows the line that is wrong, and saves them", function()
+    local function has_function()
+      add "force"
+      return page:run [[return [...document.querySelector(".form-box .choose select").options]
+        .some((o) => o.value === "function")]]
+    end
+    page:go(begin "--view")
+    add "wire"
+    submit()
+    closed()
+    assert.is_false(has_function())
+    stop()
+    page:go(begin "--view --functions")
+    add "wire"
+    submit()
+    closed()
+    assert.is_true(has_function())
+    choose "function"
+    local function body(words)
+      page:run("document.querySelector('textarea.code').value = arguments[0]", words)
+      submit()
+    end
+    body "f[3] = f[3] + 0.01\nf[6] = = 2"
+    page:wait "return /^function.func: line 2: /.test(document.querySelector('.form-box .why').innerText)"
+    assert.equal("f[6] = = 2", page:run [[const a = document.activeElement;
+      return a.value.slice(a.selectionStart, a.selectionEnd)]])
+    body "if t > 0.2 then\n  f[3] = scene.nothing.at\nend"
+    closed()
+    click "#run"
+    page:wait "return /line 2 of func of function .line [0-9]+ of the script./.test(document.body.innerText)"
+    page:wait "return player.state.get('time') > 0.15" -- as far as it went
+    click "ul.things li:nth-child(2) .thing-name"
+    page:wait "return document.querySelector('textarea.code')"
+    body "f[3] = f[3] + 0.001 * math.sin(20 * t)"
+    closed()
+    click "#run"
+    page:wait "return player.state.get('run').done && player.state.get('run').ok"
+    local script = page:run "return player.panel.build.script"
+    local source = "kind = function(t, x, v, f)\nf[3] = f[3] + 0.001 * math.sin(20 * t)\nend"
+    assert.truthy(script:find(source, 1, true), script)
+    program.write(folder .. "/typed.lua", script)
+    local _, err, code = program.run { folder .. "/typed.lua" }
+    assert.equal(0, code, err)
     stop()
   end)
 

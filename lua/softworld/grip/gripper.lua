@@ -190,8 +190,11 @@ local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it
 function Gripper:move(args)
   check_place(self, "move")
   args = move:read(args)
-  if not (args.path or args.points or args.to or args.by or args.turn) then
-    error(("gripper '%s': move where? give path, points, to, by or turn"):format(self.name), 2)
+  if not (args.path or args.points or args.to or args.by or args.turn or args.func) then
+    error(("gripper '%s': move where? give path, points, to, by, turn or func"):format(self.name), 2)
+  end
+  if args.func and not args.duration then
+    error(("gripper '%s': move: func has no end by itself; give duration [s]"):format(self.name), 2)
   end
   local motion = build.call(3, motion_of, move_table(self, args))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)

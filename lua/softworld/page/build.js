@@ -6,7 +6,7 @@ import { Form } from "./forms.js";
 import { undoByHand } from "./hand.js";
 
 const CLASSES = [["wire", "Wire"], ["particles", "Particles"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
-  ["fixing", "Fixing"], ["contact", "Contact"]];
+  ["fixing", "Fixing"], ["contact", "Contact"], ["observer", "Observer"]];
 
 export class Build {
   constructor(host, state, link, forms, say) {
@@ -14,7 +14,7 @@ export class Build {
       script: null });
     this.undo = iconButton("back", "Undo", () => (this.planned ? this.order("undo") : undoByHand(this.link, this.say)), { disabled: true });
     this.redo = iconButton("redo", "Redo", () => this.order("redo"), { disabled: true });
-    this.chips = h("div.chips", { role: "group", "aria-label": "What to add" }, ...CLASSES.map(([name, words]) =>
+    this.chips = h("div.chips", { role: "group", "aria-label": "What to add" }, ...CLASSES.filter(([name]) => this.kindsOf(name).length).map(([name, words]) =>
       h("button.chip", { type: "button", "data-class": name, "aria-pressed": "false", onclick: () => this.add(name) }, icon("plus"), words)));
     this.room = h("div.room");
     this.note = h("p.hint", { hidden: true });
@@ -72,6 +72,7 @@ export class Build {
   /** What there is to be seen. */
   actors() { return []; }
 
+  kindsOf(cls) { return this.kinds.filter((k) => k.class === cls); }
   kindOf(cls, kind) { return this.kinds.find((k) => k.class === cls && k.kind === kind); }
 
   async order(what, more = {}) {
@@ -93,7 +94,7 @@ export class Build {
 
   // A form with a choice of its kind before it, in a place of the panel.
   put(cls, kind, values, { word, send, more, into }) {
-    const own = this.kinds.filter((k) => k.class === cls), box = h("div.form-box");
+    const own = this.kindsOf(cls), box = h("div.form-box");
     const show = (name, given) => {
       const def = this.kindOf(cls, name);
       const form = new Form(def, given, { things: (k) => this.things(k), cables: this.cables, word, send, more, cancel: () => this.close() });
@@ -258,7 +259,7 @@ export class Build {
     const name = step ? item.kind.replace(/_/g, " ") : item.name || item.kind;
     const shift = (by, words, picture) => iconButton(picture, words, () => this.order("shift", { id: item.id, by }).catch(() => {}));
     li.append(h("div.thing", {}, h("button.thing-name", { type: "button", title: "Change it", onclick: () => this.edit(item, li) },
-      h("span", {}, name), h("small", {}, step ? (several ? `process ${item.process}` : "") : item.name ? item.kind : "force"),
+      h("span", {}, name), h("small", {}, step ? (several ? `process ${item.process}` : "") : item.name ? item.kind : item.class),
       h("code", { title: item.text.slice(0, 600) }, item.text.slice(0, 200))),
     step ? shift(-1, "Earlier", "up") : null, step ? shift(1, "Later", "down") : null,
     iconButton("close", `Remove ${name}`, () => this.order("remove", { id: item.id }).catch(() => {}))));

@@ -113,6 +113,14 @@ const KINDS = {
       } };
   },
 };
+/** A Lua function: what stands around its body is told, and the body typed. */
+KINDS.function = (field, id, value) => {
+  const area = h("textarea.code", { id, rows: 5, spellcheck: false, autocapitalize: "off", wrap: "off", title: field.doc,
+    value: value || "", "aria-label": `${field.name}, the body of a Lua function` });
+  const element = h("div.function", {}, h("label", { for: id, class: field.required ? "required" : "" }, field.name), h("small", {}, field.doc),
+    h("code", {}, `function(${field.args})`), area, h("code", {}, "end"));
+  return { element, whole: true, inputs: [area], read: () => (area.value.trim() ? area.value : undefined) };
+};
 KINDS.integer = KINDS.number;
 KINDS.file = KINDS.text;
 
@@ -127,6 +135,13 @@ export function valuesOf(rows) {
     if (value !== undefined) values[r.field.name] = value;
   }
   return values;
+}
+
+/** Select a line of a text that was typed, from 1. */
+export function selectLine(area, line) {
+  const lines = area.value.split("\n"), at = lines.slice(0, line - 1).reduce((n, l) => n + l.length + 1, 0);
+  area.focus();
+  area.setSelectionRange(at, at + (lines[line - 1] || "").length);
 }
 
 /** A field in its row: { field, element, inputs, read() }. things(class): names of what there is. */

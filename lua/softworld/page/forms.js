@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A form of one kind of object or step: its fields, the cable's values where it has one, and what the core says to it.
 import { h } from "./dom.js";
-import { row, valuesOf } from "./fields.js";
+import { row, selectLine, valuesOf } from "./fields.js";
 import { format } from "./model.js";
 
 const OF_SOLID = ["E", "nu", "density"]; // what a cable has instead
@@ -73,6 +73,14 @@ export class Form {
     if (words) this.why.scrollIntoView({ block: "nearest" });
   }
 
+  /** Where a function that was typed is wrong. */
+  showLine(words) {
+    for (const { field, inputs } of this.rows) {
+      const line = field.type === "function" && new RegExp(`\\.${field.name}: line (\\d+):`).exec(words);
+      if (line) selectLine(inputs[0], Number(line[1]));
+    }
+  }
+
   async go() {
     let values;
     this.say(null);
@@ -87,6 +95,7 @@ export class Form {
       await this.send(this.kind, values);
     } catch (error) {
       this.say(error.message);
+      this.showLine(error.message);
     }
     this.ok.disabled = false;
   }

@@ -52,7 +52,8 @@ export class LiveTransport {
 
   get span() {
     const { times } = this.film;
-    return times.length > 1 ? [times[0], times[times.length - 1]] : [times[0] || 0, (times[0] || 0) + 1e-9];
+    if (times.length > 1) return [times[0], times[times.length - 1]];
+    return times[0] > 0 ? [times[0] - 1e-9, times[0]] : [0, 1e-9]; // a page that comes late begins at the end
   }
   toggle() {
     const run = this.state.get("run");

@@ -9,6 +9,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local fill = require "softworld.view.fill"
+local functions = require "softworld.view.functions"
 local kinds = require "softworld.view.kinds"
 local json = require "softworld.output.json"
 local literal = require "softworld.scene.literal"
@@ -23,7 +24,8 @@ local MOST_LOCALS = 120 -- of the 200 that Lua allows
 local MOST_UNDONE = 200
 local PROCESSES = 6
 
-local order = { "obstacle", "wire", "particles", "gripper", "hold", "fixing", "force", "contact", "step" }
+local order = { "obstacle", "wire", "particles", "gripper", "hold", "fixing", "force", "contact", "observer",
+  "step" }
 local rank = {}
 for i, class in ipairs(order) do rank[class] = i end
 
@@ -32,10 +34,11 @@ local function fail(text, ...) error(text:format(...), 0) end
 --- Was it Ctrl-C that raised this? What raises it may have taken the mark back already.
 draft.is_interrupt = checks.is_interrupt
 
---- An empty scene.
-function draft.new()
-  return setmetatable({ now = { scene = { name = "scene" }, run = {}, items = {} }, past = {}, future = {},
-    ids = 0, builds = 0 }, Draft)
+--- An empty scene; may: pages may type Lua functions.
+function draft.new(may)
+  return setmetatable({ may = may or false, places = {},
+    now = { scene = { name = "scene" }, run = {}, items = {} },
+    past = {}, future = {}, ids = 0, builds = 0 }, Draft)
 end
 
 -- --- the script ------------------------------------------------------------------------------------
@@ -80,7 +83,27 @@ local function word_in(words, items)
   end
 end
 
-local function steps_of(items, lines, word, texts)
+-- Where functions are in the script: { from, to = lines of the script, what }.
+local function places_of(lines, owners)
+  local places, at = {}, 1
+  for i, text in ipairs(lines) do
+    local count = select(2, text:gsub("\n", ""))
+    local item = owners[i]
+    for _, field in ipairs(item and item.kind.fields or {}) do
+      if field.type == "function" and item.values[field.name] then
+        local before = text:sub(1, (text:find("function(" .. field.args .. ")\n", 1, true) or 1) - 1)
+        local head = at + select(2, before:gsub("\n", ""))
+        local size = 1 + select(2, item.values[field.name]:gsub("\n", ""))
+        places[#places + 1] = { from = head + 1, to = head + size,
+          what = ("%s of %s"):format(field.name, item.name or item.kind.kind:gsub("_", " ")) }
+      end
+    end
+    at = at + count + 1
+  end
+  return places
+end
+
+local function steps_of(items, lines, word, texts, owners)
   for number = 1, PROCESSES do
     local own = {}
     for _, item in ipairs(items) do
@@ -89,15 +112,15 @@ local function steps_of(items, lines, word, texts)
     if #own > 0 then lines[#lines + 1] = "\nscene:process(function(p)" end
     for _, item in ipairs(own) do
       texts[item.id] = fill.line(item.kind, item.values, word)
-      lines[#lines + 1] = "  " .. texts[item.id]
+      lines[#lines + 1], owners[#lines + 1] = "  " .. texts[item.id], item
     end
     if #own > 0 then lines[#lines + 1] = "end)" end
   end
 end
 
--- The script that builds what a list says; by id the line of each item.
+-- The script that builds what a list says; by id the line of each item; where its functions are.
 local function script_of(now)
-  local texts, lines = {}, { "-- Written by SoftWorld " .. core.version .. ".",
+  local owners, texts, lines = {}, {}, { "-- Written by SoftWorld " .. core.version .. ".",
     'local sw = require "softworld"', "", "local scene = sw.scene " .. fill.source(now.scene) }
   local items = in_order(now.items)
   local words = words_of(items)
@@ -106,11 +129,12 @@ local function script_of(now)
     if item.kind.class ~= "step" then
       local text = fill.line(item.kind, item.values, word)
       texts[item.id] = text
+      owners[#lines + 1] = item
       lines[#lines + 1] = words[item.name] and ("local %s = %s"):format(item.name, text) or text
     end
   end
-  steps_of(items, lines, word, texts)
-  return table.concat(lines, "\n") .. "\n", texts
+  steps_of(items, lines, word, texts, owners)
+  return table.concat(lines, "\n") .. "\n", texts, places_of(lines, owners)
 end
 
 --- The script that builds the scene.
@@ -129,15 +153,24 @@ end
 
 local function plain(message) return (build.plain(message):gsub("^scene%d+:%d+: ", "")) end
 
---- An error of a run: the line is that of the script as it is shown.
-function Draft.plain(message)
-  return (tostring(message):gsub("scene%d+:(%d+): ", "line %1 of the script: "))
+--- An error of a run: the line is that of the script as it is shown, and of a function that was typed in.
+function Draft:plain(message)
+  return (tostring(message):gsub("scene%d+:(%d+): ", function(number)
+    for _, place in ipairs(self.places) do
+      local line = tonumber(number) - place.from + 1
+      if line >= 1 and tonumber(number) <= place.to then
+        return ("line %d of %s (line %s of the script): "):format(line, place.what, number)
+      end
+    end
+    return ("line %s of the script: "):format(number)
+  end))
 end
 
 -- The scene of a script; raises a text without a place.
 local function build_text(self, text)
   self.builds = self.builds + 1
-  local names = { math = math, require = function() return package.loaded["softworld"] end }
+  local names = functions.names()
+  names.require = function() return package.loaded["softworld"] end
   local chunk = assert(load(text .. "return scene\n", ("=scene%d"):format(self.builds), "t", names))
   local fine, scene, said = with_remarks(chunk)
   if not fine then
@@ -156,9 +189,9 @@ end
 
 -- Take a list, if a scene can be built of it; else all stays, and the text of the error is raised.
 local function try(self, now)
-  local text, texts = script_of(now)
+  local text, texts, places = script_of(now)
   local scene, said = build_text(self, text)
-  self.now, self.text, self.texts, self.remarks = now, text, texts, said
+  self.now, self.text, self.texts, self.places, self.remarks = now, text, texts, places, said
   return scene
 end
 
@@ -213,8 +246,8 @@ local function process_of(kind, m)
   return number
 end
 
-local function read(m)
-  local kind, values = fill.read(m.class, m.kind, m.values)
+local function read(self, m)
+  local kind, values = fill.read(m.class, m.kind, m.values, self.may)
   if not rank[kind.class] then fail("a %s cannot be added", kind.class) end
   if kind.class == "step" then fill.check(kind, values) end
   return kind, values
@@ -225,7 +258,7 @@ local change = {}
 --- { class =, kind =, values =, process = }: one more.
 function change.add(self, now, m)
   if #now.items >= MOST_ITEMS then fail("there are %d things already", MOST_ITEMS) end
-  local kind, values = read(m)
+  local kind, values = read(self, m)
   local item = { kind = kind, values = values, process = process_of(kind, m) }
   item.name = named(now, kind, values)
   self.ids = self.ids + 1
@@ -250,9 +283,9 @@ local function rename(now, old, new)
 end
 
 --- { id =, class =, kind =, values = }: another one in its place.
-function change.change(_, now, m)
+function change.change(self, now, m)
   local at, old = place_of(now, m.id)
-  local kind, values = read(m)
+  local kind, values = read(self, m)
   if kind.class ~= old.kind.class then fail("a %s cannot become a %s", old.kind.class, kind.class) end
   local item = { kind = kind, values = values, id = old.id, process = process_of(kind, m) }
   item.name = named(now, kind, values, old)
@@ -261,9 +294,9 @@ function change.change(_, now, m)
 end
 
 --- { id =, values = }: some values only, such as a place.
-function change.put(_, now, m)
+function change.put(self, now, m)
   local at, old = place_of(now, m.id)
-  local _, given = fill.read(old.kind.class, old.kind.kind, m.values)
+  local _, given = fill.read(old.kind.class, old.kind.kind, m.values, self.may)
   local values = {}
   for key, value in pairs(old.values) do values[key] = value end
   for key, value in pairs(given) do values[key] = value end
@@ -370,9 +403,9 @@ end
 local unbuilt = draft.new
 
 --- The same, ready to be shown.
-function draft.new()
-  local self = unbuilt()
-  self.text, self.texts = script_of(self.now)
+function draft.new(may)
+  local self = unbuilt(may)
+  self.text, self.texts, self.places = script_of(self.now)
   return self
 end
 

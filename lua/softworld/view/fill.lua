@@ -1,8 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Forms that were filled in: from what a page says to a line of Lua. What comes out is made of numbers that
--- were checked, words of a list of choices, and texts in quotes; nothing else of a message gets into it.
+-- were checked, words of a list of choices, and texts in quotes; nothing else of a message gets into it, but
+-- for bodies of functions where the view's user allows them.
 -- @module softworld.view.fill
 local checks = require "softworld.checks"
+local functions = require "softworld.view.functions"
 local kinds = require "softworld.view.kinds"
 local literal = require "softworld.scene.literal"
 
@@ -99,6 +101,8 @@ function read.object(what, _, value)
   return value
 end
 
+read["function"] = functions.read
+
 local function read_all(what, known, values)
   if type(values) ~= "table" or getmetatable(values) ~= nil then fail("%s: values is no table", what) end
   checks.keys(what, values, known, 0)
@@ -116,10 +120,12 @@ read["table"] = function(what, field, value)
   return read_all(what, known, value)
 end
 
---- The kind of a message and a checked copy of its values; raises a text without a place.
-function fill.read(class, name, values)
+--- The kind of a message and a checked copy of its values; raises a text without a place. may: Lua functions
+-- are taken.
+function fill.read(class, name, values, may)
   local kind = kinds.of(class, name)
   if not kind then fail("there is no %s '%s'", checks.shown(class), checks.shown(name)) end
+  if kind.lua and not may then error(functions.REFUSED, 0) end
   local known = {}
   for key, field in pairs(kind.known) do known[key] = field end
   if kind.on then known._on = { type = "object" } end

@@ -11,6 +11,7 @@ local core = require "softworld.core"
 local cable = require "softworld.cable"
 local rows = require "softworld.rows"
 local bendrule = require "softworld.wire.bendrule"
+local functions = require "softworld.view.functions"
 local special = require "softworld.view.special"
 
 local kinds = {}
@@ -53,7 +54,7 @@ local starts = {
 
 local simple = { number = "number", integer = "integer", boolean = "boolean", text = "text",
   choice = "choice", vector = "vector", rotation = "rotation", reaction = "choice", ["arc length"] = "number",
-  numbers = "number", points = "points",
+  numbers = "number", points = "points", ["function"] = "function",
   ["list of numbers"] = "numbers" }
 local objects = { wire = "wire", clip = "clip", gripper = "gripper" }
 local bodies = "wire particles"
@@ -78,7 +79,7 @@ local function field_of(row, own)
   local field = { name = row.name, unit = row.unit, doc = row.doc, required = row.required or nil,
     min = finite(row.min), max = finite(row.max), above = row.above or nil, below = row.below or nil,
     choices = row.choices, default = shown_default(row), usual = row.usual and tostring(row.usual) or nil,
-    type = object and "object" or simple[row.type], of = object }
+    type = object and "object" or simple[row.type], of = object, args = row.args }
   if row.name == "file" and row.type == "text" then field.type, field.doc = "file", MESH_FILE end
   if row.type == "table" and row.rows then
     field.type, field.rows = "table", fields_of({ row.rows.rows }, {}, "")
@@ -210,6 +211,7 @@ local function load_all()
   for _, name in ipairs{ "clip", "channel" } do from_call("fixing", "scene:" .. name, name) end
   from_call("fixing", "scene:tie", "tie", { write = special.tie.write, rows = special.tie.rows })
   for _, kind in ipairs(special.kinds) do add(kind, { kind.rows }, kind.own or {}, kind.first) end
+  for _, kind in ipairs(functions.kinds) do add(kind, { kind.rows }, kind.own or {}, kind.first) end
   add({ class = "contact", kind = "wire_contact", method = "wire_contact",
     doc = "wires touch each other and themselves" }, { r.params.wire_contact })
   all_steps()
@@ -240,13 +242,16 @@ local function cables()
   return all
 end
 
---- All kinds, and the catalogue of cables, as plain tables for pages.
-function kinds.all()
+--- All kinds, and the catalogue of cables, as plain tables for pages; may: with Lua functions.
+function kinds.all(may)
   load_all()
   local all = {}
-  for i, kind in ipairs(list) do
-    all[i] = { class = kind.class, kind = kind.kind, doc = kind.doc, on = kind.on, self = kind.self,
-      fields = kind.fields, start = starts[kind.kind] or special.starts[kind.kind] or starts[kind.class] }
+  for _, kind in ipairs(list) do
+    if may or not kind.lua then
+      all[#all + 1] = { class = kind.class, kind = kind.kind, doc = kind.doc, on = kind.on, self = kind.self,
+        fields = kind.fields, start = functions.starts[kind.class .. " " .. kind.kind] or starts[kind.kind]
+          or special.starts[kind.kind] or starts[kind.class] }
+    end
   end
   return { kinds = all, cables = cables() }
 end

@@ -202,10 +202,11 @@ local function is_taken(scene)
 end
 
 --- { class =, kind =, values =, serial = }: one more object, by a form; serial: a number that no other has.
-function make.add(scene, m)
-  local kind, values = fill.read(m.class, m.kind, m.values)
-  if kind.class == "step" or kind.class == "run" or kind.class == "scene" then
-    fail("a %s cannot be added while a run is under way", kind.class)
+function make.add(scene, m, may)
+  local kind, values = fill.read(m.class, m.kind, m.values, may)
+  if checks.set "step run scene observer"[kind.class] then
+    fail("%s cannot be added while a run is under way", kind.class == "observer" and "an observer"
+      or "a " .. kind.class)
   end
   fill.check(kind, values)
   local taken, inverse = is_taken(scene), nil
@@ -256,9 +257,9 @@ function make.leave(scene, m)
 end
 
 --- The line of an order, and what gives the one that undoes it once it is done, or nil; raises a text without
--- a place.
-function orders.line(scene, m)
-  return (make[m["do"]] or fail("there is no order '%s'", tostring(m["do"])))(scene, m)
+-- a place. may: Lua functions are taken.
+function orders.line(scene, m, may)
+  return (make[m["do"]] or fail("there is no order '%s'", tostring(m["do"])))(scene, m, may)
 end
 
 --- Is it an order that changes the scene?
@@ -288,7 +289,8 @@ local function changes_of(lines)
   list[#list + 1] = "  local changes = {"
   for _, line in ipairs(lines) do
     local time = literal.number(line.time)
-    list[#list + 1] = line.text and ("    { %s, function() %s end },"):format(time, line.text)
+    list[#list + 1] = line.text == "" and ("    { %s, function() end }, -- it was left here"):format(time)
+      or line.text and ("    { %s, function() %s end },"):format(time, line.text)
       or ("    { %s }, -- the run is ended"):format(time)
   end
   list[#list + 1] = "  }"

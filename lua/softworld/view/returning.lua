@@ -67,7 +67,7 @@ local function back_in_runs(own, state)
 end
 
 local function words_of(state)
-  return ("back to t = %.6g s%s"):format(state.time,
+  return ("back to t = %.4g s%s"):format(state.time,
     state.what and (", before %s was removed"):format(state.what) or "")
 end
 

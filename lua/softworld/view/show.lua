@@ -173,12 +173,13 @@ function show.all(own)
   show_draft(own)
   show_answers(own)
   show_events(own)
-  if waiting == 0 or own.failed then return end
+  if waiting == 0 then return end
   local mark = ("%d %a %d"):format(own.outline, own.scene.time, own.changes)
   if mark == own.frame then return end
   own.frame = mark
-  local film, frames = core.film_now(own.scene, true)
-  if frames > 0 then own.server:put(FRAME, ("<I4I4"):pack(own.outline, own.session) .. film) end
+  local fine, film, frames = pcall(core.film_now, own.scene, true)
+  if not fine and not own.failed then error(film, 0) end -- what has failed may have no state to be seen
+  if fine and frames > 0 then own.server:put(FRAME, ("<I4I4"):pack(own.outline, own.session) .. film) end
 end
 
 return show

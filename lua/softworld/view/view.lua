@@ -14,6 +14,7 @@ local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local show = require "softworld.view.show"
 local draft = require "softworld.view.draft"
+local functions = require "softworld.view.functions"
 local kinds = require "softworld.view.kinds"
 local work = require "softworld.view.work"
 
@@ -30,6 +31,8 @@ local new = rows.call("scene:view", "{...}", "shows the scene in a browser of th
     usual = "any that is free" },
   { "open", "boolean", "-", "opens a browser; else the address is told only", usual = "true" },
   { "paused", "boolean", "-", "runs begin when the page says so", usual = "false" },
+  { "functions", "boolean", "-", "pages may type Lua functions, which can do whatever you can",
+    usual = "false" },
 })
 
 rows.calls{
@@ -145,7 +148,7 @@ local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsaf
 -- The page has a policy of its own, for files; here the server's is the one, which is as narrow.
 local function page_of(own)
   local html = report.live(own.scene.name, { session = own.session, draft = own.draft ~= nil,
-    forms = kinds.all() })
+    forms = kinds.all(own.functions), functions = own.functions })
   local from, to = html:find('<meta http%-equiv="Content%-Security%-Policy"[^>]*>')
   if from then html = html:sub(1, from - 1) .. html:sub(to + 1) end
   own.server:page(html, POLICY:format(own.port, own.port))
@@ -159,7 +162,7 @@ local function attach(own, scene)
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
   own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
   own.changes, own.count, own.steps, own.ways, own.led, own.again = 0, 0, 0, {}, nil, nil
-  own.names = setmetatable({ scene = scene, made = {} }, { __index = { math = math } })
+  own.names = setmetatable({ scene = scene, made = {} }, { __index = functions.names() })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
   own.runs, own.serial, own.made_text, own.unsaved, own.draft_due = {}, 0, {}, nil, true
   own.base, own.stopped, own.ok, own.reason, own.args, own.ended = nil, nil, nil, nil, nil, nil
@@ -184,7 +187,7 @@ local function serve(scene, args, from)
   if not fine then error("scene:view: " .. build.plain(server), 0) end
   local own = { server = server, port = port, token = token, session = math.random(1, 1 << 30), outline = 0,
     paused = given.paused or false, open = given.open ~= false, answers = {}, draft = from, attach = attach,
-    has_undo = work.has_undo }
+    has_undo = work.has_undo, functions = given.functions or false }
   attach_another(own, scene)
   local self = sealed.new(View, own)
   own.self = self
@@ -243,7 +246,7 @@ function follower.finish(scene, ok, reason)
   if not own or own.scene ~= scene or not own.observer then return end
   own.observer:remove()
   own.ended = scene.time
-  if own.draft then reason = own.draft.plain(reason) end
+  if own.draft then reason = own.draft:plain(reason) end
   own.observer, own.running, own.done, own.ok, own.reason = nil, false, true, ok or false, tostring(reason)
   own.failed = not ok or nil
   own.frame = nil
@@ -384,13 +387,13 @@ end
 
 --- A view of a scene that has nothing yet, for forms to put one together.
 function view.nothing(args)
-  local from = draft.new()
+  local from = draft.new(args and args.functions)
   return serve(from:build(), args, from)
 end
 
 --- `softworld --view` alone: the same until Ctrl-C.
-function view.begin()
-  local self = view.nothing()
+function view.begin(args)
+  local self = view.nothing(args)
   io.stderr:write "Ctrl-C ends the view\n"
   stay(self)
 end

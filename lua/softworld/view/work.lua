@@ -142,7 +142,7 @@ end
 -- An order that is no way back: its line is made, done, and told.
 local function obey(own, m)
   if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
-  local fine, text, inverse = pcall(orders.line, own.scene, m)
+  local fine, text, inverse = pcall(orders.line, own.scene, m, own.functions)
   local done, message, before = fine, text, nil
   if fine and m["do"] == "remove" then
     own.serial = own.serial + 1
@@ -274,7 +274,7 @@ local function is_good(own, m)
   if own.draft and not own.running and #own.runs == 0 then
     return refuse(own, m, "nothing runs yet: change it where it was made")
   end
-  local fine, message = pcall(orders.line, own.scene, m)
+  local fine, message = pcall(orders.line, own.scene, m, own.functions)
   if not fine then
     refuse(own, m, message)
   elseif word == "pull" or word == "let" then

@@ -1,0 +1,138 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Forms with a Lua function in them: its body is typed, its arguments are given. A view takes such forms
+-- only where its user has said so (softworld --view --functions, scene:view { functions = true }): who types
+-- a function can do whatever the user of the program can.
+-- @module softworld.view.functions
+local functions = {}
+
+local LONGEST = 20000 -- of a body [B]
+
+local function fail(text, ...) error(text:format(...), 0) end
+
+functions.REFUSED = "this view takes no Lua functions from pages: begin it with softworld --view "
+  .. "--functions, or scene:view { functions = true }"
+
+-- --- bodies ------------------------------------------------------------------------------------------
+
+-- A copy, so that a function cannot change what others use.
+local function copy_of(library)
+  local copy = {}
+  for key, value in pairs(library) do copy[key] = value end
+  return copy
+end
+
+--- What functions see beside their arguments and what the script has: a new table each time.
+function functions.names()
+  local names = { math = copy_of(math), string = copy_of(string), table = copy_of(table) }
+  for word in ("assert error ipairs next pairs pcall print select tonumber tostring type"):gmatch "%a+" do
+    names[word] = _G[word]
+  end
+  return names
+end
+
+--- A body that was typed in, checked: a text without a place is raised, with the line of the body.
+function functions.read(what, field, body)
+  if type(body) ~= "string" or #body > LONGEST or body:find "\0" then
+    fail("%s must be the body of a Lua function, of %d bytes at most", what, LONGEST)
+  end
+  body = body:gsub("\r\n?", "\n"):gsub("%s+$", "")
+  if not body:find "%S" then fail("%s: the body of the function is missing", what) end
+  -- alone first, so that it cannot end the function and go on outside of it
+  local head = field.args == "" and "" or ("local %s; "):format(field.args)
+  local chunk, why = load(head .. body, "=line", "t", {})
+  local before = chunk and 1 or 0 -- lines of the head
+  if chunk then chunk, why = load("return " .. functions.source(field, body), "=line", "t", {}) end
+  if chunk then return body end
+  fail("%s: %s", what, (why:gsub("^line:(%d+):", function(n) return ("line %d:"):format(n - before) end)))
+end
+
+--- The function as source. The first line of the body is the line after its head.
+function functions.source(field, body)
+  return ("function(%s)\n%s\nend"):format(field.args, body)
+end
+
+-- --- forms -------------------------------------------------------------------------------------------
+
+local Word = {}
+
+local function word(field, body) return setmetatable({ text = functions.source(field, body) }, Word) end
+
+local function need(values, kind, name)
+  if values[name] == nil then fail("%s: %s is required", kind, name) end
+  return values[name]
+end
+
+local function a_function(name, args, doc)
+  return { name = name, type = "function", unit = "-", args = args, doc = doc, required = true }
+end
+
+local force = a_function("func", "t, x, v, f", "adds forces to f [N], three numbers a node, flat, as the "
+  .. "places x [m] and velocities v [m/s] are; t is the time [s]; returns nothing")
+local condition = a_function("condition", "", "asked once a step; returns true when the process is to go on")
+local way = a_function("func", "t", "returns how far it has gone, { x, y, z } [m], at t [s] after the "
+  .. "move begins; { 0, 0, 0 } at t = 0")
+local look = a_function("call", "observer", "is called between two steps; observer:stop(why) ends the run, "
+  .. "observer:change(function() ... end) changes the scene")
+
+local function row(name, kind, unit, doc, more)
+  local one = { name = name, type = kind, unit = unit, doc = doc }
+  for key, value in pairs(more or {}) do one[key] = value end
+  return one
+end
+
+local function write_force(values, refer, source)
+  return "scene:force " .. source{ kind = word(force, need(values, "function", "func")),
+    on = refer(need(values, "function", "on")) }
+end
+
+local function write_wait(values, _, source)
+  local more = values.timeout and (", { timeout = %s }"):format(source(values.timeout)) or ""
+  local asked = word(condition, need(values, "wait_until", "condition"))
+  return ("p:wait_until(%s%s)"):format(source(asked), more)
+end
+
+local function write_move(values, refer, source)
+  local by = refer(values._by or fail "move_by_function: which gripper?")
+  return ("%s:move %s"):format(by.text, source{ func = word(way, need(values, "move_by_function", "func")),
+    duration = need(values, "move_by_function", "duration"), relative = true })
+end
+
+local function write_observe(values, _, source)
+  local call = word(look, need(values, "observe", "call"))
+  return "scene:observe " .. source{ every = values.every, call = call }
+end
+
+local ending = " Objects by their names: scene:find \"name\"."
+
+--- The kinds, as special.kinds; `lua`: of views that take functions.
+functions.kinds = {
+  { class = "force", kind = "function", method = "force", write = write_force, first = "on func",
+    lua = true, doc = "a force of your own, computed by a Lua function at every evaluation." .. ending,
+    own = { on = { of = "wire particles" } },
+    rows = { row("on", "wire", "-", "the wire or object of particles", { required = true }), force } },
+  { class = "step", kind = "wait_until", method = "wait_until", self = "p", write = write_wait,
+    lua = true, first = "condition timeout", doc = "waits until a Lua function returns true." .. ending,
+    rows = { condition, row("timeout", "number", "s", "goes on after this time all the same",
+      { min = 0, above = true, usual = "none" }) } },
+  { class = "step", kind = "move_by_function", method = "move", self = "gripper", lua = true,
+    write = write_move, first = "func duration",
+    doc = "moves a gripper along a way that a Lua function gives.",
+    rows = { way, row("duration", "number", "s", "of the move",
+      { required = true, min = 0, above = true }) } },
+  { class = "observer", kind = "observe", method = "observe", write = write_observe,
+    lua = true, first = "call every", doc = "looks at the run as it goes on." .. ending,
+    rows = { look, row("every", "number", "s", "between two calls",
+      { min = 0, above = true, usual = "each step" }) } },
+}
+
+--- What new forms have in them.
+functions.starts = {
+  ["force function"] = { func = "-- a swinging push along z, on the first node\n"
+    .. "f[3] = f[3] + 0.01 * math.sin(20 * t)" },
+  ["step wait_until"] = { condition = "return scene.time > 0.1" },
+  ["step move_by_function"] = { duration = 0.5,
+    func = "return { 0, 0.02 * math.sin(20 * t), 0.1 * t }" },
+  ["observer observe"] = { every = 0.1, call = "print(scene.time, scene:energy().kinetic)" },
+}
+
+return functions

@@ -1,0 +1,191 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Lua functions that are typed in a page of the live view: forces, ways, conditions, observers. A view that
+-- was not told to take them takes none, whatever its pages say; what is typed is checked with its line, is in
+-- the script that is saved, and gives the same numbers.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local draft = require "softworld.view.draft"
+local functions = require "softworld.view.functions"
+local json = require "softworld.output.json"
+local jsonread = require "softworld.output.jsonread"
+local kinds = require "softworld.view.kinds"
+local orders = require "softworld.view.orders"
+local program = dofile "spec/host/program.lua"
+local saving = require "spec.scene.saving"
+local viewing = require "softworld.view.view"
+local websocket = require "spec.page.websocket"
+
+local function add(d, class, kind, values)
+  return d:change{ what = "add", class = class, kind = kind, values = values,
+    process = class == "step" and 1 or nil }
+end
+
+local function refused(text, f, ...)
+  local fine, why = pcall(f, ...)
+  assert.is_false(fine, text)
+  assert(tostring(why):find(text, 1, true), tostring(why))
+end
+
+local WIRE = { name = "cord", E = 5e7, density = 1500, radius = 0.003, segments = 12, from = { 0, 0, 0.1 },
+  to = { 0.3, 0, 0.1 } }
+
+local function a_draft()
+  local d = draft.new(true)
+  add(d, "wire", "rod", WIRE)
+  add(d, "gripper", "gripper", { name = "hand", at = { 0, 0, 0.1 } })
+  return d
+end
+
+describe("a function that is typed in a form", function()
+  it("is a force, a way, a condition, an observer of the script, which gives the same bits", function()
+    local d = a_draft()
+    add(d, "force", "function", { on = "cord",
+      func = "for i = 3, #f, 3 do\n  f[i] = f[i] + 0.01 * math.sin(20 * t)\nend" })
+    add(d, "observer", "observe", { every = 0.01,
+      call = 'if observer.scene.time > 0.25 then\n  observer:stop "late"\nend' })
+    add(d, "step", "grasp", { _by = "hand", _on = "cord", s = 0 })
+    add(d, "step", "move_by_function", { _by = "hand", func = "return { 0, 0, 0.1 * t }", duration = 0.1 })
+    add(d, "step", "wait_until", { timeout = 1,
+      condition = 'return scene:find("hand"):force()[3] ~= 0 and scene.time > 0.15' })
+    add(d, "step", "move", { _by = "hand", by = { 0, 0, 0.1 }, duration = 1 })
+    local scene = d:build()
+    local run = scene:run{ dt = 0.002 }
+    assert.is_true(run.ok)
+    assert.equal("late", run.reason)
+    assert.near(0.26, run.time, 0.0101)
+    -- 10 mm by the function until 0.1 s, and from 0.15 s on a part of 0.1 m in 1 s
+    local went = scene:find("hand"):position()[3] - 0.11
+    assert.is_true(went > 0 and went < 0.05, tostring(went))
+    local text = d:script()
+    assert.truthy(text:find("wait_until(function()\nreturn scene:find", 1, true), text)
+    local again = assert(load(text .. "return scene"))() -- with all that a script has
+    again:run{ dt = 0.002 }
+    assert.is_nil(saving.difference(saving.all(scene), saving.all(again)))
+    -- v' = -g + 0.01 sin(20 t) / m on every free node: the force was felt
+    local plain = a_draft()
+    local other = plain:build()
+    other:run{ duration = 0.1, dt = 0.002 }
+    assert.is_true(other:find("cord"):position(0.3)[3] ~= scene:find("cord"):position(0.3)[3])
+  end)
+
+  it("is refused with the line of its body, and nothing is changed", function()
+    local d = a_draft()
+    local before = d:script()
+    local function typed(body, words, class, kind, name)
+      refused(words, add, d, class or "force", kind or "function", { on = "cord", [name or "func"] = body })
+      assert.equal(before, d:script())
+    end
+    typed("f[3] = 1\nf[6] = = 2", "function.func: line 2: unexpected symbol near '='")
+    typed("if t > 1 then", "function.func: line 1: 'end' expected near <eof>")
+    typed("", "the body of the function is missing")
+    typed("-- only\n--[[ words", "line 2: unfinished long comment")
+    typed("f[3] = ...", "line 1: cannot use '...' outside a vararg function")
+    -- what would end the function and go on outside of it
+    typed("end, on = scene:find('cord'), x = (function()", "line 1: ")
+    typed("return end } os.exit(3) scene:force { kind = function()", "line 1: ")
+    typed(("x"):rep(20001), "20000 bytes at most")
+    typed({ 1 }, "must be the body of a Lua function")
+    typed("\27Lua", "line 1: ")
+    refused("func is required", add, d, "force", "function", { on = "cord" })
+    refused("which gripper", add, d, "step", "move_by_function", { func = "return {}", duration = 1 })
+  end)
+
+  it("tells of an error while it runs with its line, and that of the script", function()
+    local d = a_draft()
+    add(d, "step", "wait_until", { condition = "local x\n\nreturn x.y" })
+    local scene = d:build()
+    local fine, why = pcall(scene.run, scene, { dt = 0.002 })
+    assert.is_false(fine)
+    local words = d:plain(why)
+    local line = words:match "^line 3 of condition of wait until %(line (%d+) of the script%): attempt to"
+    assert(line, words)
+    local count = 0
+    for text in d:script():gmatch "([^\n]*)\n" do
+      count = count + 1
+      if count == tonumber(line) then assert.equal("return x.y", text) end
+    end
+  end)
+
+  it("has what scripts have for numbers, and not the library's own tables", function()
+    local d = a_draft()
+    add(d, "observer", "observe", { call = "math.sin, string.format = nil, nil\n"
+      .. "for _, x in ipairs { 1 } do\n"
+      .. "  assert(tostring(x) == '1' and pcall(type, x) and not os and not io)\n"
+      .. "end" })
+    assert.is_true(d:build():run{ duration = 0.01, dt = 0.005 }.ok)
+    assert.is_function(math.sin)
+    assert.is_function(string.format)
+  end)
+end)
+
+describe("a view that was not told to take functions", function()
+  local LUA = {}
+  for _, kind in ipairs(functions.kinds) do LUA[#LUA + 1] = kind end
+
+  it("has no forms for them", function()
+    for _, kind in ipairs(kinds.all().kinds) do
+      for _, field in ipairs(kind.fields) do assert.is_true(field.type ~= "function", kind.kind) end
+    end
+    local count = 0
+    for _, kind in ipairs(kinds.all(true).kinds) do
+      for _, field in ipairs(kind.fields) do
+        if field.type == "function" then count = count + 1 end
+      end
+    end
+    assert.equal(#LUA, count)
+  end)
+
+  it("refuses each of them, before and in a run, and what is put into one", function()
+    for _, kind in ipairs(LUA) do
+      local values = { on = "cord", func = "os.exit(3)", condition = "os.exit(3)", call = "os.exit(3)" }
+      refused("takes no Lua functions from pages", add, draft.new(), kind.class, kind.kind, values)
+      local scene = sw.scene()
+      refused("takes no Lua functions from pages", orders.line, scene,
+        { ["do"] = "add", class = kind.class, kind = kind.kind, values = values, serial = 1 })
+    end
+    local d = draft.new(true)
+    add(d, "observer", "observe", { call = "local x" })
+    d.may = false
+    refused("takes no Lua functions", d.change, d, { what = "put", id = 1, values = { call = "os.exit(3)" } })
+    refused("takes no Lua functions", d.change, d,
+      { what = "change", id = 1, class = "observer", kind = "observe", values = { call = "os.exit(3)" } })
+  end)
+
+  -- A page that says it may is still a page.
+  it("refuses a page over its line, and one that was told to takes it", function()
+    for _, may in ipairs{ false, true } do
+      local view = viewing.nothing{ open = false, functions = may or nil }
+      local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
+      local page = assert(websocket.open(math.tointeger(port), path .. "s"))
+      page:send(json.encode{ ["do"] = "draft", what = "add", class = "observer", kind = "observe",
+        functions = true, may = true, values = { call = "local x = 1" }, ask = "a" })
+      page:send(json.encode{ ["do"] = "draft", what = "add", class = "wire", kind = "rod", values = WIRE,
+        functions = true })
+      view:wait(0.3)
+      local answer, count
+      while true do
+        local text, opcode = page:receive(0.1)
+        if not text then break end
+        local m = opcode == 1 and jsonread.decode(text)
+        if m and m.kind == "answers" then answer = m.answers[1] end
+        if m and m.kind == "draft" then count = #m.items end
+      end
+      assert.equal(may, answer.ok, answer.text)
+      assert.equal(may and 2 or 1, count)
+      if not may then assert.equal(functions.REFUSED, answer.text) end
+      -- nobody else's: without the secret, or from another site, there is no line at all
+      assert.is_nil(websocket.open(math.tointeger(port), path .. "s", { Origin = "http://evil.example" }))
+      assert.is_nil(websocket.open(math.tointeger(port), "/0123456789abcdef0123456789abcdef/s"))
+      page:close()
+      view:close()
+    end
+  end)
+
+  it("is told by a word of the program only, which goes with --view", function()
+    local _, err, code = program.run{ "--functions" }
+    assert.equal(2, code)
+    assert.truthy(err:find "%-%-view is missing beside '%-%-functions'")
+    local out = program.run{ "--help" }
+    assert.truthy(out:find "%-%-functions  with %-%-view: pages may type Lua functions")
+  end)
+end)
