@@ -131,11 +131,12 @@ static int meth_log(lua_State *L) {
   const lua_Integer first =
       lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
   lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
-  const size_t skip = first > 1 ? (size_t)(first - 1) : 0;
-  const size_t n = count > skip ? count - skip : 0;
-  push_columns(L, rows + skip * SW_LOG_SIZE, n, 0, SW_LOG_SPAN);
+  const size_t past = first > 1 ? (size_t)(first - 1) : 0, skip = past < count ? past : count;
+  const size_t n = count - skip;
+  if (skip) rows += skip * SW_LOG_SIZE;
+  push_columns(L, rows, n, 0, SW_LOG_SPAN);
   lua_pushinteger(L, (lua_Integer)n);
-  push_columns(L, rows + skip * SW_LOG_SIZE, n, SW_LOG_SPAN, 1);
+  push_columns(L, rows, n, SW_LOG_SPAN, 1);
   return 3;
 }
 

@@ -176,6 +176,12 @@ describe("handles", function()
     fails("has been released", clamp.follow, clamp, nil)
     fails("has been released", clamp.pose, clamp, { 0, 0, 0 })
     assert.are.equal(2, select(2, clamp:log()))
+    -- rows from beyond its end are none, however far; of one that has no rows too
+    local fresh = scene:clamp(wire, { s = 0.1 })
+    for first, count in pairs{ [-5] = 2, [2] = 1, [3] = 0, [math.maxinteger] = 0, [math.mininteger] = 2 } do
+      assert.are.equal(count, select(2, clamp:log(first)))
+      assert.are.equal(0, select(2, fresh:log(first)))
+    end
     box:remove()
     fails("not of scene", box.force, box)
     fails("not of scene", box.remove, box)
