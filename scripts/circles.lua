@@ -17,7 +17,7 @@ local function defined(code)
   return names
 end
 
--- { [file] = { [file that it needs] = true } } of { [file] = code }.
+-- { [file] = { [file that it needs] = a function of it } } of { [file] = code }.
 local function needs_of(codes)
   local home, needs = {}, {}
   for file, code in pairs(codes) do
@@ -26,7 +26,7 @@ local function needs_of(codes)
   for file, code in pairs(codes) do
     needs[file] = {}
     for word in code:gmatch "%f[%w_]l?sw_[%w_]+" do
-      if home[word] and home[word] ~= file then needs[file][home[word]] = true end
+      if home[word] and home[word] ~= file then needs[file][home[word]] = word end
     end
   end
   return needs
@@ -39,8 +39,8 @@ local function sorted_keys(set)
   return keys
 end
 
---- Circles among files, { { file, ... }, ... }, by Tarjan's algorithm (SIAM J. Comput. 1, 1972).
--- codes: { [file] = its text }.
+--- Circles among files, { { file, ... }, ... }, by Tarjan's algorithm (SIAM J. Comput. 1, 1972); and
+-- what each file needs, { [file] = { [other file] = a function of it } }. codes: { [file] = its text }.
 function circles.find(codes)
   local clean = {}
   for file, code in pairs(codes) do clean[file] = bare(code) end
@@ -71,7 +71,7 @@ function circles.find(codes)
   for _, file in ipairs(sorted_keys(needs)) do
     if not order[file] then visit(file) end
   end
-  return found
+  return found, needs
 end
 
 return circles

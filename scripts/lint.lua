@@ -6,8 +6,8 @@
 -- headers only get a warning.
 
 -- Rooms ----------------------------------------------------------------------
--- A file in csrc/<room> may include its own room's headers and those of the rooms in its row,
--- nothing else from csrc. Rows are complete: nothing is inherited.
+-- A file in csrc/<room> may include its own room's headers and those of the rooms in its row, and call
+-- their functions; nothing else from csrc. Rows are complete: nothing is inherited.
 local ROOMS = {
   base = {},
   motion = { "base" },
@@ -25,14 +25,16 @@ local ROOMS = {
   record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   -- The rooms of a scene. Its lists, and what is in them:
-  scene = { "base", "state", "wire", "force", "system", "integrate", "contact", "link", "record", "strand" },
+  scene = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
+    "record", "strand" },
   -- all as one system of bodies, lines and webs, and back
   body = { "base", "state", "force", "system", "integrate", "contact", "link", "strand", "scene" },
   -- grippers
-  grip = { "base", "motion", "state", "solve", "contact", "link", "strand", "scene", "body" },
+  grip = { "base", "motion", "shape", "state", "wire", "solve", "system", "contact", "link", "strand",
+    "scene", "body" },
   -- wires, holds, obstacles, forces: made, changed, taken away
-  edit = { "base", "motion", "shape", "state", "wire", "force", "calibrate", "link", "record", "scene",
-    "body", "grip" },
+  edit = { "base", "motion", "shape", "state", "wire", "force", "system", "contact", "calibrate", "link",
+    "record", "strand", "scene", "body", "grip" },
   -- what may be asked of the state
   read = { "base", "state", "force", "system", "modal", "contact", "link", "record", "strand", "scene",
     "body", "grip" },
@@ -40,11 +42,11 @@ local ROOMS = {
   watch = { "base", "shape", "state", "system", "modal", "contact", "link", "record", "strand", "scene",
     "body", "grip", "edit", "read" },
   -- the scene as a whole: its life, snapshots, files
-  save = { "base", "state", "force", "system", "link", "record", "strand", "scene", "body", "grip", "edit",
-    "read", "watch" },
+  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
+    "record", "strand", "scene", "body", "grip", "edit", "read", "watch" },
   -- another model for a wire, back to a snapshot where that fails
-  remodel = { "base", "state", "solve", "system", "contact", "link", "strand", "scene", "body", "grip",
-    "edit", "read", "save" },
+  remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
+    "grip", "edit", "read", "save" },
   -- what makes it go on
   step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
     "body", "grip", "edit", "read", "watch" },
@@ -339,13 +341,34 @@ function check.includes()
   end
 end
 
+-- Functions that files call in rooms which are not in their rows, however they are declared.
+local function check_room_calls(needs)
+  local list = {}
+  for file, others in pairs(needs) do
+    local own = file:match "^csrc/([%w_]+)/"
+    for other, name in pairs(others) do
+      local room = other:match "^csrc/([%w_]+)/"
+      if ROOMS[own] and not USES_CORE[own] and room ~= own and not set_of(ROOMS[own])[room] then
+        list[#list + 1] = { file, name, other }
+      end
+    end
+  end
+  table.sort(list, function(a, b) return a[1] .. a[2] < b[1] .. b[2] end)
+  for _, it in ipairs(list) do
+    finding(it[1], 1, "calls %s of %s, whose room it may not include; move the code or pass the data in",
+      it[2], it[3])
+  end
+end
+
 function check.circles()
   local codes = {}
   for _, file in ipairs(files("csrc", "*.c")) do
     codes[file] = "\n" .. table.concat(lines_of(file), "\n")
   end
   local here = (arg[0]:match "^(.*)/" or ".")
-  for _, circle in ipairs(dofile(here .. "/circles.lua").find(codes)) do
+  local found, needs = dofile(here .. "/circles.lua").find(codes)
+  check_room_calls(needs)
+  for _, circle in ipairs(found) do
     if #circle > MOST_IN_CIRCLE then
       finding(circle[1], 1, "is in a circle of %d files (%d at most) that need one another: %s; "
         .. "move what all of them need into a file that needs none", #circle, MOST_IN_CIRCLE,
