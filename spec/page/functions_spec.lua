@@ -68,6 +68,43 @@ describe("a function that is typed in a form", function()
     assert.is_true(other:find("cord"):position(0.3)[3] ~= scene:find("cord"):position(0.3)[3])
   end)
 
+  it("is a check, by which the view and the saved script judge the run alike", function()
+    local view = viewing.nothing{ open = false, functions = true }
+    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
+    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
+    local function add_by_page(class, kind, values)
+      page:send(json.encode{ ["do"] = "draft", what = "add", class = class, kind = kind, values = values })
+    end
+    add_by_page("wire", "rod", WIRE)
+    -- it falls freely for 0.1 s: v = 0.981 m/s at its end
+    local speed = "local v = scene:find('cord'):velocity(0.1)\nreturn -v[3]"
+    add_by_page("check", "check", { name = "slow", unit = "m/s", of = speed, max = 0.5 })
+    add_by_page("check", "check", { name = "fast", unit = "m/s", of = speed, min = 0.5 })
+    add_by_page("check", "check", { name = "wrong", unit = "-", of = "\nreturn run.nothing.at" })
+    page:send(json.encode{ ["do"] = "start", values = { duration = 0.1, dt = 0.005 } })
+    view:wait(0.5)
+    local state, script
+    while true do
+      local text, opcode = page:receive(0.1)
+      if not text then break end
+      local m = opcode == 1 and jsonread.decode(text)
+      if m and m.kind == "state" then state = m end
+      if m and m.kind == "lines" then script = m.script end
+    end
+    local found = {}
+    for _, r in ipairs(state.check.rows) do found[r.name] = r end
+    assert.same({ "FAIL", "FAIL", "PASS" }, { state.check.verdict, found.slow.verdict, found.fast.verdict })
+    assert.near(0.981, found.fast.value, 1e-6)
+    assert.truthy(found.wrong.note:find "its function raised: line 2: ", found.wrong.note)
+    local printed = {}
+    local names = { print = function(x) printed[#printed + 1] = tostring(x) end }
+    setmetatable(names, { __index = _G })
+    assert(load(script, "=script", "t", names))()
+    assert.truthy(printed[#printed]:find("slow", 1, true) and printed[#printed]:find("FAIL", 1, true), script)
+    page:close()
+    view:close()
+  end)
+
   it("is refused with the line of its body, and nothing is changed", function()
     local d = a_draft()
     local before = d:script()

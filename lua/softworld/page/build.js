@@ -6,7 +6,7 @@ import { Form } from "./forms.js";
 import { undoByHand } from "./hand.js";
 
 const CLASSES = [["wire", "Wire"], ["particles", "Particles"], ["obstacle", "Obstacle"], ["hold", "Hold"], ["gripper", "Gripper"], ["force", "Force"],
-  ["fixing", "Fixing"], ["contact", "Contact"], ["observer", "Observer"]];
+  ["fixing", "Fixing"], ["contact", "Contact"], ["observer", "Observer"], ["check", "Check"]];
 
 export class Build {
   constructor(host, state, link, forms, say) {
@@ -204,7 +204,13 @@ export class Build {
       send: (kind, values) => this.link.ask("start", { values }) });
     this.run.ok.prepend(icon("play"));
     this.run.ok.id = "run";
-    this.runPart.replaceChildren(h("h3", {}, "Run"), this.run.element);
+    const judged = h("ul.judged", { "aria-label": "What the checks found", hidden: true });
+    this.state.watch(["run"], ({ run }) => {
+      judged.hidden = !run.check;
+      judged.replaceChildren(...(run.check?.rows || []).map((r) => h("li", {}, h("b", { class: r.verdict.toLowerCase() }, r.verdict), ` ${r.name}`,
+        typeof r.value !== "number" ? "" : ` ${Number(r.value.toPrecision(4))} ${r.unit === "-" ? "" : r.unit}`, r.note ? h("small", {}, r.note) : null)));
+    });
+    this.runPart.replaceChildren(h("h3", {}, "Run"), this.run.element, judged);
   }
 
   saveScript() { if (this.script) download(this.script, this.state.get("run").draft ? "scene.lua" : "again.lua", "text/x-lua"); }

@@ -25,7 +25,7 @@ local MOST_UNDONE = 200
 local PROCESSES = 6
 
 local order = { "obstacle", "wire", "particles", "gripper", "hold", "fixing", "force", "contact", "observer",
-  "step" }
+  "step", "check" }
 local rank = {}
 for i, class in ipairs(order) do rank[class] = i end
 
@@ -126,7 +126,9 @@ local function script_of(now)
   local words = words_of(items)
   local word = word_in(words, items)
   for _, item in ipairs(items) do
-    if item.kind.class ~= "step" then
+    if item.kind.class == "check" then
+      texts[item.id] = fill.line(item.kind, item.values, word)
+    elseif item.kind.class ~= "step" then
       local text = fill.line(item.kind, item.values, word)
       texts[item.id] = text
       owners[#lines + 1] = item
@@ -380,6 +382,15 @@ local function plain_copy(values)
   local copy = {}
   for key, value in pairs(values) do copy[key] = value end
   return copy
+end
+
+--- The list of the checks that runs are judged by, as source; nil: there are none.
+function Draft:checks()
+  local list = {}
+  for _, item in ipairs(self.now.items) do
+    if item.kind.class == "check" then list[#list + 1] = "  " .. self.texts[item.id] .. ",\n" end
+  end
+  return #list > 0 and "{\n" .. table.concat(list) .. "}" or nil
 end
 
 --- What pages show of it.

@@ -3,6 +3,8 @@
 -- only where its user has said so (softworld --view --functions, scene:view { functions = true }): who types
 -- a function can do whatever the user of the program can.
 -- @module softworld.view.functions
+local checks = require "softworld.checks"
+
 local functions = {}
 
 local LONGEST = 20000 -- of a body [B]
@@ -102,6 +104,14 @@ local function write_observe(values, _, source)
   return "scene:observe " .. source{ every = values.every, call = call }
 end
 
+local value = a_function("of", "run", "returns a number of the run that was done, in the unit told; the "
+  .. "scene is as at its end")
+
+local function write_check(values, _, source)
+  return (source{ name = values.name, unit = need(values, "check", "unit"), max = values.max,
+    min = values.min, of = word(value, need(values, "check", "of")) })
+end
+
 local ending = " Objects by their names: scene:find \"name\"."
 
 --- The kinds, as special.kinds; `lua`: of views that take functions.
@@ -123,6 +133,13 @@ functions.kinds = {
     lua = true, first = "call every", doc = "looks at the run as it goes on." .. ending,
     rows = { look, row("every", "number", "s", "between two calls",
       { min = 0, above = true, usual = "each step" }) } },
+  { class = "check", kind = "check", method = "check", write = write_check, lua = true,
+    first = "name unit of min max",
+    doc = "judges each run by a number of your own, as help \"check\"." .. ending,
+    rows = { row("name", "text", "-", "of its row"),
+      row("unit", "text", "-", "of the value, - for none", { required = true }), value,
+      row("min", "number", "-", "the value must not be below it"),
+      row("max", "number", "-", "the value must not be above it") } },
 }
 
 --- What new forms have in them.
@@ -132,7 +149,44 @@ functions.starts = {
   ["step wait_until"] = { condition = "return scene.time > 0.1" },
   ["step move_by_function"] = { duration = 0.5,
     func = "return { 0, 0.02 * math.sin(20 * t), 0.1 * t }" },
+  ["check check"] = { unit = "N", of = "return (scene:find(\"wire1\"):max_tension())", max = 10 },
   ["observer observe"] = { every = 0.1, call = "print(scene.time, scene:energy().kinetic)" },
 }
+
+-- --- checks ------------------------------------------------------------------------------------------
+
+-- Lines of the list become those of the function that they are in.
+local function own_lines(message, text)
+  return (tostring(message):gsub("checks:(%d+): ", function(number)
+    local count, head = 0, 0
+    for line in text:gmatch "([^\n]*)\n?" do
+      count = count + 1
+      if count < tonumber(number) and line:find "function%(run%)$" then head = count end
+    end
+    return ("line %d: "):format(number - head)
+  end))
+end
+
+--- Judge a run by a list of checks, given as source: { verdict, rows = { { name, value, unit, verdict,
+-- note } } }.
+function functions.judge(run, text)
+  local names = functions.names()
+  names.scene = run.scene
+  local fine, check = pcall(function()
+    return run:check{ checks = assert(load("return " .. text, "=checks", "t", names))() }
+  end)
+  if not fine and checks.is_interrupt(check) then error(check, 0) end
+  if not fine then
+    local why = { name = "check", verdict = "FAIL", note = own_lines(check, text) }
+    return { verdict = "FAIL", rows = { why } }
+  end
+  local result = { verdict = check.verdict, rows = {} }
+  for i, r in ipairs(check.rows) do
+    local finite = type(r.value) == "number" and r.value - r.value == 0
+    result.rows[i] = { name = r.name, value = finite and r.value or nil, unit = r.unit,
+      verdict = r.verdict, note = r.note and own_lines(r.note, text) }
+  end
+  return result
+end
 
 return functions

@@ -204,7 +204,7 @@ end
 --- { class =, kind =, values =, serial = }: one more object, by a form; serial: a number that no other has.
 function make.add(scene, m, may)
   local kind, values = fill.read(m.class, m.kind, m.values, may)
-  if checks.set "step run scene observer"[kind.class] then
+  if checks.set "step run scene observer check"[kind.class] then
     fail("%s cannot be added while a run is under way", kind.class == "observer" and "an observer"
       or "a " .. kind.class)
   end
@@ -298,7 +298,7 @@ local function changes_of(lines)
 end
 
 -- The lines of the runs; nil when one has arguments that cannot be written.
-local function runs_of(runs)
+local function runs_of(runs, judged)
   local list = {}
   for i, args in ipairs(runs) do
     local own = {}
@@ -309,7 +309,9 @@ local function runs_of(runs)
     if not fine then return nil end
     list[i] = (i == 1 and "local run = scene:run " or "run = scene:run ") .. text .. "\n"
   end
-  return table.concat(list) .. "run:summary()\n"
+  list[#list + 1] = "run:summary()\n"
+  if judged then list[#list + 1] = ("print(run:check { checks = %s })\n"):format(judged) end
+  return table.concat(list)
 end
 
 -- The script that builds the scene; nil when it cannot be written.
@@ -322,10 +324,10 @@ end
 --- A script that does the runs again with what was changed by hand; of a scene whose processes are functions,
 -- which cannot be written, the part that is to be run before scene:run.
 -- lines: { { time =, text = or nil: the run was ended } }; runs: arguments of scene:run; head: the script
--- that built the scene, where it is known.
-function orders.script(scene, lines, runs, head)
+-- that built the scene, where it is known; judged: source of the list that the run is judged by, or nil.
+function orders.script(scene, lines, runs, head, judged)
   head = head or head_of(scene)
-  local tail = #runs > 0 and runs_of(runs)
+  local tail = #runs > 0 and runs_of(runs, judged)
   if head and (tail or #runs == 0) then
     local by_hand = #lines > 0
       and "\n-- What was changed by hand, and when.\ndo\n" .. changes_of(lines) .. "end\n"

@@ -118,7 +118,7 @@ local function show_state(own)
   local undo, no_undo = own.has_undo(own)
   local text = json.encode(json.object{ kind = "state", running = own.running, paused = own.paused,
     speed = own.speed, ok = own.ok, reason = own.reason, snapshots = snapshots,
-    undo = undo, no_undo = no_undo, again = own.again and own.again.state.time,
+    undo = undo, no_undo = no_undo, check = own.check, again = own.again and own.again.state.time,
     back = show.alive(own.scene) == 0, done = own.done, holds = own.holds, draft = own.draft ~= nil,
     at_start = own.draft ~= nil and not own.running and #own.runs == 0 })
   if text == own.state then return end
@@ -145,7 +145,8 @@ local function show_lines(own)
   local head = own.draft and own.draft:script() or nil
   put(own, LINES, { kind = "lines", lines = shown, total = #own.lines,
     unsaved = own.unsaved,
-    script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head) or nil })
+    script = not own.unsaved and orders.script(own.scene, own.lines, runs_of(own), head,
+      own.draft and own.draft:checks()) or nil })
 end
 
 local function show_events(own)

@@ -161,7 +161,7 @@ local function attach(own, scene)
   if own.self then views[build.data(scene)] = own.self end
   own.scene, own.signature, own.state, own.frame, own.events = scene, nil, nil, nil, nil
   own.queue, own.lines, own.shown, own.snapshots, own.hand = {}, {}, {}, {}, nil
-  own.changes, own.count, own.steps, own.ways, own.led, own.again = 0, 0, 0, {}, nil, nil
+  own.changes, own.count, own.steps, own.ways, own.led, own.again, own.check = 0, 0, 0, {}, nil, nil, nil
   own.names = setmetatable({ scene = scene, made = {} }, { __index = functions.names() })
   own.lines_due, own.forms_due, own.failed, own.running, own.done = true, true, nil, false, nil
   own.runs, own.serial, own.made_text, own.unsaved, own.draft_due = {}, 0, {}, nil, true
@@ -265,6 +265,8 @@ local function run_now(own, args)
   if not fine and draft.is_interrupt(run) then error(run, 0) end
   local begun = #own.runs > before
   if fine then fine = run.ok end -- a run that failed was looked at
+  local judged = fine and own.draft and own.draft:checks()
+  own.check = judged and functions.judge(run, judged) or nil
   own.failed, own.lines_due = begun and not fine or own.failed, true
   return begun or fine, run
 end
