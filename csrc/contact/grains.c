@@ -68,8 +68,6 @@ void sw_grains_free(sw_grains *g) {
   sw_free(g);
 }
 
-int sw_grains_idle(const sw_grains *g) { return g->pair_count == 0; }
-
 /* --- steps ----------------------------------------------------------------------- */
 
 /* What forces an object may press with: its weight; of a wire, that of bending it, its tension. */

@@ -17,9 +17,6 @@ sw_status sw_grains_new(const sw_system *system, const sw_pair_rule *rules, sw_g
 sw_status sw_grains_copy(const sw_grains *grains, const sw_system *system, sw_grains **out);
 void sw_grains_free(sw_grains *grains); /* NULL is allowed */
 
-/* Nothing is near enough to touch in this step. */
-int sw_grains_idle(const sw_grains *grains);
-
 /* These do what those of sw_pairs do. */
 sw_status sw_grains_begin_step(sw_grains *grains, sw_system *system, sw_contact_regime regime,
                                double h, double nominal, sw_error *err);
