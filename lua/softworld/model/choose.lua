@@ -10,6 +10,7 @@ local answer = require "softworld.model.answer"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local process = require "softworld.run.process"
@@ -28,6 +29,7 @@ local DOUBT = 4
 local LEVELS = 3   -- coarse ones on which rungs are compared
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
+local LONGEST = 300 -- that a level is expected to take [s]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 local function rungs_of(context)
@@ -59,18 +61,22 @@ end
 local function left_out(context, name, but)
   local sum = 0
   for _, state in ipairs(context.states) do
-    sum = sum + (state.by == "compared" and state ~= but and state.change[name] or 0)
+    sum = sum + (state.change and state ~= but and state.change[name] or 0)
   end
   return sum
 end
 
 -- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
 -- all.
-local function change(context, state, here, above)
+-- before: by the next rung, on a coarser level; what that changed by counts too.
+local function change(context, state, here, above, before)
   local c = { worst = -1, all = {} }
   for _, q in ipairs(context.job.quantities) do
     local a, b = here.values[q.name], above.values[q.name]
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
+    if before and quantity.alike(before.values[q.name], b) then
+      d = d + quantity.distance(before.values[q.name], b)
+    end
     if d ~= d then d = math.huge end
     c.all[q.name] = state.choice.safety * d
     local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_out(context, q.name, state))
@@ -84,11 +90,15 @@ end
 -- cheap rung must not pay for coarse steps. Nothing is computed twice.
 local function compare(context, state, rungs, above)
   local c
-  for k = 1, LEVELS do
+  local rung, levels, before = state.choice.rungs[state.rung], state.choice.levels or LEVELS, nil
+  for k = 1, levels do
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
-    if k > 1 and not (here.ok and there.ok) then return c end
-    c = change(context, state, here, there)
-    if c.worst < 1 / DOUBT or c.worst > HOPE ^ (LEVELS - k) or k > 1 and c.worst <= 1 then return c end
+    if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
+    c = change(context, state, here, there, rung.own and before)
+    before = there
+    if rung.own and k == 1 then -- how far the next rung itself is off is not known yet
+      if c.worst > HOPE ^ levels then return c end
+    elseif c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1 then return c end
   end
   return c
 end
@@ -119,11 +129,35 @@ local function stay(state, by, why)
   return true
 end
 
+-- The choice whose next rung computes what does not go with this one, and why.
+local function mends(context, result)
+  for _, state in ipairs(context.states) do
+    local why = state.by ~= "given" and state.rung < state.last and state.choice.mends
+      and state.choice.mends(context, state.rung, result)
+    if why then return state, why end
+  end
+end
+
+-- What a share of each value is, in its unit.
+local function of_values(context, values, share)
+  local all = {}
+  for _, q in ipairs(context.job.quantities) do
+    local size = quantity.size(values[q.name])
+    all[q.name] = size < math.huge and share * size or 0
+  end
+  return all
+end
+
 -- One look at a choice; true when it is settled.
 local function look(context, state)
   local choice, rungs = state.choice, rungs_of(context)
   local name, rung = choice.name, state.rung
   local here = probe.of(context, rungs, 1)
+  local mender, because = mends(context, here)
+  if mender then
+    raise_rung(context, mender, because)
+    return false
+  end
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
     raise_rung(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
@@ -133,15 +167,21 @@ local function look(context, state)
   if choice.idle and choice.idle(f) then
     return stay(state, "idle")
   end
-  local why
+  local why, more
   if choice.free and not state.checked then
-    why, state.doubt = choice.free(context, rung, f, tightest(context, here.values))
+    why, more = choice.free(context, rung, f, tightest(context, here.values))
   end
+  state.doubt = not why and more or nil
   if why then
-    state.known = why
+    state.known, state.change = why, more and of_values(context, here.values, more)
     return stay(state, "free", why)
   end
   if rung == state.last then return stay(state, "last") end
+  local skip = choice.skip and choice.skip(context, rung, f, tightest(context, here.values))
+  if skip then
+    state.doubt = skip
+    return stay(state, "skipped")
+  end
   local up = with(rungs, name, rung + 1)
   local above = probe.of(context, up, 1)
   local next_as = choice.rungs[rung + 1].as
@@ -149,7 +189,11 @@ local function look(context, state)
     state.doubt = ("%s cannot be computed: %s"):format(next_as, above.reason)
     return stay(state, "failed", state.doubt)
   end
-  local c = compare(context, state, rungs, up)
+  local c, blind = compare(context, state, rungs, up)
+  if blind then
+    state.doubt = ("%s cannot be computed finer: %s"):format(next_as, blind)
+    return stay(state, "failed", state.doubt)
+  end
   local costly = choice.costly and choice.costly(rung, here, above)
   if costly then raise_rung(context, state, costly)
   elseif c.worst > 1 then raise_rung(context, state, ("with %s %s"):format(next_as, changed_by(c)))
@@ -174,8 +218,11 @@ local function settle(context)
   for _ = 1, 3 do
     local before = rungs_of(context)
     decide(context)
-    local same = true
-    for name, rung in pairs(rungs_of(context)) do same = same and before[name] == rung end
+    local same, now = true, rungs_of(context)
+    for _, state in ipairs(context.states) do
+      local name = state.choice.name
+      same = same and (state.choice.steady or before[name] == now[name])
+    end
     if same then break end
   end
   local base = probe.of(context, rungs_of(context), 1)
@@ -198,6 +245,20 @@ local function suffices(job, k, contact)
   return true
 end
 
+-- No finer levels than can be waited for; two tell a bar.
+local function affordable(context)
+  local job, rungs = context.job, rungs_of(context)
+  job.most, context.dear = context.most, nil
+  for k = 3, context.most do
+    local time = probe.expected(context, rungs, k)
+    if time and time > LONGEST then
+      job.most, context.dear = k - 1, ("edges and steps of level %d would take about %s: not computed"):format(
+        k, number.duration(time))
+      return
+    end
+  end
+end
+
 -- The finest run of the rungs chosen.
 local function refined(context)
   local job, steps = context.job, nil
@@ -217,6 +278,7 @@ local function refined(context)
   for _, values in pairs(job.values) do
     for k = job.begun + 1, #values do values[k] = nil end
   end
+  affordable(context)
   job.restore()
   function job.arrange() steps = probe.arrange(context, rungs_of(context)) end
   local total = { wall = 0, cpu = 0 }
@@ -252,7 +314,7 @@ local function broken(context, result)
       given_up(context, state)
       again = true
     end
-    state.short = state.choice.short and state.choice.short(context, f, share)
+    state.short = state.choice.short and state.choice.short(context, f, share, state)
   end
   return again
 end
@@ -265,7 +327,7 @@ local function shorter(context, result)
     for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
       local depends = state.by == "free" and state.choice.name == "motion"
         or state.by == "compared" and state.change[q.name] > 0
-      if state.rung < state.last and depends then
+      if state.rung < state.last and depends and not state.choice.steady then
         raise_rung(context, state, ("with %s the bar of %s stays at %s (asked for %s)"):format(
           state.choice.rungs[state.rung].as, q.name, number.text(q.error, q.unit),
           number.text(q.tolerance, q.unit)))
@@ -333,9 +395,11 @@ function choose.run(scene, given, check, run_once)
   local args = {}
   for key, value in pairs(given) do args[key] = value end
   args.model = nil
+  mesh.undo(scene)
   local job = refine.job(scene, args, check)
   local context = new_context(scene, job, args, run_once)
   local touching = context.data.touching
+  context.most = job.most
   local fine, result = pcall(function()
     begin(context)
     return compute(context)
