@@ -110,14 +110,16 @@ local function changed_by(c)
     number.text(c.allowed, q.unit))
 end
 
+local function begin_anew(state)
+  state.rung, state.by, state.raised, state.why, state.checked = 1, nil, nil, nil, nil
+end
+
 -- The choices after it begin anew: they were made with the rung that is given up.
 local function raise_rung(context, state, why)
   state.rung, state.by, state.raised, state.why = state.rung + 1, "raised", why, why
   local after = false
   for _, other in ipairs(context.states) do
-    if after and other.by ~= "given" then
-      other.rung, other.by, other.raised, other.why, other.checked = 1, nil, nil, nil, nil
-    end
+    if after and other.by ~= "given" and not other.choice.steady then begin_anew(other) end
     after = after or other == state
   end
 end
@@ -131,9 +133,10 @@ end
 
 -- The choice whose next rung computes what does not go with this one, and why.
 local function mends(context, result)
+  local share = result.values and tightest(context, result.values) or 1
   for _, state in ipairs(context.states) do
     local why = state.by ~= "given" and state.rung < state.last and state.choice.mends
-      and state.choice.mends(context, state.rung, result)
+      and state.choice.mends(context, state.rung, result, share)
     if why then return state, why end
   end
 end
@@ -156,6 +159,9 @@ local function look(context, state)
   local mender, because = mends(context, here)
   if mender then
     raise_rung(context, mender, because)
+    for _, other in ipairs(context.states) do -- what was found with its rung tells nothing
+      if other ~= mender and other.by ~= "given" then begin_anew(other) end
+    end
     return false
   end
   if not here.ok then

@@ -6,7 +6,7 @@ local material = require "softworld.wire.material"
 
 local flat = {}
 
-local POISSON = 0.4 -- of what wires are made of, where nobody says [-]
+local POISSON = 0.4 -- of what wires are made of, where EI and GJ do not say [-]
 local SOLID = 1e-6  -- EI is that of a solid wire of its EA within this share [-]
 local HOLLOW = 0.4  -- inner radius over the outer one from which a ring's theory holds [-]
 local SHEAR = 1.2   -- of a ring's rectangular section: largest shear over mean [-]
@@ -33,6 +33,8 @@ function flat.body(wire)
   local inner = more >= HOLLOW ^ 2 and more < 1 - SOLID and more ^ 0.5 * r or 0
   body.E = beam.EA / (math.pi * (r * r - inner * inner))
   body.known = inner > 0 or math.abs(more) <= SOLID * (1 + more)
+  local nu = body.known and beam.GJ and beam.EI / beam.GJ - 1 or -1
+  if nu >= 0 and nu < 0.5 then body.nu = nu end
   if inner > 0 then
     body.inner, body.wall = inner, r - inner
     body.of = ("a tube with a wall of %.3g mm, as EA and EI tell"):format(1e3 * body.wall)

@@ -20,7 +20,7 @@ local SPRINGS = 0.35   -- spacing of a solid wire's springs [radii]
 local VOXELS = 2       -- across a wall, on the coarsest level [-]
 
 -- By levels: particles round a slice, layers of them, spacing of slices [radii].
-local rings = { { 12, 0.35 }, { 16, 0.25 }, { 24, 0.18 }, { 32, 0.13 }, { 48, 0.1 } }
+local rings = { { 8, 0.5 }, { 12, 0.35 }, { 16, 0.25 }, { 24, 0.18 }, { 32, 0.13 } }
 local grains = { { 12, 2, 1 }, { 24, 4, 0.7 }, { 32, 5, 0.5 }, { 48, 6, 0.35 }, { 64, 8, 0.25 } }
 
 local function of_level(list, k) return list[math.min(k, #list)] end

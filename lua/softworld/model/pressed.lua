@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Where wires are pressed in a run, and by how much.
 -- @module softworld.model.pressed
-local build = require "softworld.scene.build"
+local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local flat = require "softworld.model.flat"
 
@@ -9,8 +9,8 @@ local pressed = {}
 
 local PLACE = 0.1     -- of the largest load of its time: from there a place is pressed [-]
 local FLATTENED = 0.1 -- no more flattening than this is needed to count [-]
-local OVAL = 1.5      -- flattening over ovalisation: a solid section widens little [-]
-local OPPOSED = -0.5  -- cosine of forces that press from both sides [-]
+local OVAL, RING = 1.5, 1.1 -- flattening over ovalisation: a solid section widens less than a ring [-]
+local TWO_SIDED = 0.5 -- of the sizes of forces: what their sum lacks of them, from both sides [-]
 
 -- Is s at pads whose grip is chosen by itself, with the edge beside?
 local function at_pads(context, wire, s, spacing)
@@ -83,33 +83,25 @@ function pressed.beside(wire, w, region)
 end
 
 --- By how much a mesh was flattened in the run, over its width.
-function pressed.mesh(wire)
+function pressed.mesh(wire, body)
   local fine, oval = pcall(wire.max_ovalisation, wire)
-  return fine and oval and OVAL * oval or 0
+  return fine and oval and (body.inner and RING or OVAL) * oval or 0
 end
 
-local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
-
---- Did two obstacles push against each other, with something between them?
-function pressed.between(context, start)
-  local peaks = {}
-  for _, o in ipairs(build.data(context.scene).obstacles) do
-    local rows, count = o.object:log()
-    local peak, most = nil, 0
-    for i = 0, count - 1 do
-      local force = { rows[5 * i + 2], rows[5 * i + 3], rows[5 * i + 4] }
-      local size = dot(force, force)
-      if rows[5 * i + 1] >= start and size > most then peak, most = force, size end
+--- The largest force per length by which a line is pressed from both sides [N/m]: no line tells that force, as
+-- faces that leave it no room push as hard as can be.
+function pressed.squeeze(context, wire, w)
+  local most = 0
+  facts.frames(function(frame)
+    local values = frame.values[w]
+    local count = values and #values.contact or 0
+    local edge = count > 1 and wire.length / (count - 1)
+    for k, force in ipairs(edge and core.frame_squeeze(context.scene, frame.number, w) or {}) do
+      local both = force > TWO_SIDED * values.contact[k]
+      if both and not at_pads(context, wire, (k - 1) * edge, edge) then most = math.max(most, force / edge) end
     end
-    peaks[#peaks + 1] = peak
-  end
-  for i, a in ipairs(peaks) do
-    for j = i + 1, #peaks do
-      local b = peaks[j]
-      if dot(a, b) < OPPOSED * (dot(a, a) * dot(b, b)) ^ 0.5 then return true end
-    end
-  end
-  return false
+  end)
+  return most
 end
 
 return pressed

@@ -10,8 +10,9 @@ local number = require "softworld.output.number"
 local pressed = require "softworld.model.pressed"
 
 local CRUSHED = 0.2 -- flattening that no line describes, whatever it is asked for [-]
-local LEFT = 0.5    -- of the tolerance: what springs may leave out [-]
-local WALL = 2      -- of flattening times wall over radius: what springs leave out of a tube's force [-]
+local SQUEEZED = 0.1 -- of the tolerance: flattening from both sides that may be left out [-]
+local LEFT = 0.75   -- of the tolerance: what springs may leave out [-]
+local WALL = 1.7    -- of flattening times wall over radius: what springs leave out of a tube's force [-]
 
 -- steady: bars do not become shorter with the next rung, and the other choices stay with it. own: what the
 -- next rung's own edges leave out counts too.
@@ -101,6 +102,8 @@ local function look_at_line(context, worst, w, i)
     return
   end
   note(context, w, body, q, from, to)
+  local squeeze = flat.share(body, pressed.squeeze(context, w.object, i))
+  if squeeze > (worst.squeeze or 0) then worst.squeeze, worst.squeezed = squeeze, w.name end
   if share > worst.share then
     worst.q, worst.share, worst.wire, worst.of = q, share, w.name, body.of
   end
@@ -108,7 +111,7 @@ end
 
 local function look_at_mesh(worst, p, i)
   if is_line(p.object) then return end
-  local flattened = pressed.mesh(p.object)
+  local flattened = pressed.mesh(p.object, p.body)
   worst.flat = math.max(worst.flat or 0, flattened)
   worst.wall = math.max(worst.wall or 0, p.body.inner and p.body.wall / (p.body.radius - p.body.wall / 2)
     or math.huge)
@@ -118,7 +121,7 @@ local function look_at_mesh(worst, p, i)
   if share > (worst.beside or 0) then worst.beside, worst.load, worst.wire = share, q, p.name end
 end
 
-function section.look(context, run)
+function section.look(context)
   local worst = { q = 0, share = 0 }
   for i, w in ipairs(context.data.wires) do
     if core.exists(w.object) then
@@ -126,7 +129,6 @@ function section.look(context, run)
       elseif context.pressed[w.name] then look_at_mesh(worst, context.pressed[w.name], i) end
     end
   end
-  worst.between = worst.share > CRUSHED and pressed.between(context, run.start)
   return worst
 end
 
@@ -158,15 +160,15 @@ function section.skip(_, rung, f, share)
   return ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
 end
 
---- Rods between faces that leave them no room are not computed, or not rightly.
-function section.mends(_, rung, result)
+--- Lines between faces that leave them no room are not computed, or not rightly.
+function section.mends(_, rung, result, tightest)
   local f = result.facts and result.facts.section
   if rung > 1 then return nil end
   if result.reason and result.reason:find("whose section does not change", 1, true) then
     return "what is asked for is of a section that changes"
   end
-  if not f or not f.between then return nil end
-  return ("'%s' is squeezed, as no line can be"):format(f.wire)
+  if not f or (f.squeeze or 0) <= SQUEEZED * tightest then return nil end
+  return ("'%s' is squeezed from both sides, as no line can be"):format(f.squeezed)
 end
 
 function section.short(_, f, share, state)
