@@ -62,8 +62,8 @@ local function widen(context, result, model)
   end
   model.dear = not met and context.dear or nil
   if not met and (model.dear or not result.advice) then
-    result.advice = model.short[1] or model.blind or model.dear or "the tolerance is below what the cable's spread makes "
-      .. "worth computing"
+    result.advice = model.short[1] or model.blind or model.dear
+      or "the tolerance is below what the cable's spread makes worth computing"
   end
   result.met = met
 end

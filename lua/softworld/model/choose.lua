@@ -135,7 +135,7 @@ end
 local function mends(context, result)
   local share = result.values and tightest(context, result.values) or 1
   for _, state in ipairs(context.states) do
-    local why = state.by ~= "given" and state.rung < state.last and state.choice.mends
+    local why = state.by ~= "given" and not state.barred and state.rung < state.last and state.choice.mends
       and state.choice.mends(context, state.rung, result, share)
     if why then return state, why end
   end
@@ -151,6 +151,33 @@ local function of_values(context, values, share)
   return all
 end
 
+-- Settled for want of the next rung; what is left out counts as far as it is known.
+local function unknown(context, state, f, here, why)
+  local left = state.choice.left and state.choice.left(state.rung, f)
+  state.doubt, state.change = why, left and of_values(context, here.values, left)
+  return stay(state, "failed", why)
+end
+
+-- What was found with a rung that is given up tells nothing.
+local function others_anew(context, state)
+  for _, other in ipairs(context.states) do
+    if other ~= state and other.by ~= "given" then begin_anew(other) end
+  end
+end
+
+-- Where wires cannot be made what a rung wants, the one below has to do; true when there is one.
+local function bar_rung(context, failed)
+  for _, state in ipairs(context.states) do
+    if state.choice.steady and state.rung > 1 then
+      state.barred = ("%s cannot be computed: %s"):format(state.choice.rungs[state.rung].as, failed.reason)
+      state.rung, state.raised = state.rung - 1, nil
+      others_anew(context, state)
+      return true
+    end
+  end
+  return false
+end
+
 -- One look at a choice; true when it is settled.
 local function look(context, state)
   local choice, rungs = state.choice, rungs_of(context)
@@ -159,11 +186,10 @@ local function look(context, state)
   local mender, because = mends(context, here)
   if mender then
     raise_rung(context, mender, because)
-    for _, other in ipairs(context.states) do -- what was found with its rung tells nothing
-      if other ~= mender and other.by ~= "given" then begin_anew(other) end
-    end
+    others_anew(context, mender)
     return false
   end
+  if here.unmade and bar_rung(context, here) then return false end
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
     raise_rung(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
@@ -188,17 +214,16 @@ local function look(context, state)
     state.doubt = skip
     return stay(state, "skipped")
   end
+  if state.barred then return unknown(context, state, f, here, state.barred) end
   local up = with(rungs, name, rung + 1)
   local above = probe.of(context, up, 1)
   local next_as = choice.rungs[rung + 1].as
   if not above.ok then
-    state.doubt = ("%s cannot be computed: %s"):format(next_as, above.reason)
-    return stay(state, "failed", state.doubt)
+    return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
   local c, blind = compare(context, state, rungs, up)
   if blind then
-    state.doubt = ("%s cannot be computed finer: %s"):format(next_as, blind)
-    return stay(state, "failed", state.doubt)
+    return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
   end
   local costly = choice.costly and choice.costly(rung, here, above)
   if costly then raise_rung(context, state, costly)
@@ -258,8 +283,9 @@ local function affordable(context)
   for k = 3, context.most do
     local time = probe.expected(context, rungs, k)
     if time and time > LONGEST then
-      job.most, context.dear = k - 1, ("edges and steps of level %d would take about %s: not computed"):format(
-        k, number.duration(time))
+      job.most = k - 1
+      context.dear = ("edges and steps of level %d would take about %s: not computed"):format(k,
+        number.duration(time))
       return
     end
   end

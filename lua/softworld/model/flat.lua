@@ -15,8 +15,8 @@ local FULL = 0.1    -- flattening for which springs are chosen, where it is more
 
 flat.thin = THIN
 
---- What is pressed: { radius [m], E [Pa], of = of what that is the modulus, nu [-] }, of a tube also inner and
--- wall [m], of a cable cable = true. By E, or by EA and EI: of one material they tell the inner radius.
+--- What is pressed: { radius [m], E [Pa], of = of what that is the modulus, nu [-] }, of a tube also inner
+-- and wall [m], of a cable cable = true. By E, or by EA and EI: of one material they tell the inner radius.
 -- known = false: EA and EI are not those of one material, and E is the most that there may be.
 function flat.body(wire)
   local entry, r = wire:cable(), wire.radius
@@ -42,8 +42,9 @@ function flat.body(wire)
   return body
 end
 
---- Approach of opposite line loads on a ring, over their size per length [1/Pa]: Roark's Formulas for Stress
--- and Strain (Young, Budynas), table 9.2, case 1, which counts stretch and shear of the wall, in plane strain.
+--- Approach of opposite line loads on a ring, over their size per length [1/Pa]: Roark's Formulas for
+-- Stress and Strain (Young, Budynas), table 9.2, case 1, which counts stretch and shear of the wall, in plane
+-- strain.
 function flat.ring(body)
   local mean, wall = (body.radius + body.inner) / 2, body.wall
   local alpha = wall ^ 2 / (12 * mean ^ 2)

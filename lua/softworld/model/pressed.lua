@@ -66,7 +66,7 @@ function pressed.line(context, wire, w, body)
 end
 
 --- The same of a wire that is a mesh in a region: of the lines beside it.
-function pressed.beside(wire, w, region)
+function pressed.beside(w, region)
   local most = 0
   facts.frames(function(frame)
     local values, x = frame.values[w], frame.wires[w]
@@ -88,8 +88,8 @@ function pressed.mesh(wire, body)
   return fine and oval and (body.inner and RING or OVAL) * oval or 0
 end
 
---- The largest force per length by which a line is pressed from both sides [N/m]: no line tells that force, as
--- faces that leave it no room push as hard as can be.
+--- The largest force per length by which a line is pressed from both sides [N/m]: no line tells that force,
+-- as faces that leave it no room push as hard as can be.
 function pressed.squeeze(context, wire, w)
   local most = 0
   facts.frames(function(frame)
@@ -98,7 +98,8 @@ function pressed.squeeze(context, wire, w)
     local edge = count > 1 and wire.length / (count - 1)
     for k, force in ipairs(edge and core.frame_squeeze(context.scene, frame.number, w) or {}) do
       local both = force > TWO_SIDED * values.contact[k]
-      if both and not at_pads(context, wire, (k - 1) * edge, edge) then most = math.max(most, force / edge) end
+      local counts = both and not at_pads(context, wire, (k - 1) * edge, edge)
+      if counts then most = math.max(most, force / edge) end
     end
   end)
   return most

@@ -17,6 +17,7 @@
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
 --     suffice without another computation, and where it counts what share of a value is left out; else
 --     nil, and perhaps why not. share: the tightest of the tolerances over its value
+--   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
 --   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
 --   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
 --   costly(rung, here, above): a sentence where the rung costs no less than the next one; here and above:

@@ -116,7 +116,7 @@ local function look_at_mesh(worst, p, i)
   worst.wall = math.max(worst.wall or 0, p.body.inner and p.body.wall / (p.body.radius - p.body.wall / 2)
     or math.huge)
   if not p.body.known then worst.blind = p.name end
-  local q = p.region and pressed.beside(p.object, i, p.region) or 0
+  local q = p.region and pressed.beside(i, p.region) or 0
   local share = flat.share(p.body, q)
   if share > (worst.beside or 0) then worst.beside, worst.load, worst.wire = share, q, p.name end
 end
@@ -134,10 +134,14 @@ end
 
 -- --- deciding -----------------------------------------------------------------------------
 
+--- What springs leave out of a thick wall's force; nil: not known, of a solid wire.
+function section.left(rung, f)
+  return rung == 2 and f.flat and f.wall < math.huge and WALL * f.flat * f.wall or nil
+end
+
 local function free_of_springs(f, share)
-  if not f.flat or f.wall == math.huge then return nil end
-  local left = WALL * f.flat * f.wall
-  if left > LEFT * share then return nil end
+  local left = section.left(2, f)
+  if not left or left > LEFT * share then return nil end
   return ("the walls are thin, %s of their radius, and flattened by %s: springs leave out %s (limit %s)")
     :format(facts.percent(f.wall), facts.percent(f.flat), facts.percent(left), facts.percent(LEFT * share)),
     left

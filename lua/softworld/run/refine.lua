@@ -124,7 +124,7 @@ function refine.computer(job, steps, run_once, total)
   return function(k, name)
     local options = steps(k)
     local why = job.shape and job.shape(k)
-    if why then return { ok = false, reason = why, iterations = 0, wall = 0, cpu = 0 } end
+    if why then return { ok = false, unmade = true, reason = why, iterations = 0, wall = 0, cpu = 0 } end
     process.renew(scene, {}) -- settling is not for them
     if job.rests and not options.quasistatic then
       local settled = scene:settle()
