@@ -92,16 +92,21 @@ function autopressed.suffices(build, word, share, truth)
   return math.abs(value - t.value[3]) <= share * math.abs(t.value[3]) + before + t.error, total
 end
 
---- What the finest model everywhere costs at least: its coarsest level alone, of wires that are solid
--- elements all along, from a few steps [s]; nil: it cannot be computed.
+-- Solid elements all along; springs where EA, EI and GJ are not those of elements.
+local function fill(wire)
+  local segments = math.max(2, math.ceil(wire.length / wire.radius))
+  local filled = pcall(wire.remodel, wire, { model = "radial", body = "solid", particles = 12, layers = 2,
+    segments = segments })
+  if not filled then wire:remodel { model = "radial", segments = 3 * segments } end
+end
+
+--- What the finest model everywhere costs at least: its coarsest level alone, of wires that are meshes all
+-- along, from a few steps [s]; nil: it cannot be computed.
 function autopressed.finest(build, moves)
   local scene, _, duration = build {}
   local fine, run = pcall(function()
     if not moves then scene:settle() end
-    for _, w in ipairs(core.data(scene).wires) do
-      w.object:remodel { model = "radial", body = "solid", particles = 12, layers = 2,
-        spacing = w.object.radius, segments = math.max(2, math.ceil(w.object.length / w.object.radius)) }
-    end
+    for _, w in ipairs(core.data(scene).wires) do fill(w.object) end
     return scene:run { duration = SEEN * COARSE, dt = COARSE }
   end)
   return fine and run.ok and run.cpu * duration / (SEEN * COARSE) or nil

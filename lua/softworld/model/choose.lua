@@ -96,9 +96,9 @@ local function compare(context, state, rungs, above)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     c = change(context, state, here, there, rung.own and before)
     before = there
-    if rung.own and k == 1 then -- how far the next rung itself is off is not known yet
-      if c.worst > HOPE ^ levels then return c end
-    elseif c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1 then return c end
+    local first = rung.own and k == 1 -- how far the next rung itself is off is not known yet
+    local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
+    if clear and not first then return c end
   end
   return c
 end
@@ -284,8 +284,8 @@ local function affordable(context)
     local time = probe.expected(context, rungs, k)
     if time and time > LONGEST then
       job.most = k - 1
-      context.dear = ("edges and steps of level %d would take about %s: not computed"):format(k,
-        number.duration(time))
+      context.dear = time == math.huge and ("there is no finer mesh than that of level %d"):format(k - 1)
+        or ("edges and steps of level %d would take about %s: not computed"):format(k, number.duration(time))
       return
     end
   end

@@ -17,6 +17,7 @@ local DENSE = 150      -- particles of a slice from which the cost grows faster 
 local ITERATIONS = 300 -- of a run whose rods do not get through it [-]
 local BESIDE = 6       -- slices more, beside clamps [-]
 local SPRINGS = 0.35   -- spacing of a solid wire's springs [radii]
+local ACROSS = 16      -- no more small cubes than this are across [-]
 local VOXELS = 2       -- across a wall, on the coarsest level [-]
 
 -- By levels: particles round a slice, layers of them, spacing of slices [radii].
@@ -64,9 +65,10 @@ function mesh.region(wire, s1, s2)
 end
 
 --- Expected time of a run on level k of a wire that becomes a mesh [s]. iterations: of the first level of a
--- run before, nil where there was none.
+-- run before, nil where there was none. Infinite: there is no such mesh.
 function mesh.time(w, rung, k, iterations)
-  local _, particles, spacing = plan(w.body, rung, k, w.share)
+  local args, particles, spacing = plan(w.body, rung, k, w.share)
+  if (args.across or 0) > ACROSS then return math.huge end
   local length = w.region and w.region[2] - w.region[1] or w.length
   local slices = math.max(2, length / spacing) + BESIDE
   return (iterations or ITERATIONS) * 2 ^ (k - 1) * COST * slices * particles ^ 2

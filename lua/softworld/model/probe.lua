@@ -77,7 +77,7 @@ end
 local function compute(context, rungs, k, factors)
   local job, scene = context.job, context.scene
   local time = probe.expected(context, rungs, k)
-  if time and time > LONGEST then
+  if time and time > LONGEST and time < math.huge then
     return { ok = false, reason = ("it would take about %s"):format(number.duration(time)) }
   end
   job.restore()
