@@ -2,6 +2,7 @@
 --- What a pressed wire is remodelled to, on each level of edges and steps, and what that will cost.
 -- @module softworld.model.mesh
 local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local flat = require "softworld.model.flat"
 local record = require "softworld.scene.record"
@@ -96,6 +97,7 @@ function mesh.make(w, rung, k, whole)
     args.region, args.segments = nil, slices
     fine, why = pcall(record.quietly, w.object.remodel, w.object, args)
   end
+  if not fine and checks.is_interrupt(why) then error(why, 0) end
   if not fine then return plain(why) end
   was.mesh = w.object.model
   core.data(w.object).line = was

@@ -10,6 +10,7 @@ local number = require "softworld.output.number"
 local quantity = require "softworld.quantity"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
+local sealed = require "softworld.sealed"
 local trust = require "softworld.run.trust"
 
 local probe = {}
@@ -61,6 +62,7 @@ function probe.facts(context, run) return facts.reading(context.scene, run.start
 -- What a run that failed tells, if anything.
 local function facts_of_failed(context, run)
   local fine, found = pcall(probe.facts, context, run)
+  if not fine and checks.is_interrupt(found) then error(found, 0) end
   return fine and found or nil
 end
 
@@ -84,7 +86,7 @@ local function compute(context, rungs, k, factors)
   local steps = probe.arrange(context, rungs, factors)
   core.remesh(scene, trust.counts(job, k))
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
-  if not run.ok and run.unmade then return { ok = false, unmade = true, reason = run.reason } end
+  if sealed.fields(run).unmade then return { ok = false, unmade = true, reason = run.reason } end
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
   if not run.ok then
     result.facts = facts_of_failed(context, run)
