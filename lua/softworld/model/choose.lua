@@ -354,6 +354,10 @@ end
 -- A bar that stays too long may be the rung's own, as friction makes bars of poses: the first choice that
 -- the quantity depends on goes up. True when it does.
 local function shorter(context, result)
+  if context.dear then return false end -- the bars are those of a mesh that is not to be finer
+  for _, state in ipairs(context.states) do
+    if state.choice.steady and state.by == "failed" then return false end -- not met in any case
+  end
   for _, q in ipairs(result:error_bars()) do
     local hopeless = q.error > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
     for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
