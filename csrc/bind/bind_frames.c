@@ -219,9 +219,31 @@ static int mod_frame_range(lua_State *L) {
   return 2;
 }
 
-static const luaL_Reg functions[] = {
-    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
-    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
-    {"frames_thinned", mod_frames_thinned}, {NULL, NULL}};
+/* core.frame_squeeze(scene, i, w) -> of each node of wire w in frame i: sizes of what presses on
+ * it, less the size of their sum [N]: none where it is pressed from one side. */
+static int mod_frame_squeeze(lua_State *L) {
+  const sw_scene *scene = check(L);
+  const lua_Integer i = lsw_integer(L, 2, "frame_squeeze: frame");
+  const lua_Integer w = lsw_integer(L, 3, "frame_squeeze: wire");
+  size_t count = 0;
+  const float *p = NULL;
+  if (i >= 1 && (size_t)i <= sw_scene_frames(scene) && w >= 1 &&
+      sw_scene_frame_wire(scene, (size_t)i - 1, (size_t)w - 1, &count))
+    p = sw_scene_frame_values(scene, (size_t)i - 1, (size_t)w - 1, &count);
+  lua_createtable(L, p ? (int)count : 0, 0);
+  for (size_t n = 0; p && n < count; n++, p += SW_FRAME_VALUES) {
+    lua_pushnumber(L, (double)p[SW_FRAME_CONTACT] - sw_norm(vec_of(p + SW_FRAME_FORCE)));
+    lua_rawseti(L, -2, (lua_Integer)n + 1);
+  }
+  return 1;
+}
+
+static const luaL_Reg functions[] = {{"frame_now", mod_frame_now},
+                                     {"frame_times", mod_frame_times},
+                                     {"frame_range", mod_frame_range},
+                                     {"keep_frames", mod_keep_frames},
+                                     {"frames_thinned", mod_frames_thinned},
+                                     {"frame_squeeze", mod_frame_squeeze},
+                                     {NULL, NULL}};
 
 void lsw_open_frames(lua_State *L) { luaL_setfuncs(L, functions, 0); }

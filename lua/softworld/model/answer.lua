@@ -34,6 +34,7 @@ function Model:__tostring()
   for _, q in ipairs(self.quantities or {}) do lines[#lines + 1] = quantity_line(q) end
   for _, text in ipairs(self.short) do lines[#lines + 1] = "  NOT enough: " .. text end
   if self.blind then lines[#lines + 1] = "  NOT known: whether this model suffices, for " .. self.blind end
+  if self.dear then lines[#lines + 1] = "  NOT finer: " .. self.dear end
   for _, text in ipairs(self.unchecked) do lines[#lines + 1] = "  not checked: " .. text end
   lines[#lines + 1] = ("  %d coarse computations to choose, %.3g s; the run %.3g s"):format(self.probes,
     self.cost, self.run_cost)
@@ -47,20 +48,21 @@ local function choice_of(state)
 end
 
 -- Bars with what rungs leave out.
-local function widen(result, model)
+local function widen(context, result, model)
   model.quantities = result:error_bars()
   local met = #model.short == 0 and not model.blind
   for _, q in ipairs(model.quantities) do
     local sum = 0
-    for _, c in ipairs(model.choices) do sum = sum + (c.by == "compared" and (c.error[q.name] or 0) or 0) end
+    for _, c in ipairs(model.choices) do sum = sum + (c.error and c.error[q.name] or 0) end
     q.discretisation, q.model_error = q.row and q.error or math.max(q.error, COARSE * q.tolerance), sum
     q.error = q.discretisation + sum
     q.met = q.error <= q.tolerance
     met = met and q.met
   end
-  if not met and not result.advice then
-    result.advice = model.short[1] or model.blind or "the tolerance is below what the cable's spread makes "
-      .. "worth computing"
+  model.dear = not met and context.dear or nil
+  if not met and (model.dear or not result.advice) then
+    result.advice = model.short[1] or model.blind or model.dear
+      or "the tolerance is below what the cable's spread makes worth computing"
   end
   result.met = met
 end
@@ -75,14 +77,14 @@ function answer.add(context, result)
       model.choices[#model.choices + 1], model[c.name] = c, c.rung
       if state.short then model.short[#model.short + 1] = state.short end
       if state.by == "failed" then model.blind = ("%s was not checked: %s"):format(c.name, c.why) end
-      if not state.short and state.doubt and state.by ~= "failed" and state.last == 1 then
+      if not state.short and state.doubt and state.by == "skipped" then
         model.unchecked[#model.unchecked + 1] = ("%s: %s"):format(c.name, state.doubt)
       end
     end
   end
   if context.spread.failed then model.unchecked[#model.unchecked + 1] = context.spread.failed end
   for _, e in ipairs(context.given_up) do result.events[#result.events + 1] = e end
-  if not result.refused then widen(result, model) end
+  if not result.refused then widen(context, result, model) end
   result.model = model
   return result
 end

@@ -10,6 +10,7 @@ local answer = require "softworld.model.answer"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
+local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local process = require "softworld.run.process"
@@ -29,6 +30,7 @@ local LEVELS = 3   -- coarse ones on which rungs are compared
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
+local LONGEST = 300 -- that a level is expected to take [s]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 local function rungs_of(context)
@@ -61,18 +63,22 @@ end
 local function left_out(context, name, but)
   local sum = 0
   for _, state in ipairs(context.states) do
-    sum = sum + (state.by == "compared" and state ~= but and (state.change[name] or 0) or 0)
+    sum = sum + (state.change and state ~= but and (state.change[name] or 0) or 0)
   end
   return sum
 end
 
 -- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
 -- all.
-local function change(context, state, here, above)
+-- before: by the next rung, on a coarser level; what that changed by counts too.
+local function change(context, state, here, above, before)
   local c = { worst = -1, all = {} }
   for _, q in ipairs(context.job.quantities) do
     local a, b = here.values[q.name] or NONE, above.values[q.name] or NONE
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
+    if before and quantity.alike(before.values[q.name], b) then
+      d = d + quantity.distance(before.values[q.name], b)
+    end
     if d ~= d then d = math.huge end
     c.all[q.name] = state.choice.safety * d
     local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_out(context, q.name, state))
@@ -86,11 +92,15 @@ end
 -- cheap rung must not pay for coarse steps. Nothing is computed twice.
 local function compare(context, state, rungs, above)
   local c
-  for k = 1, LEVELS do
+  local rung, levels, before = state.choice.rungs[state.rung], state.choice.levels or LEVELS, nil
+  for k = 1, levels do
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
-    if k > 1 and not (here.ok and there.ok) then return c end
-    c = change(context, state, here, there)
-    if c.worst < 1 / DOUBT or c.worst > HOPE ^ (LEVELS - k) or k > 1 and c.worst <= 1 then return c end
+    if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
+    c = change(context, state, here, there, rung.own and before)
+    before = there
+    local first = rung.own and k == 1 -- how far the next rung itself is off is not known yet
+    local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
+    if clear and not first then return c end
   end
   return c
 end
@@ -102,14 +112,16 @@ local function changed_by(c)
     number.text(c.allowed, q.unit))
 end
 
+local function begin_anew(state)
+  state.rung, state.by, state.raised, state.why, state.checked = 1, nil, nil, nil, nil
+end
+
 -- The choices after it begin anew: they were made with the rung that is given up.
 local function raise_rung(context, state, why)
   state.rung, state.by, state.raised, state.why = state.rung + 1, "raised", why, why
   local after = false
   for _, other in ipairs(context.states) do
-    if after and other.by ~= "given" then
-      other.rung, other.by, other.raised, other.why, other.checked = 1, nil, nil, nil, nil
-    end
+    if after and other.by ~= "given" and not other.choice.steady then begin_anew(other) end
     after = after or other == state
   end
 end
@@ -121,11 +133,65 @@ local function stay(state, by, why)
   return true
 end
 
+-- The choice whose next rung computes what does not go with this one, and why.
+local function mends(context, result)
+  local share = result.values and tightest(context, result.values) or 1
+  for _, state in ipairs(context.states) do
+    local why = state.by ~= "given" and not state.barred and state.rung < state.last and state.choice.mends
+      and state.choice.mends(context, state.rung, result, share)
+    if why then return state, why end
+  end
+end
+
+-- What a share of each value is, in its unit.
+local function of_values(context, values, share)
+  local all = {}
+  for _, q in ipairs(context.job.quantities) do
+    local size = quantity.size(values[q.name] or NONE)
+    all[q.name] = size < math.huge and share * size or 0
+  end
+  return all
+end
+
+-- Settled for want of the next rung; what is left out counts as far as it is known.
+local function unknown(context, state, f, here, why)
+  local left = state.choice.left and state.choice.left(state.rung, f)
+  state.doubt, state.change = why, left and of_values(context, here.values, left)
+  return stay(state, "failed", why)
+end
+
+-- What was found with a rung that is given up tells nothing.
+local function others_anew(context, state)
+  for _, other in ipairs(context.states) do
+    if other ~= state and other.by ~= "given" then begin_anew(other) end
+  end
+end
+
+-- Where wires cannot be made what a rung wants, the one below has to do; true when there is one.
+local function bar_rung(context, failed)
+  for _, state in ipairs(context.states) do
+    if state.choice.steady and state.rung > 1 then
+      state.barred = ("%s cannot be computed: %s"):format(state.choice.rungs[state.rung].as, failed.reason)
+      state.rung, state.raised = state.rung - 1, nil
+      others_anew(context, state)
+      return true
+    end
+  end
+  return false
+end
+
 -- One look at a choice; true when it is settled.
 local function look(context, state)
   local choice, rungs = state.choice, rungs_of(context)
   local name, rung = choice.name, state.rung
   local here = probe.of(context, rungs, 1)
+  local mender, because = mends(context, here)
+  if mender then
+    raise_rung(context, mender, because)
+    others_anew(context, mender)
+    return false
+  end
+  if here.unmade and bar_rung(context, here) then return false end
   if not here.ok then
     if rung == state.last or here.raised then return stay(state, "failed") end
     raise_rung(context, state, ("%s cannot be computed: %s"):format(choice.rungs[rung].as, here.reason))
@@ -135,23 +201,32 @@ local function look(context, state)
   if choice.idle and choice.idle(f) then
     return stay(state, "idle")
   end
-  local why
+  local why, more
   if choice.free and not state.checked then
-    why, state.doubt = choice.free(context, rung, f, tightest(context, here.values))
+    why, more = choice.free(context, rung, f, tightest(context, here.values))
   end
+  state.doubt = not why and more or nil
   if why then
-    state.known = why
+    state.known, state.change = why, more and of_values(context, here.values, more)
     return stay(state, "free", why)
   end
   if rung == state.last then return stay(state, "last") end
+  local skip = choice.skip and choice.skip(context, rung, f, tightest(context, here.values))
+  if skip then
+    state.doubt = skip
+    return stay(state, "skipped")
+  end
+  if state.barred then return unknown(context, state, f, here, state.barred) end
   local up = with(rungs, name, rung + 1)
   local above = probe.of(context, up, 1)
   local next_as = choice.rungs[rung + 1].as
   if not above.ok then
-    state.doubt = ("%s cannot be computed: %s"):format(next_as, above.reason)
-    return stay(state, "failed", state.doubt)
+    return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
-  local c = compare(context, state, rungs, up)
+  local c, blind = compare(context, state, rungs, up)
+  if blind then
+    return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
+  end
   local costly = choice.costly and choice.costly(rung, here, above)
   if costly then raise_rung(context, state, costly)
   elseif c.worst > 1 then raise_rung(context, state, ("with %s %s"):format(next_as, changed_by(c)))
@@ -176,8 +251,11 @@ local function settle(context)
   for _ = 1, 3 do
     local before = rungs_of(context)
     decide(context)
-    local same = true
-    for name, rung in pairs(rungs_of(context)) do same = same and before[name] == rung end
+    local same, now = true, rungs_of(context)
+    for _, state in ipairs(context.states) do
+      local name = state.choice.name
+      same = same and (state.choice.steady or before[name] == now[name])
+    end
     if same then break end
   end
   local base = probe.of(context, rungs_of(context), 1)
@@ -200,6 +278,21 @@ local function suffices(job, k, contact)
   return true
 end
 
+-- No finer levels than can be waited for; two tell a bar.
+local function affordable(context)
+  local job, rungs = context.job, rungs_of(context)
+  job.most, context.dear = context.most, nil
+  for k = 3, context.most do
+    local time = probe.expected(context, rungs, k)
+    if time and time > LONGEST then
+      job.most = k - 1
+      context.dear = time == math.huge and ("there is no finer mesh than that of level %d"):format(k - 1)
+        or ("edges and steps of level %d would take about %s: not computed"):format(k, number.duration(time))
+      return
+    end
+  end
+end
+
 -- The finest run of the rungs chosen.
 local function refined(context)
   local job, steps = context.job, nil
@@ -219,6 +312,7 @@ local function refined(context)
   for _, values in pairs(job.values) do
     for k = job.begun + 1, #values do values[k] = nil end
   end
+  affordable(context)
   job.restore()
   function job.arrange() steps = probe.arrange(context, rungs_of(context)) end
   local total = { wall = 0, cpu = 0 }
@@ -254,7 +348,7 @@ local function broken(context, result)
       given_up(context, state)
       again = true
     end
-    state.short = state.choice.short and state.choice.short(context, f, share)
+    state.short = state.choice.short and state.choice.short(context, f, share, state)
   end
   return again
 end
@@ -262,12 +356,16 @@ end
 -- A bar that stays too long may be the rung's own, as friction makes bars of poses: the first choice that
 -- the quantity depends on goes up. True when it does.
 local function shorter(context, result)
+  if context.dear then return false end -- the bars are those of a mesh that is not to be finer
+  for _, state in ipairs(context.states) do
+    if state.choice.steady and state.by == "failed" then return false end -- not met in any case
+  end
   for _, q in ipairs(result:error_bars()) do
     local hopeless = q.error > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
     for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
       local depends = state.by == "free" and state.choice.name == "motion"
         or state.by == "compared" and (state.change[q.name] or 0) > 0
-      if state.rung < state.last and depends then
+      if state.rung < state.last and depends and not state.choice.steady then
         raise_rung(context, state, ("with %s the bar of %s stays at %s (asked for %s)"):format(
           state.choice.rungs[state.rung].as, q.name, number.text(q.error, q.unit),
           number.text(q.tolerance, q.unit)))
@@ -336,9 +434,11 @@ function choose.run(scene, given, check, run_once)
   local args = {}
   for key, value in pairs(given) do args[key] = value end
   args.model = nil
+  mesh.undo(scene)
   local job = refine.job(scene, args, check)
   local context = new_context(scene, job, args, run_once)
   local touching = context.data.touching
+  context.most = job.most
   local fine, result = pcall(function()
     begin(context)
     return compute(context)

@@ -33,7 +33,10 @@ function facts.reading(scene, start, f, ...)
   kept = {}
   for i = 1, scene:frame_count() do
     local frame = scene:frame(i)
-    if frame.t >= start then kept[#kept + 1] = frame end
+    if frame.t >= start then
+      frame.number = i
+      kept[#kept + 1] = frame
+    end
   end
   local fine, result = pcall(f, ...)
   kept = nil

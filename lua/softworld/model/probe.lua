@@ -6,17 +6,21 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
+local number = require "softworld.output.number"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
+local sealed = require "softworld.sealed"
 local trust = require "softworld.run.trust"
 
 local probe = {}
+
+local LONGEST = 60 -- that a computation on the way is expected to take [s]
 
 -- Options of the run in place of those given.
 local function changes_of(context, rungs)
   local changes = {}
   for _, choice in ipairs(registry.list) do
-    if choice.apply then choice.apply(context, rungs[choice.name], changes) end
+    if choice.apply then choice.apply(context, rungs[choice.name], changes, rungs) end
   end
   return changes
 end
@@ -32,7 +36,8 @@ end
 function probe.arrange(context, rungs, factors)
   local changes = changes_of(context, rungs)
   local each_frame = changes.each_frame
-  changes.each_frame = nil
+  context.job.shape = changes.shape
+  changes.each_frame, changes.shape = nil, nil
   stiffen(factors)
   local steps = context.job.steps(changes)
   return not each_frame and steps or function(k)
@@ -53,17 +58,43 @@ end
 --- What a run tells to the choices, by their names.
 function probe.facts(context, run) return facts.reading(context.scene, run.start, look, context, run) end
 
+-- What a run that failed tells, if anything.
+local function facts_of_failed(context, run)
+  local fine, found = pcall(probe.facts, context, run)
+  if not fine and checks.is_interrupt(found) then error(found, 0) end
+  return fine and found or nil
+end
+
+--- Expected time of a run of rungs on level k, where one of them may cost much [s]; else nil.
+function probe.expected(context, rungs, k)
+  local sum
+  for _, choice in ipairs(registry.list) do
+    local time = choice.expected and choice.expected(context, rungs[choice.name], k)
+    if time then sum = (sum or 0) + time end
+  end
+  return sum
+end
+
 local function compute(context, rungs, k, factors)
   local job, scene = context.job, context.scene
+  local time = probe.expected(context, rungs, k)
+  if time and time > LONGEST and time < math.huge then
+    return { ok = false, reason = ("it would take about %s"):format(number.duration(time)) }
+  end
   job.restore()
   local steps = probe.arrange(context, rungs, factors)
   core.remesh(scene, trust.counts(job, k))
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
+  if sealed.fields(run).unmade then return { ok = false, unmade = true, reason = run.reason } end
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
-  if not run.ok then return result end
+  if not run.ok then
+    result.facts = facts_of_failed(context, run)
+    return result
+  end
+  result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
   result.values = {}
   for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
-  result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
+  context.iterations = run.iterations / 2 ^ (k - 1)
   result.level = { segments = trust.counts(job, k), ok = true, cpu = run.cpu }
   return result
 end

@@ -4,17 +4,25 @@
 -- A choice: { name =, rungs = { { name =, as = in a sentence, leaves = what it leaves out }, ... } from
 -- cheap to dear, and functions of the context { scene =, data =, args =, job =, ... }:
 --   safety: of the change that the next rung makes, where it is another than usual
+--   levels: coarse ones on which its rungs are compared, where it is another number than usual
+--   steady: bars do not become shorter with the next rung, and the other choices stay as they are with it.
+--     A rung with own = true: what the next one's own edges change counts too
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
---   apply(context, rung, changes): sets the scene, or options of its run, before a computation
+--   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
+--     changes.shape(k) makes other models of wires on level k. rungs: of all choices, by their names
+--   expected(context, rung, k): time of a run on level k, where it may cost much [s]
 --   look(context, run): what a computation tells about the choice, read at its end
 --   idle(facts): there was nothing to choose
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
---     suffice without another computation; else nil, and perhaps why not. share: the tightest of the
---     tolerances over its value
+--     suffice without another computation, and where it counts what share of a value is left out; else
+--     nil, and perhaps why not. share: the tightest of the tolerances over its value
+--   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
+--   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
+--   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
 --   costly(rung, here, above): a sentence where the rung costs no less than the next one; here and above:
 --     coarse computations by both, with iterations =
---   short(context, facts, share): a sentence where even the dearest rung leaves out too much
+--   short(context, facts, share, state): a sentence where the rung leaves out too much all the same
 -- @module softworld.model.registry
 local registry = {}
 

@@ -1,83 +1,156 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The choice of section: round whatever presses on it, or pressed flat. A mesh is not tried by itself: where
--- the line does not suffice, that is told.
+--- The choice of section: round whatever presses on it; or a mesh where it is pressed, of springs that are as
+-- stiff against two plates as the wire, or of elements.
 -- @module softworld.model.section
+local core = require "softworld.core"
 local facts = require "softworld.model.facts"
-local material = require "softworld.wire.material"
+local flat = require "softworld.model.flat"
+local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
+local pressed = require "softworld.model.pressed"
 
-local POISSON = 0.4 -- of what wires are made of, where nobody says [-]
+local CRUSHED = 0.2 -- flattening that no line describes, whatever it is asked for [-]
+local SQUEEZED = 0.1 -- of the tolerance: flattening from both sides that may be left out [-]
+local LEFT = 0.75   -- of the tolerance: what springs may leave out [-]
+local WALL = 1.7    -- of flattening times wall over radius: what springs leave out of a tube's force [-]
 
-local section = { name = "section", rungs = { { name = "round", as = "round sections",
-  leaves = "flattening of the section" } } }
-
--- Young's modulus of what is pressed [Pa], and what it is of: of a wire told by E its own, of a cable that of
--- its insulation; nil where it is not known.
-local function modulus(wire)
-  local entry = wire:cable()
-  if not entry then
-    local EA, EI, r = wire:get().EA, wire:get().EI, wire.radius
-    local E = EA / (math.pi * r * r)
-    local round = type(EI) == "number" and math.abs(EI - EA * r * r / 4) <= 1e-6 * EI
-    return round and E or nil, "the wire"
-  end
-  local word = entry.construction and entry.construction.insulation
-  local known = word and material.find(word)
-  if known and known.E then return known.E.value, word end
-end
+-- steady: bars do not become shorter with the next rung, and the other choices stay with it. own: what the
+-- next rung's own edges leave out counts too.
+local section = { name = "section", steady = true, levels = 2, rungs = {
+  { name = "round", as = "round sections", leaves = "flattening of the section" },
+  { name = "springs", as = "a mesh of springs", own = true,
+    leaves = "how the section's stiffness changes as it flattens; twist beside the mesh" },
+  { name = "elements", as = "a mesh of elements", leaves = "twist beside the mesh" } } }
 
 --- By how much two faces that press on a wire with q [N/m] come nearer, over its width; and of what the
--- modulus is. Of a solid cylinder: Johnson, Contact Mechanics, 1985, section 5.6. nil: not known.
+-- modulus is. nil: not known.
 function section.flattening(wire, q)
-  local E, of = modulus(wire)
-  if not E then return nil end
-  if q <= 0 then return 0, of end
-  local r, soft = wire.radius, (1 - POISSON ^ 2) / (math.pi * E)
-  local half = (4 * q * r * soft) ^ 0.5 -- of the strip that touches [m]
-  return 2 * q * soft * math.max(1, 2 * math.log(4 * r / half) - 1) / (2 * r), of
+  local body = flat.body(wire)
+  if not body.known then return nil end
+  return flat.share(body, q), body.of
 end
 
--- Is s at pads whose grip is chosen by itself, with the edge beside?
-local function at_pads(context, wire, s, spacing)
-  for _, asked in ipairs(context.data.auto and context.data.auto.asked or {}) do
-    local from = type(asked.s) == "number" and math.abs(s - asked.s) or 0
-    if asked.wire == wire and from <= asked.gripper.pads.width / 2 + 1.5 * spacing then return true end
+local function is_line(wire) return wire.model == "rod" or wire.model == "string" end
+
+-- --- setting the scene --------------------------------------------------------------------
+
+-- What is known of the wires pressed in runs with round sections; fixed once one is a mesh.
+local function note(context, w, body, q, from, to)
+  if context.pressed_fixed or not from then return end
+  local list = context.pressed
+  local known = list[w.name] or { object = w.object, name = w.name, body = body, q = 0, from = from, to = to }
+  list[w.name] = known
+  known.q, known.from, known.to = math.max(known.q, q), math.min(known.from, from), math.max(known.to, to)
+end
+
+-- The wires that become meshes, in their order: those flattened by more than a limit, or most.
+local function meshed(context)
+  if context.pressed_fixed then return context.pressed_fixed end
+  local list, most = {}, 0
+  for _, p in pairs(context.pressed) do
+    p.share = flat.share(p.body, p.q)
+    most = math.max(most, p.share)
+  end
+  for _, w in ipairs(context.data.wires) do
+    local p = context.pressed[w.name]
+    if p and (p.share >= math.min(most, context.section_limit or most)) then
+      p.length, p.region = p.object.length, mesh.region(p.object, p.from, p.to)
+      list[#list + 1] = p
+    end
+  end
+  context.pressed_fixed = list
+  return list
+end
+
+function section.begin(context) context.pressed = {} end
+
+--- Will the wire be a mesh?
+function section.takes(context, rung, wire)
+  for _, p in ipairs(rung and rung > 1 and meshed(context) or {}) do
+    if p.object == wire then return true end
   end
   return false
 end
 
--- Largest force per length of touches, of the stored frames [N/m].
-local function line_load(context, wire, w)
-  local most = 0
-  facts.frames(function(frame)
-    local values, x = frame.values[w], frame.wires[w]
-    local spacing = values and x and #x > 3
-      and ((x[4] - x[1]) ^ 2 + (x[5] - x[2]) ^ 2 + (x[6] - x[3]) ^ 2) ^ 0.5 or 0
-    for k = 1, spacing > 0 and #values.contact or 0 do
-      local load = values.contact[k] / spacing
-      if load > most and not at_pads(context, wire, (k - 1) * spacing, spacing) then most = load end
+function section.apply(context, rung, changes, rungs)
+  if rung == 1 then return end
+  function changes.shape(k)
+    for _, p in ipairs(meshed(context)) do
+      local why = mesh.make(p, rung, k, rungs.twist == 2)
+      if why then return why end
     end
-  end)
-  return most
+  end
+end
+
+--- Expected time of a run on level k [s]; nil: as usual.
+function section.expected(context, rung, k)
+  if rung == 1 then return nil end
+  local sum = 0
+  for _, p in ipairs(meshed(context)) do sum = sum + mesh.time(p, rung, k, context.iterations) end
+  return sum
+end
+
+-- --- what runs tell -----------------------------------------------------------------------
+
+local function look_at_line(context, worst, w, i)
+  local body = flat.body(w.object)
+  local q, from, to = pressed.line(context, w.object, i, body)
+  if q <= 0 then return end
+  local share = flat.share(body, q)
+  if not body.known and share < CRUSHED then
+    worst.unknown = w.name
+    return
+  end
+  note(context, w, body, q, from, to)
+  local squeeze = flat.share(body, pressed.squeeze(context, w.object, i))
+  if squeeze > (worst.squeeze or 0) then worst.squeeze, worst.squeezed = squeeze, w.name end
+  if share > worst.share then
+    worst.q, worst.share, worst.wire, worst.of = q, share, w.name, body.of
+  end
+end
+
+local function look_at_mesh(worst, p, i)
+  if is_line(p.object) then return end
+  local flattened = pressed.mesh(p.object, p.body)
+  worst.flat = math.max(worst.flat or 0, flattened)
+  worst.wall = math.max(worst.wall or 0, p.body.inner and p.body.wall / (p.body.radius - p.body.wall / 2)
+    or math.huge)
+  if not p.body.known then worst.blind = p.name end
+  local q = p.region and pressed.beside(i, p.region) or 0
+  local share = flat.share(p.body, q)
+  if share > (worst.beside or 0) then worst.beside, worst.load, worst.wire = share, q, p.name end
 end
 
 function section.look(context)
   local worst = { q = 0, share = 0 }
   for i, w in ipairs(context.data.wires) do
-    if w.object.model == "rod" or w.object.model == "string" then
-      local q = line_load(context, w.object, i)
-      local share, of = section.flattening(w.object, q)
-      if not share and q > 0 then worst.unknown = w.name end
-      if share and share > worst.share then worst = { q = q, share = share, wire = w.name, of = of,
-        unknown = worst.unknown } end
+    if core.exists(w.object) then
+      if is_line(w.object) then look_at_line(context, worst, w, i)
+      elseif context.pressed[w.name] then look_at_mesh(worst, context.pressed[w.name], i) end
     end
   end
   return worst
 end
 
-function section.free(_, _, f, share)
-  if f.unknown then return nil, ("how stiff the section of '%s' is, is not known: give "
-    .. "E"):format(f.unknown) end
+-- --- deciding -----------------------------------------------------------------------------
+
+--- What springs leave out of a thick wall's force; nil: not known, of a solid wire.
+function section.left(rung, f)
+  return rung == 2 and f.flat and f.wall < math.huge and WALL * f.flat * f.wall or nil
+end
+
+local function free_of_springs(f, share)
+  local left = section.left(2, f)
+  if not left or left > LEFT * share then return nil end
+  return ("the walls are thin, %s of their radius, and flattened by %s: springs leave out %s (limit %s)")
+    :format(facts.percent(f.wall), facts.percent(f.flat), facts.percent(left), facts.percent(LEFT * share)),
+    left
+end
+
+function section.free(context, rung, f, share)
+  context.section_limit = math.min(context.section_limit or share, share)
+  if rung == 2 then return free_of_springs(f, share) end
+  if rung > 2 or f.unknown then return nil end
   if f.q == 0 then return "nothing presses on a wire" end
   if f.share > share then return nil end
   return ("'%s' is pressed by up to %s and flattened by %s of its width, by the modulus of %s (limit "
@@ -85,11 +158,37 @@ function section.free(_, _, f, share)
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
 end
 
-function section.short(_, f, share)
-  if f.unknown or f.share <= share then return nil end
-  return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): take a mesh, help "
-    .. "'models'")
-    :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
+--- The next rung is not tried where nobody knows how stiff what is pressed is.
+function section.skip(_, rung, f, share)
+  if rung > 1 or not f.unknown or f.share > share then return nil end
+  return ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
+end
+
+--- Lines between faces that leave them no room are not computed, or not rightly.
+function section.mends(_, rung, result, tightest)
+  local f = result.facts and result.facts.section
+  if rung > 1 then return nil end
+  if result.reason and result.reason:find("whose section does not change", 1, true) then
+    return "what is asked for is of a section that changes"
+  end
+  if not f or (f.squeeze or 0) <= SQUEEZED * tightest then return nil end
+  return ("'%s' is squeezed from both sides, as no line can be"):format(f.squeezed)
+end
+
+function section.short(_, f, share, state)
+  if state.rung == 1 and state.by ~= "compared" then
+    if f.unknown or f.share <= share then return nil end
+    return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): take a mesh, help "
+      .. "'models'")
+      :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
+  end
+  if f.blind then
+    return ("how stiff the section of '%s' is against what presses on it, is not known: give E"):format(
+      f.blind)
+  end
+  if (f.beside or 0) <= share then return nil end
+  return ("'%s' is pressed by up to %s where it is no mesh, and flattened there by %s of its width (limit "
+    .. "%s)"):format(f.wire, number.text(f.load, "N/m"), facts.percent(f.beside), facts.percent(share))
 end
 
 return section

@@ -54,7 +54,7 @@ function spread:text()
   local parts = {}
   for _, q in ipairs(self.context.job.quantities) do
     local d = self.changes[q.name] or 0
-    if d > q.tolerance then
+    if d > (q.tolerance or math.huge) then -- nil: of a value that is not known
       parts[#parts + 1] = ("%s by %s"):format(q.name, number.text(d, q.unit))
     end
   end

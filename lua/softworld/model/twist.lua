@@ -3,6 +3,7 @@
 -- @module softworld.model.twist
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
+local section = require "softworld.model.section"
 
 local twist = { name = "twist", rungs = {
   { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: it acts on the axis" },
@@ -20,19 +21,25 @@ function twist.given(context)
   return why, rung
 end
 
-function twist.apply(context, rung)
+function twist.apply(context, rung, _, rungs)
   if rung ~= 2 then return end
   for _, w in ipairs(context.data.wires) do
-    if may_roll(w.object) then core.redraw(w.object, true) end
+    local mesh = section.takes(context, rungs.section, w.object) -- rolls by itself
+    if may_roll(w.object) and not mesh then core.redraw(w.object, true) end
   end
 end
 
 function twist.look(context, run)
   local met = context.data.touching and #context.scene:touches() > 0
-  return { rubs = facts.rubbing(context.scene, run.start), met = met }
+  local rods = 0
+  for _, w in ipairs(context.data.wires) do
+    if core.exists(w.object) and w.object.model == "rod" then rods = rods + 1 end
+  end
+  return { rubs = facts.rubbing(context.scene, run.start), met = met, rods = rods }
 end
 
 function twist.free(_, rung, f)
+  if rung == 1 and f.rods == 0 then return "the wires are meshes, which roll by themselves" end
   if rung == 1 and #f.rubs == 0 and not f.met then
     return "no friction torque: nothing with friction touches a wire"
   end

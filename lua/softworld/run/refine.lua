@@ -120,12 +120,15 @@ function refine.look(job)
   job.restore()
 end
 
---- compute(k, name): the run of level k, of the scene as it has been restored and meshed. total: wall and
+--- job.shape(k), if there is one, makes other models of wires; it returns why it cannot, or nil.
+-- compute(k, name): the run of level k, of the scene as it has been restored and meshed. total: wall and
 -- cpu are summed up in it.
 function refine.computer(job, steps, run_once, total)
   local scene = job.scene
   return function(k, name)
     local options = steps(k)
+    local why = job.shape and job.shape(k)
+    if why then return { ok = false, unmade = true, reason = why, iterations = 0, wall = 0, cpu = 0 } end
     process.renew(scene, {}) -- settling is not for them
     if job.rests and not options.quasistatic then
       local settled = scene:settle()

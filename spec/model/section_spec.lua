@@ -1,0 +1,195 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- The choice of section: what its free checks stand on, and squeezed wires whose force is known.
+local sw = require "softworld"
+local flat = require "softworld.model.flat"
+
+local R, E = 0.01, 1e6
+
+-- Reference case 11b, plane strain, nu = 0.3: approach over diameter, force per length over E R.
+local SOLID = { { 0.01, 0.004979935294 }, { 0.05, 0.03443902533 }, { 0.1, 0.08402912013 } }
+local TUBE_1, TUBE_10 = 0.0004365450778, 0.004049114355 -- inner radius 0.7 R, at 1 % and 10 %
+local SOLID_STUCK_10 = 0.08485878573                    -- between plates that stick
+
+-- A round wire, or a tube of the same material told by its stiffness.
+local function section(inner)
+  if not inner then return { E = E, nu = 0.3, density = 1000, radius = R } end
+  local area, EI = math.pi * R ^ 2 * (1 - inner ^ 2), E * math.pi / 4 * R ^ 4 * (1 - inner ^ 4)
+  return { EA = E * area, EI = EI, GJ = EI / 1.3, mass_per_length = 1000 * area, radius = R }
+end
+
+local function wire_of(scene, args, more)
+  local all = { name = "w", from = { 0, 0, 0 }, to = { R, 0, 0 }, segments = 4 }
+  for key, value in pairs(args) do all[key] = value end
+  for key, value in pairs(more or {}) do all[key] = value end
+  return scene:wire(all)
+end
+
+local function body(args) return flat.body(wire_of(sw.scene {}, args)) end
+
+-- A piece of a long wire between long plates that come nearer by a share of its width.
+local function plates(args, share, more)
+  local scene = sw.scene { gravity = { 0, 0, 0 } }
+  local w = wire_of(scene, args, { model = "auto" })
+  scene:force { kind = "plane_strain", on = w, direction = { 1, 0, 0 } }
+  for k, name in ipairs { "low", "top" } do
+    local side = 2 * k - 3
+    scene:obstacle { name = name, shape = "box", size = { 10 * R, 10 * R, 2 * R }, friction = 0.3,
+      at = { R / 2, 0, 2 * side * R } }:follow { relative = true, duration = 0.4,
+      points = { { 0, 0, 0 }, { 0, 0, -side * share * R } } }
+  end
+  local all = { duration = 0.4, quasistatic = true, tolerance = { ["top.force"] = { relative = 0.1 } } }
+  for key, value in pairs(more or {}) do all[key] = value end
+  return scene, w, all
+end
+
+local function force_of(run) return run.quantities["top.force"].value[3] / (E * R * R) end
+
+-- A weight of wire on a table: pressed, but hardly.
+local function lying()
+  local scene = sw.scene {}
+  scene:obstacle { name = "table", shape = "plane", friction = 0 }
+  local w = scene:wire { name = "w", E = 5e6, density = 1500, radius = R, from = { 0, 0, R },
+    to = { 0.4, 0, R }, segments = 12, model = "auto" }
+  scene:clamp(w, { s = 0 })
+  return scene:run { duration = 0.1, quasistatic = true, tolerance = { tip = 0.001 } }, w
+end
+
+describe("flattening", function()
+  -- Johnson's line contact is for small strips; measured off by 0.1 to 0.5 % up to a tenth.
+  it("is that of a solid cylinder between plates", function()
+    local b = body(section())
+    assert.is_nil(b.inner)
+    for _, row in ipairs(SOLID) do
+      assert.is_near(row[1], flat.share(b, row[2] * E * R), 0.01 * row[1])
+    end
+  end)
+
+  -- Roark's ring counts shear and stretch of the wall; a thin ring alone is 20 % too stiff here.
+  it("is that of a thick ring, of a tube that EA and EI tell", function()
+    local b = body(section(0.7))
+    assert.is_near(0.7 * R, b.inner, 1e-6 * R)
+    assert.is_near(E, b.E, 1e-6 * E)
+    assert.is_near(0.3, b.nu, 1e-6)
+    assert.is_near(0.01, flat.share(b, TUBE_1 * E * R), 0.04 * 0.01)
+    -- (pi/4 - 2/pi) F R^3/EI of a wall so thin that it neither shears nor stretches
+    local thin = body(section(0.98))
+    local mean, EI = 0.99 * R, E * (0.02 * R) ^ 3 / 12 / (1 - 0.3 ^ 2)
+    assert.is_near(flat.thin * mean ^ 3 / EI, flat.ring(thin), 0.002 * flat.ring(thin))
+  end)
+
+  it("is not known where EA and EI are of no one material, and then E is the most there may be", function()
+    local b = body { EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.0018 }
+    assert.is_false(b.known)
+    assert.is_near(1e4 / (math.pi * 0.0018 ^ 2), b.E, 1)
+  end)
+
+  it("is of the line force that its stiffness tells", function()
+    local b = body(section())
+    local K = flat.stiffness(b, 0.05)
+    assert.is_near(0.05, flat.share(b, K * 0.05 * 2 * R), 1e-6)
+    assert.is_near(flat.stiffness(b, 0.1), flat.stiffness(b, 0.5), 1e-9 * K) -- no more than a tenth
+  end)
+end)
+
+describe("the choice of section", function()
+  it("stays round at no cost where next to nothing presses", function()
+    local run, w = lying()
+    assert.equal("round", run.model.section, tostring(run:why()))
+    assert.equal("rod", w.model)
+    for _, c in ipairs(run.model.choices) do
+      if c.name == "section" then assert.equal("free", c.by) end
+    end
+  end)
+
+  it("takes springs for a tube between plates, whose force is within the stated error", function()
+    local scene, w, args = plates(section(0.7), 0.1)
+    local run = scene:run(args)
+    assert.equal("springs", run.model.section, tostring(run:why()))
+    assert.equal("tube", w.model)
+    assert.is_true(run.met, tostring(run:why()))
+    assert.truthy(tostring(run:why()):find("is squeezed from both sides, as no line can be", 1, true))
+    local q = run.quantities["top.force"]
+    assert.is_true(q.model_error > 0)
+    assert.is_true(math.abs(force_of(run) - TUBE_10) <= q.error / (E * R * R),
+      ("%g, not %g"):format(force_of(run), TUBE_10))
+  end)
+
+  it("takes elements for a solid wire between plates, whose force is within the stated error", function()
+    local scene, w, args = plates(section(), 0.1)
+    local run = scene:run(args)
+    assert.equal("elements", run.model.section, tostring(run:why()))
+    assert.equal("radial", w.model)
+    assert.is_true(run.met, tostring(run:why()))
+    local q = run.quantities["top.force"]
+    assert.is_true(math.abs(force_of(run) - SOLID_STUCK_10) <= q.error / (E * R * R) + 0.01 * SOLID_STUCK_10,
+      ("%g, not %g"):format(force_of(run), SOLID_STUCK_10))
+  end)
+
+  -- Rods find no rest here, and what was stored before tells how they are pressed.
+  it("makes a mesh of a hose also where poses of lines fail", function()
+    local r, inner = 0.006, 0.75 * 0.006
+    local area, EI = math.pi * (r ^ 2 - inner ^ 2), 5e6 * math.pi / 4 * (r ^ 4 - inner ^ 4)
+    local scene = sw.scene {}
+    local w = scene:wire { name = "w", EA = 5e6 * area, EI = EI, GJ = EI / 1.4, mass_per_length = 1200 * area,
+      radius = r, from = { 0, 0, 0 }, to = { 0.16, 0, 0 }, segments = 24, model = "auto" }
+    scene:clamp(w, { s = 0 })
+    for k, name in ipairs { "low", "top" } do
+      local side = 2 * k - 3
+      scene:obstacle { name = name, shape = "box", size = { 0.02, 0.1, 0.02 }, friction = 0.3,
+        at = { 0.12, 0, side * (r + 0.0101) } }:follow { relative = true, duration = 1,
+        points = { { 0, 0, 0 }, { 0, 0, -side * (1e-4 + 0.1 * r) } } }
+    end
+    local run = scene:run { duration = 1, quasistatic = true,
+      tolerance = { ["top.force"] = { relative = 0.2 } } }
+    assert.equal("springs", run.model.section, tostring(run:why()))
+    assert.is_true(run.met, tostring(run:why()))
+    assert.equal("tube", w.model)
+  end)
+
+  it("gives the same bits twice, and chooses anew where it has left a mesh", function()
+    local values = {}
+    for k = 1, 2 do
+      local scene, _, args = plates(section(0.7), 0.05)
+      values[k] = force_of(scene:run(args))
+    end
+    assert.equal(values[1], values[2])
+    local scene, w, args = plates(section(0.7), 0.05)
+    local start = scene:snapshot()
+    scene:run(args)
+    assert.equal("tube", w.model)
+    scene:restore(start)
+    assert.equal("rod", w.model)
+    assert.equal(values[1], force_of(scene:run(args)))
+    for _, name in ipairs { "low", "top" } do scene:find(name):follow(nil) end
+    local again = scene:run { duration = 0.1, quasistatic = true, tolerance = { tip = 0.001 } }
+    assert.truthy(again.model)
+  end)
+
+  it("reads what only a section that changes has", function()
+    local scene, w, args = plates(section(0.7), 0.1)
+    args.tolerance = { { name = "height", relative = 0.1, unit = "m",
+      of = function() return w:width(R / 2, { 0, 0, 1 }) end } }
+    local run = scene:run(args)
+    assert.equal("springs", run.model.section, tostring(run:why()))
+    assert.is_near(0.9 * 2 * R, run.quantities.height.value, 0.02 * R)
+  end)
+
+  -- A ring of particles lies within 0.9 of the radius, so the tube's wall may not be thinner.
+  it("says so where the wire cannot be such a mesh", function()
+    local scene, w, args = plates(section(0.95), 0.1)
+    local run = scene:run(args)
+    assert.is_not_true(run.ok and run.met)
+    assert.equal("round", run.model.section)
+    assert.truthy(tostring(run.model):find("NOT known: whether this model suffices", 1, true))
+    assert.truthy(tostring(run.model):find("outside of radius", 1, true), tostring(run.model))
+    assert.equal("rod", w.model)
+  end)
+
+  -- Of a wire squeezed by E that nobody told, the force is anyone's guess.
+  it("is not met where the stiffness of the section is not known", function()
+    local scene, _, args = plates({ EA = 2e3, EI = 5e-4, GJ = 4e-4, mass_per_length = 0.3, radius = R }, 0.1)
+    local fine, run = pcall(scene.run, scene, args)
+    assert.is_true(fine, tostring(run))
+    assert.is_not_true(run.ok and run.met)
+  end)
+end)
