@@ -87,7 +87,6 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
 sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
-  if (!s->wire_count) return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
   sw_scene_reset_extremes(s);
   s->wears = wear;
   sw_events_clear(&s->events);

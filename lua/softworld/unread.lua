@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Runs and checks that failed, and whether anybody has looked: the host program tells of the others when the
+--- Runs that failed, and whether anybody has looked: the host program tells of the others when the
 -- script is over.
 -- @module softworld.unread
 local unread = {}
@@ -10,9 +10,9 @@ local more = 0 -- failures beyond those kept
 local bad = 0  -- runs that failed or were stopped, whether anybody looked or not
 local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
 
---- Remember what somebody is to look at; gives its mark.
-function unread.tell(text)
-  last = last + 1
+--- Remember a failure; gives its mark.
+function unread.add(text)
+  last, bad = last + 1, bad + 1
   local mark = { number = last }
   if kept < MOST then
     texts[last], kept = text, kept + 1
@@ -20,12 +20,6 @@ function unread.tell(text)
     more = more + 1
   end
   return mark
-end
-
---- Remember a run that failed; gives its mark.
-function unread.add(text)
-  bad = bad + 1
-  return unread.tell(text)
 end
 
 --- Somebody looked.

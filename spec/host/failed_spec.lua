@@ -70,33 +70,6 @@ describe("a run that failed", function()
   end)
 end)
 
-describe("a check that fails", function()
-  after_each(program.clean)
-
-  local failing_check = [[
-local sw = require "softworld"
-local scene = sw.scene{ name = "pull" }
-local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = {0, 0, 0}, to = {0.3, 0, 0} }
-scene:clamp(wire, { s = 0 })
-local check = scene:run{ duration = 0.1 }:check{ limits = { max_tension = 1e-3 } }
-]]
-
-  it("is told at the end of a script that did not look, which fails", function()
-    local _, err, code = script(failing_check)
-    assert.truthy(err:find("check of 'pull' at script.lua:5 FAILs (", 1, true), err)
-    assert.equal(1, code)
-  end)
-
-  for what, code in pairs{ verdict = "print(check.verdict)", row = "print(check:row 'max_tension'.value)",
-    print = "print(check)", trial = "print 'not counted'" } do
-    it("is not told when the script looked: " .. what, function()
-      local text = what == "trial" and failing_check:gsub("1e%-3 }", "1e-3 }, trial = true") or failing_check
-      local _, err, status = script(text .. code)
-      assert.same({ "", 0 }, { err, status })
-    end)
-  end
-end)
-
 -- Peaks begin anew with each run and settle; what a run tells stays.
 describe("a run before the last one", function()
   local function hanging()

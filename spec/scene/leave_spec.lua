@@ -326,6 +326,19 @@ describe("scene:remove", function()
     assert.are.near(1.1, hand:position()[3], 1e-9)
   end)
 
+  it("of the last wire between runs leaves a scene in which a process may make another", function()
+    for _, emptied in ipairs{ true, false } do
+      local scene, b = sw.scene(), nil
+      if emptied then scene:remove(rod(scene, "a", 0)) end
+      scene:process(function(p)
+        b = rod(scene, "b", 0)
+        p:wait(0.02)
+      end)
+      assert.is_true(scene:run{ dt = 0.005 }.ok)
+      assert.is_true(b:position(0)[3] < 0.1) -- it fell
+    end
+  end)
+
   it("of the last wire between runs leaves an empty scene, in which none begins", function()
     local scene = sw.scene()
     scene:remove(rod(scene, "a", 0))

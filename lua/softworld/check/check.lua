@@ -8,7 +8,6 @@ local core = require "softworld.core"
 local fixing = require "softworld.link.fixing"
 local judge = require "softworld.check.judge"
 local limits = require "softworld.check.limits"
-local place = require "softworld.place"
 local own = require "softworld.check.own"
 local registry = require "softworld.check.registry"
 local rows = require "softworld.rows"
@@ -324,11 +323,6 @@ function check.check(run, args)
   if args == nil then args = sealed.fields(run).checked end
   local self = build.call(3, make, run, args)
   if not self.trial then unread.judged(self.verdict) end
-  if self.verdict == "FAIL" and not self.trial then
-    local at = place.of_caller()
-    self.unseen = unread.tell(("softworld: check of '%s'%s FAILs (%s); the script did not look at it"):format(
-      self.name, at and " at " .. at or "", self.reason))
-  end
   self.run, self.scene, self.made, self.ok = nil, nil, nil, self.verdict == "PASS"
   self.source = run
   return writing.new(self)

@@ -10,7 +10,6 @@ local methods = require "softworld.methods"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
-local unread = require "softworld.unread"
 
 local writing = {}
 local Check = { __name = "check" }
@@ -37,11 +36,6 @@ local function line_of(row)
     cells.plain(table.concat(place, ", ")), note = row.note }
 end
 
--- Somebody looks at a check that fails.
-local function look(own)
-  if own.unseen then unread.seen(own.unseen) end
-end
-
 -- Does any row tell how far edges and steps let its value be off?
 local function has_bars(list)
   for _, row in ipairs(list) do
@@ -52,7 +46,6 @@ end
 
 function Check:__tostring()
   local own = sealed.fields(self)
-  look(own)
   local lines = { ("check of '%s', t = %s to %s: %s (%s)"):format(cells.plain(own.name),
     cells.number(own.start, "s"), cells.number(own.time, "s"), own.verdict, cells.plain(own.reason)) }
   local list = {}
@@ -162,7 +155,6 @@ methods.guard_table("check", Check)
 local readable = checks.set(table.concat(fields, " ") .. " use")
 
 function Check:__index(key)
-  look(sealed.fields(self))
   local value = readable[key] and rawget(sealed.fields(self), key)
   if value ~= nil and readable[key] then return value end
   if Check[key] ~= nil then return Check[key] end
