@@ -314,9 +314,8 @@ describe("the player", function()
         if (blob.type === "video/webm") { URL.createObjectURL = old; done(blob.size); }
         return old.call(URL, blob);
       };
-      player.state.set({ speed: 4 });]] .. export "WebM")
+      player.state.set({ speed: 1 });]] .. export "WebM") -- slow enough for pictures on a busy machine
     assert.is_true(size > 10000)
-    page:run "player.state.set({ speed: 1 })"
     assert_calm()
   end)
 
