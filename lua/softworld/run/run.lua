@@ -173,12 +173,12 @@ local function check_start(scene, args)
   if not args.duration and #data.processes == 0 and not data.going then
     error("scene:run: there is no process that could end; give duration [s]", 0)
   end
-  if #data.wires + #data.particles + #data.processes == 0 and not data.going then -- a process may make some
-    error(("scene '%s': there is no wire"):format(scene.name), 0)
-  end
   if args.save ~= nil and #data.processes == 0 and not data.going then
     error("scene:run: save: the scene is written after the steps of processes, and there is none; "
       .. "scene:save(file) writes it at once", 0)
+  end
+  if #data.wires + #data.particles + #data.processes == 0 and not data.going then -- a process may make some
+    error(("scene '%s': there is no wire"):format(scene.name), 0)
   end
 end
 
