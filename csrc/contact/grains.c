@@ -51,12 +51,7 @@ sw_status sw_grains_new(const sw_system *s, const sw_pair_rule *rules, sw_grains
 sw_status sw_grains_copy(const sw_grains *g, const sw_system *s, sw_grains **out) {
   SW_TRY(sw_grains_new(s, g->rules, out));
   if (!*out) return SW_OK; /* no rule is on */
-  const sw_status status =
-      sw_grains_set_memory(*out, g->memory, g->memory_count * sizeof *g->memory);
-  if (status == SW_OK) return SW_OK;
-  sw_grains_free(*out);
-  *out = NULL;
-  return status;
+  return sw_grains_set_memory(*out, g->memory, g->memory_count * sizeof *g->memory);
 }
 
 void sw_grains_free(sw_grains *g) {

@@ -27,12 +27,7 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) 
 
 sw_status sw_pairs_copy(const sw_pairs *p, sw_pairs **out) {
   SW_TRY(sw_pairs_new(p->rules, p->bodies, out));
-  const sw_status status =
-      sw_pairs_set_memory(*out, p->memory, p->memory_count * sizeof *p->memory);
-  if (status == SW_OK) return SW_OK;
-  sw_pairs_free(*out);
-  *out = NULL;
-  return status;
+  return sw_pairs_set_memory(*out, p->memory, p->memory_count * sizeof *p->memory);
 }
 
 void sw_pairs_free(sw_pairs *p) {

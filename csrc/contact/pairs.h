@@ -22,7 +22,8 @@ typedef struct sw_pair_rule {
 
 /* Contact of bodies (count) by rules (count x count, symmetric), copied. SW_ENOMEM. */
 sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out);
-/* Another one with the same rules and memory, to look ahead with. SW_ENOMEM. */
+/* Another one with the same rules and memory, to look ahead with; *out, NULL before, is the
+ * caller's to free also when this fails. SW_ENOMEM. */
 sw_status sw_pairs_copy(const sw_pairs *pairs, sw_pairs **out);
 void sw_pairs_free(sw_pairs *pairs); /* NULL is allowed */
 
