@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A body of the scene is a line of nodes along an arc or a web of particles, and all that building,
  * holding and taking it back do otherwise for one than for the other is a member of this class.
- * Of this room only. */
+ * Of the scene's inside. */
 #ifndef SW_BODY_BODY_H
 #define SW_BODY_BODY_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The unloaded shape of wire that is fed: a mesh with frames as it was when a feed took hold of
- * it, and the wire on the spool before it. For this room only. */
+ * it, and the wire on the spool before it. Of this room, and of guides (body/guide.h). */
 #ifndef SW_LINK_SPOOL_H
 #define SW_LINK_SPOOL_H
 

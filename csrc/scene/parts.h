@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene has inside, one by one, for those that need not know it all (world.h). Of this room
- * and of steps. */
+/* What a scene has inside, one by one, for those that need not know it all (world.h). Of the
+ * scene's inside. */
 #ifndef SW_SCENE_PARTS_H
 #define SW_SCENE_PARTS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How a strand is made; of the files strand*.c only. */
+/* How a strand is made. Of this room only. */
 #ifndef SW_STRAND_MAKER_H
 #define SW_STRAND_MAKER_H
 
