@@ -16,7 +16,6 @@
 #include "edit/links.h"
 #include "link/joint.h"
 #include "scene/drive.h"
-#include "scene/gripper.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/values.h"
@@ -259,14 +258,7 @@ sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int re
 sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
   sw_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
-  SW_TRY(sw_scene_editable(s, err));
-  if (h->drive.tool)
-    return sw_fail(err, SW_EINVAL, "'%s' goes with gripper '%s'; move that", h->name,
-                   s->tools[h->drive.tool - 1].name);
-  sw_drive_free(&h->drive);
-  h->drive = (sw_drive){.pose = pose};
-  sw_course_jump(&s->course);
-  return SW_OK;
+  return sw_drive_put(s, &h->drive, h->name, pose, err);
 }
 
 sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error *err) {

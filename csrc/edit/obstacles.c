@@ -9,7 +9,6 @@
 #include "edit/edit.h"
 #include "edit/links.h"
 #include "scene/drive.h"
-#include "scene/gripper.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
@@ -93,13 +92,7 @@ sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **ou
 sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose, sw_error *err) {
   sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
-  SW_TRY(sw_scene_editable(s, err));
-  if (o->drive.tool)
-    return sw_fail(err, SW_EINVAL, "obstacle '%s' goes with gripper '%s'; move that", o->name,
-                   s->tools[o->drive.tool - 1].name);
-  sw_drive_free(&o->drive);
-  o->drive.pose = pose;
-  sw_course_jump(&s->course);
+  SW_TRY(sw_drive_put(s, &o->drive, o->name, pose, err));
   if (s->contact) sw_contact_ask_again(s->contact);
   return SW_OK;
 }

@@ -136,13 +136,9 @@ sw_status sw_scene_tool_pose(sw_scene *s, sw_handle tool, sw_pose *out, sw_error
 }
 
 sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
   sw_tool *t = sw_scene_find_tool(s, tool, err);
   if (!t) return SW_EDEAD;
-  sw_drive_free(&t->drive);
-  t->drive = (sw_drive){.pose = pose};
-  sw_course_jump(&s->course);
-  return SW_OK;
+  return sw_drive_put(s, &t->drive, t->name, pose, err);
 }
 
 sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *args, sw_error *err) {

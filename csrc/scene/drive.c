@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What moves a hold or an obstacle. */
+/* What moves a hold, an obstacle or a gripper. */
 #include "scene/drive.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
 
@@ -47,6 +48,12 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
   return status;
 }
 
+static sw_status check_free(sw_scene *s, const sw_drive *d, const char *object, sw_error *err) {
+  if (!d->tool) return SW_OK;
+  return sw_fail(err, SW_EINVAL, "'%s' goes with gripper '%s'; move that", object,
+                 sw_scene_tool_in(s, d->tool - 1)->name);
+}
+
 static const double LARGEST_JUMP = 1e-6; /* of position, taken as rounding [m] */
 static const double LARGEST_TURN = 1e-6; /* of orientation, taken as rounding [rad] */
 
@@ -54,9 +61,7 @@ sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motio
                           int relative, sw_error *err) {
   const double now = sw_scene_time(s);
   sw_motion_state here, first;
-  if (d->tool)
-    return sw_fail(err, SW_EINVAL, "%s goes with gripper '%s'; move that", object,
-                   sw_scene_tool_in(s, d->tool - 1)->name);
+  SW_TRY(check_free(s, d, object, err));
   SW_TRY(sw_drive_eval(s, d, now, &here, err));
   sw_drive next = {.pose = here.pose, .start = now};
   if (motion && (relative || sw_motion_is_relative(motion))) {
@@ -78,6 +83,15 @@ sw_status sw_drive_follow(sw_scene *s, sw_drive *d, const char *object, sw_motio
   }
   sw_drive_free(d);
   *d = next;
+  return SW_OK;
+}
+
+sw_status sw_drive_put(sw_scene *s, sw_drive *d, const char *object, sw_pose pose, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(check_free(s, d, object, err));
+  sw_drive_free(d);
+  *d = (sw_drive){.pose = pose};
+  sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 

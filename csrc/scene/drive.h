@@ -14,6 +14,9 @@ sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_mot
 /* Follow the motion from the scene's time on. */
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);
+/* Stand at the pose from now on; both say so where it goes with a gripper. */
+sw_status sw_drive_put(sw_scene *scene, sw_drive *drive, const char *object, sw_pose pose,
+                       sw_error *err);
 void sw_drive_free(sw_drive *drive);
 void sw_tape_drive(sw_tape *tape, sw_scene *scene, sw_drive *drive);
 
