@@ -43,10 +43,8 @@ static void set_links(lua_State *L, const sw_lattice *l) {
     lsw_set_integer(L, "to", link->to + 1);
     lsw_set_integer(L, "slices", (size_t)link->slices);
     lsw_set_number(L, "weight", link->weight);
-    lua_pushboolean(L, link->bend);
-    lua_setfield(L, -2, "bend");
-    lua_pushstring(L, sw_group_names[link->group]);
-    lua_setfield(L, -2, "group");
+    lsw_set_flag(L, "bend", link->bend);
+    lsw_set_text(L, "group", sw_group_names[link->group]);
     lua_rawseti(L, -2, (lua_Integer)m + 1);
   }
   lua_setfield(L, -2, "links");
@@ -90,12 +88,9 @@ static void add_slides(lua_State *L, const sw_calibration *c) {
     lsw_set_integer(L, "to", slide->to + 1);
     lsw_set_integer(L, "slices", 0);
     lsw_set_number(L, "weight", 0);
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "bend");
-    lua_pushboolean(L, 1);
-    lua_setfield(L, -2, "slide");
-    lua_pushstring(L, sw_group_names[SW_GROUP_BOND]);
-    lua_setfield(L, -2, "group");
+    lsw_set_flag(L, "bend", 0);
+    lsw_set_flag(L, "slide", 1);
+    lsw_set_text(L, "group", sw_group_names[SW_GROUP_BOND]);
     lsw_set_number(L, "gap", slide->gap);
     lsw_set_vector(L, "direction", sw_unit_or(away, sw_v(0, 0, 0)));
     lua_rawseti(L, -2, (lua_Integer)c->lattice.links + (lua_Integer)m + 1);
@@ -121,12 +116,7 @@ static void set_composite(lua_State *L, const sw_calibration *c) {
   lsw_set_number(L, "bore", place->bore);
   lsw_set_number(L, "core_radius", place->core_radius);
   lsw_set_number(L, "ring_radius", place->ring_radius);
-  lua_createtable(L, (int)place->cores, 0);
-  for (size_t i = 0; i < place->cores; i++) {
-    lsw_push_vector(L, place->centre[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  lua_setfield(L, -2, "centres");
+  lsw_set_points(L, "centres", &place->centre->x, place->cores);
   lua_createtable(L, (int)c->lattice.particles, 0);
   for (size_t i = 0; i < c->lattice.particles; i++) {
     lua_pushinteger(L, (lua_Integer)sw_composite_part(place, i));
@@ -142,14 +132,8 @@ static size_t count_of(const sw_calibration *c, int g) {
 
 static void set_particles(lua_State *L, const sw_calibration *c) {
   const double mass = c->mass_per_length * c->lattice.spacing;
-  lua_createtable(L, (int)c->lattice.particles, 0);
-  for (size_t i = 0; i < c->lattice.particles; i++) {
-    lsw_push_vector(L, sw_vec_at(c->lattice.at, i));
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  lua_setfield(L, -2, "particles");
-  lsw_push_flat(L, c->lattice.share, c->lattice.particles);
-  lua_setfield(L, -2, "shares");
+  lsw_set_points(L, "particles", c->lattice.at, c->lattice.particles);
+  lsw_set_flat(L, "shares", c->lattice.share, c->lattice.particles);
   if (isnan(mass)) return;
   lua_createtable(L, (int)c->lattice.particles, 0);
   for (size_t i = 0; i < c->lattice.particles; i++) {

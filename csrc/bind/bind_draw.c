@@ -295,8 +295,7 @@ static void set_class(lua_State *L, const char *name, const luaL_Reg *methods, l
     lua_newtable(L);
     luaL_setfuncs(L, methods, 0);
     lua_setfield(L, -2, "__index");
-    lua_pushliteral(L, "a part of the library");
-    lua_setfield(L, -2, "__metatable");
+    lsw_set_text(L, "__metatable", "a part of the library");
   }
   lua_setmetatable(L, -2);
 }

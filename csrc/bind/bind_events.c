@@ -22,13 +22,9 @@ static const sw_param tell_rows[] = {
 };
 static const sw_params tell_params = SW_PARAMS("scene:tell", tell_rows);
 
-static sw_scene *check(lua_State *L) {
-  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-}
-
 /* scene:tell{ kind =, object =, s =, value =, text = } */
 int lsw_scene_tell(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   tell_args args;
   sw_error err = {""};
   lsw_arguments(L, 2, "scene:tell", &tell_params, &args);
@@ -43,12 +39,9 @@ int lsw_scene_tell(lua_State *L) {
 
 static void push_event(lua_State *L, const sw_event *e) {
   lua_createtable(L, 0, 9);
-  lua_pushstring(L, e->kind);
-  lua_setfield(L, -2, "kind");
-  lua_pushstring(L, e->object);
-  lua_setfield(L, -2, "object");
-  lua_pushstring(L, e->text);
-  lua_setfield(L, -2, "text");
+  lsw_set_text(L, "kind", e->kind);
+  lsw_set_text(L, "object", e->object);
+  lsw_set_text(L, "text", e->text);
   lsw_set_number(L, "time", e->time);
   lsw_set_number(L, "first", e->first);
   lsw_set_number(L, "last", e->last);
@@ -59,7 +52,7 @@ static void push_event(lua_State *L, const sw_event *e) {
 
 /* scene:events() -> list, number of events for which there was no room */
 int lsw_scene_events(lua_State *L) {
-  const sw_scene *scene = check(L);
+  const sw_scene *scene = lsw_check_scene(L);
   const sw_event *e;
   lua_newtable(L);
   for (size_t k = 0; (e = sw_scene_event(scene, k)) != NULL; k++) {

@@ -33,8 +33,9 @@ static void *keeper(lua_State *L, size_t size, const char *name, lua_CFunction e
 
 /* core.film(scene, from, to, values) -> bytes, frames, those left out as broken */
 static int mod_film(lua_State *L) {
-  const sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-  const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4), 0};
+  const sw_scene *scene = lsw_check_scene(L);
+  const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4),
+                             0};
   sw_error err = {""};
   sw_film *film = keeper(L, sizeof *film, "softworld.film", free_film);
   lsw_must(L, sw_film_make(scene, &args, sw_interrupted, film, &err), &err);
@@ -75,8 +76,7 @@ static void push_skin(lua_State *L, const sw_skin *skin, size_t frames) {
   lua_setfield(L, -2, "triangles");
   lsw_set_integer(L, "corners", skin->corners);
   lsw_set_integer(L, "count", skin->triangles);
-  lua_pushboolean(L, skin->normals);
-  lua_setfield(L, -2, "normals");
+  lsw_set_flag(L, "normals", skin->normals);
   lua_createtable(L, 6 * (int)frames, 0);
   for (size_t i = 0; i < 6 * frames; i++) {
     lua_pushnumber(L, (double)skin->bounds[i]);
@@ -89,7 +89,7 @@ static void push_skin(lua_State *L, const sw_skin *skin, size_t frames) {
  * corners =, count =, normals =, bounds = }: see film/skin.h, bytes little-endian; or nil: it is in
  * no frame */
 static int mod_skin(lua_State *L) {
-  const sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+  const sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   sw_skin_args args = {.wire = (size_t)luaL_checkinteger(L, 2),
                        .sides = (size_t)luaL_checkinteger(L, 4),

@@ -32,18 +32,10 @@ static void read_list(lua_State *L, double *out, size_t count) {
   }
 }
 
-static void push_list(lua_State *L, const double *x, size_t n) {
-  lua_createtable(L, (int)n, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_pushnumber(L, x[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-}
-
 static int call_function(lua_State *L) {
   caller *c = lua_touserdata(L, 2);
   lua_pushvalue(L, 1);
-  push_list(L, c->x, c->n);
+  lsw_push_flat(L, c->x, c->n);
   lua_pushboolean(L, c->derivatives);
   lua_call(L, 2, 1);
   read_list(L, c->out, c->derivatives ? c->rows * c->n : c->rows);
@@ -90,7 +82,7 @@ static int mod_least_squares(lua_State *L) {
            sw_fit(residuals, &c, c.n, c.rows, x, tolerance, (size_t)(most > 0 ? most : 1), &end,
                   &iterations, &err),
            &err);
-  push_list(L, x, (size_t)n);
+  lsw_push_flat(L, x, (size_t)n);
   lua_pushstring(L, ends[end]);
   lua_pushinteger(L, (lua_Integer)iterations);
   return 3;
@@ -110,8 +102,8 @@ static int mod_singular(lua_State *L) {
   lua_pushvalue(L, 1);
   read_list(L, a, size);
   lsw_must(L, sw_singular(a, (size_t)rows, (size_t)n, s, v, &err), &err);
-  push_list(L, s, (size_t)n);
-  push_list(L, v, square);
+  lsw_push_flat(L, s, (size_t)n);
+  lsw_push_flat(L, v, square);
   return 2;
 }
 

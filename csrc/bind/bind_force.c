@@ -281,8 +281,7 @@ static int meth_get(lua_State *L) {
   lsw_must(L, sw_scene_force_args(scene, f->id, args, &err), &err);
   const sw_force_class *cls = sw_scene_force_class(scene, f->id);
   lsw_push_values(L, &cls->params, args);
-  lua_pushstring(L, cls->name);
-  lua_setfield(L, -2, "kind");
+  lsw_set_text(L, "kind", cls->name);
   return 1;
 }
 

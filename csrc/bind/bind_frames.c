@@ -8,10 +8,6 @@
 static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvature", "contact",
                                                          "twist_moment", "stress",    NULL};
 
-static sw_scene *check(lua_State *L) {
-  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-}
-
 static sw_vec vec_of(const float *p) { return sw_v((double)p[0], (double)p[1], (double)p[2]); }
 
 static void push_floats(lua_State *L, const float *x, size_t count, size_t stride) {
@@ -92,7 +88,7 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
 /* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
  * tools, energy }, or nil past the end. */
 int lsw_scene_frame(lua_State *L) {
-  const sw_scene *scene = check(L);
+  const sw_scene *scene = lsw_check_scene(L);
   const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
   const float *p;
   int held;
@@ -120,8 +116,7 @@ int lsw_scene_frame(lua_State *L) {
   lua_newtable(L);
   for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
     push_pose(L, p);
-    lua_pushboolean(L, held);
-    lua_setfield(L, -2, "held");
+    lsw_set_flag(L, "held", held);
     lua_rawseti(L, -2, (lua_Integer)h + 1);
   }
   lua_setfield(L, -2, "holds");
@@ -141,24 +136,24 @@ int lsw_scene_frame(lua_State *L) {
 }
 
 int lsw_scene_frame_count(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)sw_scene_frames(check(L)));
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames(lsw_check_scene(L)));
   return 1;
 }
 
 int lsw_scene_clear_frames(lua_State *L) {
   sw_error err = {""};
-  lsw_must(L, sw_scene_clear_frames(check(L), &err), &err);
+  lsw_must(L, sw_scene_clear_frames(lsw_check_scene(L), &err), &err);
   return 0;
 }
 
 static int last_frame(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)sw_scene_frames(check(L)));
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames(lsw_check_scene(L)));
   return lsw_scene_frame(L);
 }
 
 /* core.frame_now(scene) -> as scene:frame, of the scene as it is */
 static int mod_frame_now(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   lua_settop(L, 1);
   lsw_must(L, sw_scene_readable(scene, &err), &err);
@@ -178,19 +173,19 @@ static int mod_keep_frames(lua_State *L) {
   sw_error err = {""};
   const double memory =
       lua_isnoneornil(L, 2) ? SW_FRAME_MEMORY : lsw_number(L, 2, "keep_frames: memory", "B");
-  lsw_must(L, sw_scene_keep_frames(check(L), memory, &err), &err);
+  lsw_must(L, sw_scene_keep_frames(lsw_check_scene(L), memory, &err), &err);
   return 0;
 }
 
 /* core.frames_thinned(scene) -> one of how many is still there */
 static int mod_frames_thinned(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)sw_scene_frames_thinned(check(L)));
+  lua_pushinteger(L, (lua_Integer)sw_scene_frames_thinned(lsw_check_scene(L)));
   return 1;
 }
 
 /* core.frame_times(scene) -> of all frames [s] */
 static int mod_frame_times(lua_State *L) {
-  const sw_scene *scene = check(L);
+  const sw_scene *scene = lsw_check_scene(L);
   const size_t count = sw_scene_frames(scene);
   lua_createtable(L, (int)count, 0);
   for (size_t f = 0; f < count; f++) {
@@ -202,7 +197,7 @@ static int mod_frame_times(lua_State *L) {
 
 /* core.frame_range(scene, quantity) -> least and largest value in all frames; nothing: none */
 static int mod_frame_range(lua_State *L) {
-  const sw_scene *scene = check(L);
+  const sw_scene *scene = lsw_check_scene(L);
   const int channel = luaL_checkoption(L, 2, NULL, channels);
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t f = 0; f < sw_scene_frames(scene); f++)
@@ -222,7 +217,7 @@ static int mod_frame_range(lua_State *L) {
 /* core.frame_squeeze(scene, i, w) -> of each node of wire w in frame i: sizes of what presses on
  * it, less the size of their sum [N]: none where it is pressed from one side. */
 static int mod_frame_squeeze(lua_State *L) {
-  const sw_scene *scene = check(L);
+  const sw_scene *scene = lsw_check_scene(L);
   const lua_Integer i = lsw_integer(L, 2, "frame_squeeze: frame");
   const lua_Integer w = lsw_integer(L, 3, "frame_squeeze: wire");
   size_t count = 0;

@@ -104,8 +104,7 @@ static int meth_crash(lua_State *L) {
   lua_createtable(L, 0, 3);
   lsw_set_number(L, "time", time);
   lsw_set_number(L, "depth", depth);
-  lua_pushstring(L, obstacle);
-  lua_setfield(L, -2, "obstacle");
+  lsw_set_text(L, "obstacle", obstacle);
   return 1;
 }
 

@@ -3,10 +3,6 @@
 #include "bind/child.h"
 #include "bind/module.h"
 
-static sw_scene *check(lua_State *L) {
-  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-}
-
 static void set_retries(lua_State *L, const char *name, const sw_retries *r) {
   lua_createtable(L, 0, 5);
   lsw_set_integer(L, "count", r->count);
@@ -14,8 +10,7 @@ static void set_retries(lua_State *L, const char *name, const sw_retries *r) {
     lsw_set_number(L, "largest", r->largest);
     lsw_set_number(L, "time", r->time);
     lsw_set_number(L, "s", r->s);
-    lua_pushstring(L, r->object);
-    lua_setfield(L, -2, "object");
+    lsw_set_text(L, "object", r->object);
   }
   lua_setfield(L, -2, name);
 }
@@ -46,7 +41,7 @@ static void set_losses(lua_State *L, const sw_ledger *l) {
 static int mod_ledger(lua_State *L) {
   sw_ledger l;
   sw_error err = {""};
-  lsw_must(L, sw_scene_ledger(check(L), &l, &err), &err);
+  lsw_must(L, sw_scene_ledger(lsw_check_scene(L), &l, &err), &err);
   lua_createtable(L, 0, 14);
   lsw_set_number(L, "kinetic", l.kinetic);
   lsw_set_number(L, "stored", l.stored);
@@ -69,7 +64,7 @@ static int mod_ledger(lua_State *L) {
  * far, and their number */
 static int mod_energy_log(lua_State *L) {
   size_t rows;
-  const double *log = sw_scene_energy_log(check(L), &rows);
+  const double *log = sw_scene_energy_log(lsw_check_scene(L), &rows);
   lsw_push_flat(L, log, rows * SW_LOG_ENERGY_SIZE);
   lua_pushinteger(L, (lua_Integer)rows);
   return 2;
@@ -78,7 +73,7 @@ static int mod_energy_log(lua_State *L) {
 /* core.end_run(scene) -> ok, reason */
 static int mod_end_run(lua_State *L) {
   sw_error why = {""};
-  const sw_status status = sw_scene_end_run(check(L), &why);
+  const sw_status status = sw_scene_end_run(lsw_check_scene(L), &why);
   lua_pushboolean(L, status == SW_OK);
   lua_pushstring(L, why.text);
   return 2;

@@ -20,8 +20,7 @@ static void push_note(lua_State *L, const sw_modes_result *r) {
            "is listed swings beside that",
            r->unstable, r->unstable == 1 ? "" : "s", 1.0 / r->growth);
   lsw_set_number(L, "growth", r->growth);
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, "note");
+  lsw_set_text(L, "note", text);
 }
 
 /* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =, note =,
@@ -45,11 +44,7 @@ int lsw_wire_frequencies(lua_State *L) {
   const sw_status status = sw_scene_wire_modes(scene, id, &args, sw_interrupted, &r, &err);
   lsw_end_forces(outer);
   lsw_must(L, status, &err);
-  lua_createtable(L, (int)r.count, 3);
-  for (size_t i = 0; i < r.count; i++) {
-    lua_pushnumber(L, r.frequencies[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
+  lsw_push_flat(L, r.frequencies, r.count);
   lsw_set_integer(L, "unstable", r.unstable);
   if (r.unstable) push_note(L, &r);
   if (args.shapes) push_shapes(L, &r, n);

@@ -116,16 +116,9 @@ static int meth_energy(lua_State *L) {
   const lsw_child *p;
   sw_error err = {""};
   sw_energy e;
-  double total = 0;
   info_of(L, &scene, &p);
   lsw_must(L, sw_scene_body_energy(scene, p->id, &e, &err), &err);
-  lua_createtable(L, 0, (int)e.count + 1);
-  for (size_t i = 0; i < e.count; i++) {
-    lsw_set_number(L, e.kind[i], e.value[i]);
-    total += e.value[i];
-  }
-  lsw_set_number(L, "total", total);
-  if (e.has_dissipated) lsw_set_number(L, "dissipated", e.dissipated); /* not in total */
+  lsw_push_energy(L, &e);
   return 1;
 }
 

@@ -44,11 +44,9 @@ static void push_result(lua_State *L, const sw_probe *at, const sw_probe_result 
   lua_createtable(L, 0, 4);
   lsw_set_integer(L, "count", r->terms);
   lsw_set_number(L, "energy", r->energy);
-  lsw_push_flat(L, r->force, n);
-  lua_setfield(L, -2, "force");
+  lsw_set_flat(L, "force", r->force, n);
   if (!at->direction) return;
-  lsw_push_flat(L, r->product, n);
-  lua_setfield(L, -2, "product");
+  lsw_set_flat(L, "product", r->product, n);
 }
 
 /* scene:evaluate(wire, {...}) -> { kind = { count, energy [J], force [N],

@@ -6,16 +6,6 @@
 
 /* Each pushes one entry and leaves it on the stack. */
 
-static void set_text(lua_State *L, const char *name, const char *text) {
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, name);
-}
-
-static void set_flag(lua_State *L, const char *name, int flag) {
-  lua_pushboolean(L, flag);
-  lua_setfield(L, -2, name);
-}
-
 static void set_params(lua_State *L, const sw_params *params) {
   lsw_push_params(L, params);
   lua_setfield(L, -2, "params");
@@ -23,8 +13,8 @@ static void set_params(lua_State *L, const sw_params *params) {
 
 static void push_entry(lua_State *L, const char *name, const char *summary) {
   lua_createtable(L, 0, 8);
-  set_text(L, "name", name);
-  set_text(L, "summary", summary);
+  lsw_set_text(L, "name", name);
+  lsw_set_text(L, "summary", summary);
 }
 
 static void integrators(lua_State *L) {
@@ -32,9 +22,9 @@ static void integrators(lua_State *L) {
     const sw_integrator *m = sw_integrator_all()[i];
     push_entry(L, m->name, m->summary);
     lsw_set_integer(L, "order", (size_t)m->order);
-    set_flag(L, "implicit", (m->flags & SW_INTEGRATOR_IMPLICIT) != 0);
-    set_flag(L, "adaptive", (m->flags & SW_INTEGRATOR_EMBEDDED) != 0);
-    set_flag(L, "no_contact", (m->flags & SW_INTEGRATOR_NO_CONTACT) != 0);
+    lsw_set_flag(L, "implicit", (m->flags & SW_INTEGRATOR_IMPLICIT) != 0);
+    lsw_set_flag(L, "adaptive", (m->flags & SW_INTEGRATOR_EMBEDDED) != 0);
+    lsw_set_flag(L, "no_contact", (m->flags & SW_INTEGRATOR_NO_CONTACT) != 0);
     lsw_set_number(L, "leapfrog_limit", m->leapfrog_limit);
     lsw_set_number(L, "at_infinity", m->at_infinity);
     lua_rawseti(L, -2, i + 1);
@@ -53,8 +43,8 @@ static void forces(lua_State *L) {
     const sw_force_class *f = sw_force_all()[i];
     push_entry(L, f->name, f->summary);
     for (size_t k = 0; k < sizeof flags / sizeof flags[0]; k++)
-      set_flag(L, flags[k].name, (f->flags & flags[k].bit) != 0);
-    set_flag(L, "history", f->state_size != NULL);
+      lsw_set_flag(L, flags[k].name, (f->flags & flags[k].bit) != 0);
+    lsw_set_flag(L, "history", f->state_size != NULL);
     set_params(L, &f->params);
     lua_rawseti(L, -2, i + 1);
   }
@@ -63,8 +53,7 @@ static void forces(lua_State *L) {
 static void models(lua_State *L) {
   for (int i = 0; sw_wire_all()[i]; i++) {
     push_entry(L, sw_wire_all()[i]->name, sw_wire_all()[i]->summary);
-    lua_pushboolean(L, sw_wire_all()[i]->mesh != NULL);
-    lua_setfield(L, -2, "mesh");
+    lsw_set_flag(L, "mesh", sw_wire_all()[i]->mesh != NULL);
     lua_rawseti(L, -2, i + 1);
   }
 }
@@ -82,8 +71,8 @@ static void set_wrong(lua_State *L, const sw_shape_wrong *wrong) {
   lua_newtable(L);
   for (int i = 0; wrong[i].args; i++) {
     lua_createtable(L, 0, 2);
-    set_text(L, "args", wrong[i].args);
-    set_text(L, "message", wrong[i].message);
+    lsw_set_text(L, "args", wrong[i].args);
+    lsw_set_text(L, "message", wrong[i].message);
     lua_rawseti(L, -2, i + 1);
   }
   lua_setfield(L, -2, "wrong");
@@ -94,12 +83,12 @@ static void shapes(lua_State *L) {
     const sw_shape_class *c = sw_shape_class_find(sw_shape_kinds()[i]);
     const unsigned traits = sw_shape_class_traits(c);
     push_entry(L, sw_shape_kinds()[i], sw_shape_class_summary(c));
-    set_text(L, "sample", sw_shape_class_sample(c));
+    lsw_set_text(L, "sample", sw_shape_class_sample(c));
     set_wrong(L, sw_shape_class_wrong(c));
-    set_flag(L, "flat", (traits & SW_SHAPE_FLAT) != 0);
-    set_flag(L, "faced", (traits & SW_SHAPE_FACED) != 0);
-    set_flag(L, "listed", (traits & SW_SHAPE_LISTED) != 0);
-    set_flag(L, "convex", sw_shape_class_convex(c));
+    lsw_set_flag(L, "flat", (traits & SW_SHAPE_FLAT) != 0);
+    lsw_set_flag(L, "faced", (traits & SW_SHAPE_FACED) != 0);
+    lsw_set_flag(L, "listed", (traits & SW_SHAPE_LISTED) != 0);
+    lsw_set_flag(L, "convex", sw_shape_class_convex(c));
     set_params(L, sw_shape_class_params(c));
     lua_rawseti(L, -2, i + 1);
   }
@@ -109,8 +98,8 @@ static void readouts(lua_State *L) {
   for (int i = 0; sw_readout_all()[i]; i++) {
     const sw_readout *r = sw_readout_all()[i];
     push_entry(L, r->name, r->summary);
-    set_text(L, "unit", r->unit);
-    set_flag(L, "at_place", r->at_place);
+    lsw_set_text(L, "unit", r->unit);
+    lsw_set_flag(L, "at_place", r->at_place);
     lua_rawseti(L, -2, i + 1);
   }
 }

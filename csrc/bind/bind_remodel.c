@@ -4,13 +4,6 @@
 
 #include "bind/child.h"
 
-static void push_momentum(lua_State *L, const char *name, const double p[6]) {
-  lua_createtable(L, 0, 2);
-  lsw_set_vector(L, "linear", sw_load(p));
-  lsw_set_vector(L, "angular", sw_load(p + 3));
-  lua_setfield(L, -2, name);
-}
-
 /* The table of arguments without those that the wire keeps; `model` is required. */
 static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *mesh,
                           double region[2]) {
@@ -60,7 +53,7 @@ int lsw_wire_remodel(lua_State *L) {
   lsw_set_number(L, "energy_after", r.energy_after);
   lsw_set_number(L, "energy_change", r.energy_after - r.energy_before);
   lsw_set_vector(L, "about", r.about);
-  push_momentum(L, "before", r.before);
-  push_momentum(L, "after", r.after);
+  lsw_set_momentum(L, "before", r.before);
+  lsw_set_momentum(L, "after", r.after);
   return 1;
 }

@@ -19,10 +19,6 @@ static int push_block(lua_State *L) {
   return 1;
 }
 
-static sw_scene *check_scene(lua_State *L) {
-  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-}
-
 static int give_block(lua_State *L, block *b) {
   lua_pushcfunction(L, push_block); /* protected: the block must be freed whatever happens */
   lua_pushlightuserdata(L, b);
@@ -33,7 +29,7 @@ static int give_block(lua_State *L, block *b) {
 
 /* core.save(scene, note) -> string */
 static int mod_save(lua_State *L) {
-  sw_scene *scene = check_scene(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   block b = {NULL, 0};
   size_t note_size;
@@ -46,7 +42,7 @@ static int mod_save(lua_State *L) {
 static int mod_fields(lua_State *L) {
   sw_error err = {""};
   block b = {NULL, 0};
-  lsw_must(L, sw_scene_fields(check_scene(L), &b.bytes, &b.size), &err);
+  lsw_must(L, sw_scene_fields(lsw_check_scene(L), &b.bytes, &b.size), &err);
   return give_block(L, &b);
 }
 
@@ -76,7 +72,7 @@ static int mod_load(lua_State *L) {
 
 /* core.resume(scene, string) */
 static int mod_resume(lua_State *L) {
-  sw_scene *scene = check_scene(L);
+  sw_scene *scene = lsw_check_scene(L);
   size_t size;
   sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 2, &size);
@@ -88,7 +84,7 @@ static int mod_resume(lua_State *L) {
 
 /* core.items(scene) -> { "wire 'a'", sum, "box 'b'", sum, ... } */
 static int mod_items(lua_State *L) {
-  sw_scene *scene = check_scene(L);
+  sw_scene *scene = lsw_check_scene(L);
   lua_newtable(L);
   for (size_t k = 0; k < sw_scene_items(scene); k++) {
     const sw_scene_item item = sw_scene_item_at(scene, k);

@@ -33,10 +33,6 @@ static void close_scene(lsw_handle *h) { sw_scene_free(h->object); }
 
 static int scene_busy(const lsw_handle *h) { return sw_scene_busy(h->object); }
 
-static sw_scene *check(lua_State *L) {
-  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-}
-
 /* Any object -> the table in which the Lua side keeps what belongs to it. */
 static int mod_data(lua_State *L) {
   luaL_checktype(L, 1, LUA_TUSERDATA);
@@ -58,7 +54,7 @@ static int mod_type(lua_State *L) {
 
 /* core.busy(scene): is it inside a step or a function of time? */
 static int mod_busy(lua_State *L) {
-  lua_pushboolean(L, sw_scene_busy(check(L)));
+  lua_pushboolean(L, sw_scene_busy(lsw_check_scene(L)));
   return 1;
 }
 
@@ -140,7 +136,7 @@ static int mod_check_settle(lua_State *L) {
 /* core.begin_run(scene[, wear]): extremes start anew; is the wear of wires to be kept? */
 static int mod_begin_run(lua_State *L) {
   sw_error err = {""};
-  lsw_must(L, sw_scene_begin_run(check(L), lua_toboolean(L, 2), &err), &err);
+  lsw_must(L, sw_scene_begin_run(lsw_check_scene(L), lua_toboolean(L, 2), &err), &err);
   return 0;
 }
 
@@ -150,14 +146,14 @@ static int mod_window(lua_State *L) {
   if (lsw_test(L, 1, &lsw_class_obstacle))
     lsw_check_child(L, 1, &lsw_class_obstacle, &scene);
   else
-    scene = check(L);
+    scene = lsw_check_scene(L);
   lua_pushnumber(L, sw_scene_window(scene));
   return 1;
 }
 
 /* core.remesh(scene, { segments of each wire }) */
 static int mod_remesh(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   luaL_checktype(L, 2, LUA_TTABLE);
   const size_t count = lua_rawlen(L, 2);
@@ -229,7 +225,7 @@ static sw_status look(sw_observer *o, sw_error *err) {
  * look() is called at the first step's end from time at on, or once core.clock() has come to wall;
  * returns stop, and the next at and wall [s]. */
 static int meth_advance(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_run_args args;
   sw_run_report r;
   sw_error err = {""};
@@ -248,10 +244,8 @@ static int meth_advance(lua_State *L) {
       r.status == SW_EEMPTY)
     lsw_must(L, r.status, &r.reason);
   lua_createtable(L, 0, 9);
-  lua_pushboolean(L, r.status == SW_OK);
-  lua_setfield(L, -2, "ok");
-  lua_pushstring(L, r.reason.text);
-  lua_setfield(L, -2, "reason");
+  lsw_set_flag(L, "ok", r.status == SW_OK);
+  lsw_set_text(L, "reason", r.reason.text);
   lsw_set_number(L, "time", r.time);
   lsw_set_integer(L, "steps", r.steps);
   lsw_set_integer(L, "rejected", r.rejected);
@@ -267,7 +261,7 @@ static int meth_advance(lua_State *L) {
 
 /* scene:settle{ tolerance =, max_iterations = } -> result */
 static int meth_settle(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_settle_args args;
   sw_settle_report r;
   sw_error err = {""};
@@ -278,17 +272,13 @@ static int meth_settle(lua_State *L) {
   lsw_must(L, status, &err);
   if (sw_interrupted()) lsw_must(L, SW_EINTR, &err);
   lua_createtable(L, 0, 6);
-  lua_pushboolean(L, r.ok);
-  lua_setfield(L, -2, "ok");
-  lua_pushstring(L, r.ok ? "at rest" : r.reason.text);
-  lua_setfield(L, -2, "reason");
+  lsw_set_flag(L, "ok", r.ok);
+  lsw_set_text(L, "reason", r.ok ? "at rest" : r.reason.text);
   lsw_set_integer(L, "iterations", r.iterations);
   lsw_set_number(L, "residual", r.residual);
   lsw_set_integer(L, "unstable", r.negative);
-  lua_pushboolean(L, r.transient);
-  lua_setfield(L, -2, "transient");
-  lua_pushboolean(L, r.jumped);
-  lua_setfield(L, -2, "jumped");
+  lsw_set_flag(L, "transient", r.transient);
+  lsw_set_flag(L, "jumped", r.jumped);
   return 1;
 }
 
@@ -297,29 +287,22 @@ static int meth_settle(lua_State *L) {
 static int meth_energy(lua_State *L) {
   sw_energy e;
   sw_error err = {""};
-  double total = 0;
-  lsw_must(L, sw_scene_energy(check(L), &e, &err), &err);
-  lua_createtable(L, 0, (int)e.count + 1);
-  for (size_t i = 0; i < e.count; i++) {
-    lsw_set_number(L, e.kind[i], e.value[i]);
-    total += e.value[i];
-  }
-  lsw_set_number(L, "total", total);
-  if (e.has_dissipated) lsw_set_number(L, "dissipated", e.dissipated); /* not in total */
+  lsw_must(L, sw_scene_energy(lsw_check_scene(L), &e, &err), &err);
+  lsw_push_energy(L, &e);
   return 1;
 }
 
 static int meth_stable_dt(lua_State *L) {
   double dt;
   sw_error err = {""};
-  lsw_must(L, sw_scene_stable_dt(check(L), &dt, &err), &err);
+  lsw_must(L, sw_scene_stable_dt(lsw_check_scene(L), &dt, &err), &err);
   lua_pushnumber(L, dt);
   return 1;
 }
 
 /* scene:gravity() -> vector; scene:gravity(vector) sets [m/s2] */
 static int meth_gravity(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   if (lua_gettop(L) > 1) {
     sw_error err = {""};
     const sw_vec g = lsw_vector(L, 2, "scene:gravity", "m/s2");
@@ -331,19 +314,19 @@ static int meth_gravity(lua_State *L) {
 }
 
 static int prop_time(lua_State *L) {
-  lua_pushnumber(L, sw_scene_time(check(L)));
+  lua_pushnumber(L, sw_scene_time(lsw_check_scene(L)));
   return 1;
 }
 
 static int prop_name(lua_State *L) {
-  lua_pushstring(L, sw_scene_name(check(L)));
+  lua_pushstring(L, sw_scene_name(lsw_check_scene(L)));
   return 1;
 }
 
 /* --- snapshots ------------------------------------------------------------------ */
 
 static int meth_snapshot(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_snapshot *snapshot = NULL;
   sw_error err = {""};
   lsw_handle *h = lsw_new(L, &lsw_class_snapshot, 2);
@@ -355,7 +338,7 @@ static int meth_snapshot(lua_State *L) {
 }
 
 static int meth_restore(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   const lsw_handle *h = lsw_check(L, 2, &lsw_class_snapshot);
   lua_getiuservalue(L, 2, 1);
@@ -378,7 +361,7 @@ static int describe_snapshot(lua_State *L) {
 }
 
 static int meta_describe(lua_State *L) {
-  const sw_scene *scene = check(L);
+  const sw_scene *scene = lsw_check_scene(L);
   char text[SW_NAME_SIZE + 64];
   snprintf(text, sizeof text, "scene '%s' at t = %.6g s", sw_scene_name(scene),
            sw_scene_time(scene));

@@ -20,14 +20,6 @@ static sw_search *check(lua_State *L) {
   return *s;
 }
 
-static void push_list(lua_State *L, const double *x, size_t n) {
-  lua_createtable(L, (int)n, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_pushnumber(L, x[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-}
-
 static void read_list(lua_State *L, int index, double *x, size_t n) {
   luaL_checktype(L, index, LUA_TTABLE);
   luaL_argcheck(L, lua_rawlen(L, index) == n, index, "a list of another length is wanted");
@@ -53,7 +45,7 @@ static int meth_ask(lua_State *L) {
   sw_search *s = check(L);
   int ok;
   if (sw_search_ask(s, x)) {
-    push_list(L, x, kept(L, 1));
+    lsw_push_flat(L, x, kept(L, 1));
     return 1;
   }
   lua_pushnil(L);
@@ -130,10 +122,10 @@ static int mod_eigen(lua_State *L) {
   read_list(L, 1, a, rows * rows);
   double *values = a + rows * rows, *vectors = values + rows;
   lsw_must(L, sw_symmetric_eigen(a, rows, values, vectors), &err);
-  push_list(L, values, rows);
+  lsw_push_flat(L, values, rows);
   lua_createtable(L, (int)n, 0);
   for (size_t k = 0; k < rows; k++) {
-    push_list(L, vectors + k * rows, rows);
+    lsw_push_flat(L, vectors + k * rows, rows);
     lua_rawseti(L, -2, (lua_Integer)k + 1);
   }
   return 2;

@@ -5,20 +5,6 @@
 
 #include "bind/child.h"
 
-static void set_points(lua_State *L, const char *name, const double *at, size_t count) {
-  lua_createtable(L, (int)count, 0);
-  for (size_t i = 0; i < count; i++) {
-    lsw_push_vector(L, sw_vec_at(at, i));
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  lua_setfield(L, -2, name);
-}
-
-static void set_flat(lua_State *L, const char *name, const double *values, size_t count) {
-  lsw_push_flat(L, values, count);
-  lua_setfield(L, -2, name);
-}
-
 /* Stress of the material's E at each of the strains. */
 static void set_stress(lua_State *L, double E, const double *strain, size_t count) {
   lua_createtable(L, (int)count, 0);
@@ -45,8 +31,8 @@ static void push_section(lua_State *L, const sw_section_shape *p) {
   lsw_set_vector(L, "middle", p->middle);
   lsw_set_vector(L, "tangent", p->tangent);
   lsw_set_vector(L, "axis", p->axis);
-  set_points(L, "outline", p->surface, p->count);
-  set_points(L, "particles", p->particles, p->count);
+  lsw_set_points(L, "outline", p->surface, p->count);
+  lsw_set_points(L, "particles", p->particles, p->count);
   lsw_set_number(L, "skin", p->skin);
   lsw_set_number(L, "least_width", p->least);
   lsw_set_vector(L, "least_direction", p->least_way);
@@ -56,8 +42,8 @@ static void push_section(lua_State *L, const sw_section_shape *p) {
   lsw_set_number(L, "area", p->area);
   lsw_set_number(L, "torsion", p->turn);
   lsw_set_number(L, "twist_rate", p->twist_rate);
-  set_flat(L, "axial_strain", p->axial, p->count);
-  set_flat(L, "hoop_strain", p->hoop, p->count);
+  lsw_set_flat(L, "axial_strain", p->axial, p->count);
+  lsw_set_flat(L, "hoop_strain", p->hoop, p->count);
 }
 
 /* wire:section(s) -> table */

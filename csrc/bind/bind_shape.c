@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "bind/child.h"
 #include "bind/mesh_child.h"
 #include "bind/module.h"
 
@@ -160,10 +161,10 @@ static double optional_length(lua_State *L, int index, const char *what, double 
 
 static void push_closest(lua_State *L, const sw_closest *c) {
   lua_createtable(L, 0, 5);
-  lua_pushnumber(L, c->gap), lua_setfield(L, -2, "gap");
-  lua_pushnumber(L, c->at), lua_setfield(L, -2, "at");
-  lsw_push_vector(L, c->normal), lua_setfield(L, -2, "normal");
-  lsw_push_vector(L, c->point), lua_setfield(L, -2, "point");
+  lsw_set_number(L, "gap", c->gap);
+  lsw_set_number(L, "at", c->at);
+  lsw_set_vector(L, "normal", c->normal);
+  lsw_set_vector(L, "point", c->point);
   lua_pushinteger(L, c->feature), lua_setfield(L, -2, "feature");
 }
 
@@ -235,9 +236,7 @@ typedef struct drawn {
 
 static int push_triangles(lua_State *L) {
   const sw_triangles *t = &((const drawn *)lua_touserdata(L, 1))->triangles;
-  lua_createtable(L, (int)(3 * t->vertex_count), 0);
-  for (size_t i = 0; i < 3 * t->vertex_count; i++)
-    lua_pushnumber(L, t->vertices[i]), lua_rawseti(L, -2, (lua_Integer)i + 1);
+  lsw_push_flat(L, t->vertices, 3 * t->vertex_count);
   lua_createtable(L, (int)(3 * t->triangle_count), 0);
   for (size_t i = 0; i < 3 * t->triangle_count; i++)
     lua_pushinteger(L, t->indices[i] + 1), lua_rawseti(L, -2, (lua_Integer)i + 1);

@@ -120,8 +120,7 @@ static int meth_state(lua_State *L) {
   const lsw_child *t = check(L, &scene);
   lsw_must(L, sw_scene_tool_state(scene, t->id, &now, &err), &err);
   lua_createtable(L, 0, 12);
-  lua_pushstring(L, statuses[now.status]);
-  lua_setfield(L, -2, "jaws");
+  lsw_set_text(L, "jaws", statuses[now.status]);
   lsw_set_number(L, "opening", now.opening);
   lsw_set_number(L, "squeeze", now.squeeze);
   lsw_set_number(L, "normal", now.normal);
@@ -131,16 +130,13 @@ static int meth_state(lua_State *L) {
   lsw_set_number(L, "slip", now.slip);
   lsw_set_vector(L, "slipped", now.slipped);
   lsw_set_number(L, "place", now.place);
-  lua_pushboolean(L, now.frozen);
-  lua_setfield(L, -2, "frozen");
+  lsw_set_flag(L, "frozen", now.frozen);
   if (!isnan(now.lost_time)) lsw_set_number(L, "lost_time", now.lost_time);
   if (!isnan(now.crash_time)) {
     lsw_set_number(L, "crash_time", now.crash_time);
     lsw_set_number(L, "crash_depth", now.crash_depth);
-    lua_pushstring(L, now.crash_part);
-    lua_setfield(L, -2, "crash_part");
-    lua_pushstring(L, now.crash_obstacle);
-    lua_setfield(L, -2, "crash_obstacle");
+    lsw_set_text(L, "crash_part", now.crash_part);
+    lsw_set_text(L, "crash_obstacle", now.crash_obstacle);
   }
   if (isnan(now.slip_time)) return 1;
   lsw_set_number(L, "slip_time", now.slip_time);
@@ -203,8 +199,7 @@ static int meth_touches(lua_State *L) {
     sw_tool_touch touch;
     if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
     lua_createtable(L, 0, 7);
-    lua_pushstring(L, touch.name);
-    lua_setfield(L, -2, "wire_name");
+    lsw_set_text(L, "wire_name", touch.name);
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
     lsw_set_vector(L, "at", touch.at);
     lsw_set_vector(L, "force", touch.force);
@@ -217,13 +212,6 @@ static int meth_touches(lua_State *L) {
   return 1;
 }
 
-static void push_momentum(lua_State *L, const char *name, const double p[6]) {
-  lua_createtable(L, 0, 2);
-  lsw_set_vector(L, "linear", sw_load(p));
-  lsw_set_vector(L, "angular", sw_load(p + 3));
-  lua_setfield(L, -2, name);
-}
-
 static int push_report(lua_State *L, const sw_freeze_report *r) {
   lua_createtable(L, 0, 8);
   lsw_set_number(L, "s1", r->s1);
@@ -232,8 +220,8 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
   lsw_set_number(L, "energy_after", r->energy_after);
   lsw_set_vector(L, "force", r->force);
   lsw_set_vector(L, "moment", r->moment);
-  push_momentum(L, "before", r->before);
-  push_momentum(L, "after", r->after);
+  lsw_set_momentum(L, "before", r->before);
+  lsw_set_momentum(L, "after", r->after);
   return 1;
 }
 

@@ -2,10 +2,6 @@
 /* What touches: scene:wire_contact, scene:touches, scene:contacts, scene:penetration. */
 #include "bind/child.h"
 
-static sw_scene *check(lua_State *L) {
-  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
-}
-
 /* One wire or a list of them, at the top -> handles (in a userdata) and their number. */
 static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count) {
   static const char what[] = "scene:wire_contact: between";
@@ -29,7 +25,7 @@ static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count)
 }
 
 int lsw_scene_wire_contact(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_wire_contact_args args;
   sw_error err = {""};
   sw_handle *wires = NULL;
@@ -42,17 +38,8 @@ int lsw_scene_wire_contact(lua_State *L) {
   return 0;
 }
 
-static void set_pair(lua_State *L, const char *name, double first, double second) {
-  lua_createtable(L, 2, 0);
-  lua_pushnumber(L, first);
-  lua_rawseti(L, -2, 1);
-  lua_pushnumber(L, second);
-  lua_rawseti(L, -2, 2);
-  lua_setfield(L, -2, name);
-}
-
 int lsw_scene_touches(lua_State *L) {
-  sw_scene *scene = check(L);
+  sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   size_t count = 0;
   lsw_must(L, sw_scene_wire_touch_count(scene, &count, &err), &err);
@@ -67,7 +54,7 @@ int lsw_scene_touches(lua_State *L) {
       lua_rawseti(L, -2, i + 1);
     }
     lua_setfield(L, -2, "wires");
-    set_pair(L, "s", t.s[0], t.s[1]);
+    lsw_set_flat(L, "s", t.s, 2);
     lsw_set_vector(L, "point", t.point);
     lsw_set_vector(L, "normal", t.normal);
     lsw_set_vector(L, "force", t.force);
@@ -82,7 +69,7 @@ int lsw_scene_penetration(lua_State *L) {
   double now;
   sw_extreme deepest;
   sw_error err = {""};
-  lsw_must(L, sw_scene_penetration(check(L), &now, &deepest, &err), &err);
+  lsw_must(L, sw_scene_penetration(lsw_check_scene(L), &now, &deepest, &err), &err);
   lua_pushnumber(L, deepest.value);
   lua_pushnumber(L, deepest.s);
   lua_pushnumber(L, deepest.time);
@@ -91,6 +78,6 @@ int lsw_scene_penetration(lua_State *L) {
 }
 
 int lsw_scene_contacts(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)sw_scene_touches(check(L)));
+  lua_pushinteger(L, (lua_Integer)sw_scene_touches(lsw_check_scene(L)));
   return 1;
 }

@@ -21,11 +21,7 @@ static int call_function(lua_State *L) {
   caller *c = lua_touserdata(L, 2);
   lua_pushvalue(L, 1);
   if (c->list) {
-    lua_createtable(L, (int)c->n, 0);
-    for (size_t i = 0; i < c->n; i++) {
-      lua_pushnumber(L, c->x[i]);
-      lua_rawseti(L, -2, (lua_Integer)i + 1);
-    }
+    lsw_push_flat(L, c->x, c->n);
   } else {
     lua_pushnumber(L, c->x[0]);
   }
@@ -86,20 +82,12 @@ static void read_steps(lua_State *L, const double *x, double *step, size_t n) {
 
 static void push_result(lua_State *L, const double *x, size_t n, int list, const sw_minimum *r) {
   lua_createtable(L, 0, 8);
-  if (list) {
-    lua_createtable(L, (int)n, 0);
-    for (size_t i = 0; i < n; i++) {
-      lua_pushnumber(L, x[i]);
-      lua_rawseti(L, -2, (lua_Integer)i + 1);
-    }
-  } else {
-    lua_pushnumber(L, x[0]);
-  }
-  lua_setfield(L, -2, "x");
-  lua_pushboolean(L, r->ok);
-  lua_setfield(L, -2, "ok");
-  lua_pushstring(L, r->reason.text);
-  lua_setfield(L, -2, "reason");
+  if (list)
+    lsw_set_flat(L, "x", x, n);
+  else
+    lsw_set_number(L, "x", x[0]);
+  lsw_set_flag(L, "ok", r->ok);
+  lsw_set_text(L, "reason", r->reason.text);
   lsw_set_number(L, "value", r->value);
   lsw_set_integer(L, "iterations", r->iterations);
   lsw_set_integer(L, "evaluations", r->evaluations);
@@ -145,11 +133,7 @@ static int mod_quasi(lua_State *L) {
   luaL_argcheck(L, count >= 1 && count <= 10000000, 3, "1 to 1e7 points");
   double *out = lua_newuserdatauv(L, sizeof *out * (size_t)(n * count), 0);
   lsw_must(L, sw_quasi(sobol, (size_t)n, (size_t)count, out, &err), &err);
-  lua_createtable(L, (int)(n * count), 0);
-  for (lua_Integer k = 0; k < n * count; k++) {
-    lua_pushnumber(L, out[k]);
-    lua_rawseti(L, -2, k + 1);
-  }
+  lsw_push_flat(L, out, (size_t)(n * count));
   return 1;
 }
 

@@ -109,7 +109,7 @@ static int free_film(lua_State *L) {
 }
 
 static int mod_film_now(lua_State *L) {
-  sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+  sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   sw_film *film = lua_newuserdatauv(L, sizeof *film, 0);
   memset(film, 0, sizeof *film);

@@ -366,14 +366,7 @@ static int push_beam(lua_State *L) {
   lua_createtable(L, 0, 5);
   lsw_set_number(L, "EA", b.EA);
   lsw_set_number(L, "EI", b.EI);
-  if (b.EI_axis[0] != b.EI_axis[1]) {
-    lua_createtable(L, 2, 0);
-    for (int k = 0; k < 2; k++) {
-      lua_pushnumber(L, b.EI_axis[k]);
-      lua_rawseti(L, -2, k + 1);
-    }
-    lua_setfield(L, -2, "EI");
-  }
+  if (b.EI_axis[0] != b.EI_axis[1]) lsw_set_flat(L, "EI", b.EI_axis, 2);
   lsw_set_number(L, "GJ", b.GJ);
   lsw_set_number(L, "mass_per_length", b.mass);
   lsw_set_number(L, "radius", b.radius);

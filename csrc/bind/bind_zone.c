@@ -8,7 +8,7 @@
 
 /* core.zone(scene, { shape =, at =, name =, temperature = }) -> its name */
 static int mod_zone(lua_State *L) {
-  sw_scene *scene = ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+  sw_scene *scene = lsw_check_scene(L);
   sw_zone_args args;
   sw_error err = {""};
   const lsw_section extra = {&sw_zone_params, &args};
@@ -35,8 +35,7 @@ static int mod_zones(lua_State *L) {
     const sw_zone *z = sw_scene_zone(scene, k);
     const sw_zone_past *past = sw_scene_zone_past(scene, w->id, k);
     lua_createtable(L, 0, 7);
-    lua_pushstring(L, z->name);
-    lua_setfield(L, -2, "name");
+    lsw_set_text(L, "name", z->name);
     set_known(L, "temperature", z->temperature);
     if (past) {
       lsw_set_number(L, "gap", past->gap);

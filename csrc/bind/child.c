@@ -5,6 +5,10 @@
 
 #include "bind/bind_motion.h"
 
+sw_scene *lsw_check_scene(lua_State *L) {
+  return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
+}
+
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
   scene = lua_absindex(L, scene);
   lsw_child *child = lsw_new(L, c, 2);
@@ -68,17 +72,53 @@ void lsw_push_flat(lua_State *L, const double *values, size_t n) {
   }
 }
 
+void lsw_set_text(lua_State *L, const char *name, const char *text) {
+  lua_pushstring(L, text), lua_setfield(L, -2, name);
+}
+
+void lsw_set_flag(lua_State *L, const char *name, int flag) {
+  lua_pushboolean(L, flag), lua_setfield(L, -2, name);
+}
+
 void lsw_set_number(lua_State *L, const char *name, double value) {
-  lua_pushnumber(L, value);
-  lua_setfield(L, -2, name);
+  lua_pushnumber(L, value), lua_setfield(L, -2, name);
 }
 
 void lsw_set_integer(lua_State *L, const char *name, size_t value) {
-  lua_pushinteger(L, (lua_Integer)value);
-  lua_setfield(L, -2, name);
+  lua_pushinteger(L, (lua_Integer)value), lua_setfield(L, -2, name);
 }
 
 void lsw_set_vector(lua_State *L, const char *name, sw_vec value) {
-  lsw_push_vector(L, value);
+  lsw_push_vector(L, value), lua_setfield(L, -2, name);
+}
+
+void lsw_set_flat(lua_State *L, const char *name, const double *values, size_t n) {
+  lsw_push_flat(L, values, n), lua_setfield(L, -2, name);
+}
+
+void lsw_set_points(lua_State *L, const char *name, const double *at, size_t count) {
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    lsw_push_vector(L, sw_vec_at(at, i));
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
   lua_setfield(L, -2, name);
+}
+
+void lsw_set_momentum(lua_State *L, const char *name, const double p[6]) {
+  lua_createtable(L, 0, 2);
+  lsw_set_vector(L, "linear", sw_load(p));
+  lsw_set_vector(L, "angular", sw_load(p + 3));
+  lua_setfield(L, -2, name);
+}
+
+void lsw_push_energy(lua_State *L, const sw_energy *e) {
+  double total = 0;
+  lua_createtable(L, 0, (int)e->count + 2);
+  for (size_t i = 0; i < e->count; i++) {
+    lsw_set_number(L, e->kind[i], e->value[i]);
+    total += e->value[i];
+  }
+  lsw_set_number(L, "total", total);
+  if (e->has_dissipated) lsw_set_number(L, "dissipated", e->dissipated); /* not in total */
 }

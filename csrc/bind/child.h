@@ -22,6 +22,9 @@ extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_particles, lsw
 /* Push a scene that is still closed, to be opened by its object. */
 lsw_handle *lsw_new_scene(lua_State *L);
 
+/* The scene at index 1. */
+sw_scene *lsw_check_scene(lua_State *L);
+
 /* Push a child of the scene userdata at index scene. */
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
 
@@ -95,9 +98,18 @@ void lsw_check_table(lua_State *L, int index, const char *what);
 /* Push n numbers as a flat array. */
 void lsw_push_flat(lua_State *L, const double *values, size_t n);
 
-/* Set fields of the table on top of the stack. */
+/* Push a table of each kind of energy and their total [J]. */
+void lsw_push_energy(lua_State *L, const sw_energy *energy);
+
+/* Set fields of the table on top of the stack; points: a list of at (count x 3), momentum: linear
+ * and angular. */
+void lsw_set_text(lua_State *L, const char *name, const char *text);
+void lsw_set_flag(lua_State *L, const char *name, int flag);
 void lsw_set_number(lua_State *L, const char *name, double value);
 void lsw_set_integer(lua_State *L, const char *name, size_t value);
 void lsw_set_vector(lua_State *L, const char *name, sw_vec value);
+void lsw_set_flat(lua_State *L, const char *name, const double *values, size_t n);
+void lsw_set_points(lua_State *L, const char *name, const double *at, size_t count);
+void lsw_set_momentum(lua_State *L, const char *name, const double p[6]);
 
 #endif
