@@ -178,10 +178,9 @@ static int push_calibration(lua_State *L) {
 
 /* wire:calibration() -> the targets of its springs, and how they were met. */
 int lsw_wire_calibration(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  const sw_calibration *c = sw_scene_wire_calibration(scene, w->id);
-  const char *name = sw_scene_wire_name(scene, w->id), *model = sw_scene_wire_model(scene, w->id);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const sw_calibration *c = sw_scene_wire_calibration(w.scene, w.id);
+  const char *name = sw_scene_wire_name(w.scene, w.id), *model = sw_scene_wire_model(w.scene, w.id);
   if (!name) return luaL_error(L, "wire:calibration: the wire is gone");
   if (!c)
     return luaL_error(L,

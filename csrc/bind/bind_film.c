@@ -108,12 +108,11 @@ static int mod_skin(lua_State *L) {
 
 /* core.edges(particles) -> edges of the surface: pairs of numbers from 0, 32 bits each */
 static int mod_edges(lua_State *L) {
-  sw_scene *scene;
   luaL_Buffer b;
-  const lsw_child *p = lsw_check_child(L, 1, &lsw_class_particles, &scene);
-  const size_t count = sw_scene_particles_edges(scene, p->id, NULL), size = 2 * sizeof(uint32_t);
+  const lsw_self p = lsw_check_self(L, &lsw_class_particles);
+  const size_t count = sw_scene_particles_edges(p.scene, p.id, NULL), size = 2 * sizeof(uint32_t);
   char *out = luaL_buffinitsize(L, &b, count * size);
-  sw_scene_particles_edges(scene, p->id, (uint32_t *)(void *)out);
+  sw_scene_particles_edges(p.scene, p.id, (uint32_t *)(void *)out);
   luaL_pushresultsize(&b, count * size);
   return 1;
 }

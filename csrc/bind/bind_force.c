@@ -204,25 +204,23 @@ int lsw_scene_force(lua_State *L) {
 }
 
 static int meth_release(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
-  lsw_must(L, sw_scene_remove_force(scene, f->id, &err), &err);
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
+  lsw_must(L, sw_scene_remove_force(f.scene, f.id, &err), &err);
   lua_getiuservalue(L, 1, 1);
-  lsw_forget_forces(L, lua_gettop(L), scene);
+  lsw_forget_forces(L, lua_gettop(L), f.scene);
   return 0;
 }
 
 /* force:read(wire) -> what its kind has to read there, by name; see the force's file */
 static int meth_read(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   double values[SW_FORCE_OUTPUTS_MAX];
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
   lua_settop(L, 2);
-  const lsw_child *wire = lsw_check_body_of(L, 2, scene, "force:read");
-  lsw_must(L, sw_scene_read_force(scene, f->id, wire->id, values, &err), &err);
-  const char *const *names = sw_scene_force_class(scene, f->id)->outputs;
+  const lsw_child *wire = lsw_check_body_of(L, 2, f.scene, "force:read");
+  lsw_must(L, sw_scene_read_force(f.scene, f.id, wire->id, values, &err), &err);
+  const char *const *names = sw_scene_force_class(f.scene, f.id)->outputs;
   lua_newtable(L);
   for (size_t k = 0; names[k]; k++) lsw_set_number(L, names[k], values[k]);
   return 1;
@@ -235,36 +233,32 @@ static int meth_log(lua_State *L) {
 
 /* force:call_it(name): what its events call it */
 static int meth_call_it(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
   if (lua_type(L, 2) != LUA_TSTRING)
     luaL_error(L, "force:call_it: the name must be a string, got %s", lsw_describe(L, 2));
-  lsw_must(L, sw_scene_name_force(scene, f->id, lua_tostring(L, 2), &err), &err);
+  lsw_must(L, sw_scene_name_force(f.scene, f.id, lua_tostring(L, 2), &err), &err);
   return 0;
 }
 
 static int prop_kind(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
-  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
-  if (!cls) return luaL_error(L, "this force is not of scene '%s' any more", sw_scene_name(scene));
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
+  const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
+  if (!cls) return lsw_not_there(L, &lsw_class_force, f.scene);
   lua_pushstring(L, cls->name);
   return 1;
 }
 
 static int prop_held(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
-  lua_pushboolean(L, sw_scene_force_acts(scene, f->id));
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
+  lua_pushboolean(L, sw_scene_force_acts(f.scene, f.id));
   return 1;
 }
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *f = lsw_find_child(L, &lsw_class_force, &scene);
-  if (!f) return 1;
-  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  lsw_self f;
+  if (!lsw_find_self(L, &lsw_class_force, &f)) return 1;
+  const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
   if (!cls)
     lua_pushliteral(L, "force (taken back when a snapshot was restored)");
   else
@@ -274,12 +268,11 @@ static int meta_describe(lua_State *L) {
 
 /* force:get() -> a table of its rows, as they are now */
 static int meth_get(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
-  lsw_must(L, sw_scene_force_args(scene, f->id, args, &err), &err);
-  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
+  lsw_must(L, sw_scene_force_args(f.scene, f.id, args, &err), &err);
+  const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
   lsw_push_values(L, &cls->params, args);
   lsw_set_text(L, "kind", cls->name);
   return 1;
@@ -287,18 +280,17 @@ static int meth_get(lua_State *L) {
 
 /* force:set{ stiffness =, ... }: values of its rows from now on */
 static int meth_set(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
-  const lsw_child *f = lsw_check_child(L, 1, &lsw_class_force, &scene);
+  const lsw_self f = lsw_check_self(L, &lsw_class_force);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(scene, &err), &err);
-  lsw_must(L, sw_scene_force_args(scene, f->id, args, &err), &err);
-  const sw_force_class *cls = sw_scene_force_class(scene, f->id);
+  lsw_must(L, sw_scene_editable(f.scene, &err), &err);
+  lsw_must(L, sw_scene_force_args(f.scene, f.id, args, &err), &err);
+  const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
   if (!cls->params.count) luaL_error(L, "force %s: it has no parameters to set", cls->name);
   const char *name = lua_pushfstring(L, "force %s: set", cls->name);
   lsw_changes(L, 2, name, &cls->params, args);
-  lsw_must(L, sw_scene_set_force(scene, f->id, args, &err), &err);
+  lsw_must(L, sw_scene_set_force(f.scene, f.id, args, &err), &err);
   return 0;
 }
 

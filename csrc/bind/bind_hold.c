@@ -44,16 +44,15 @@ void lsw_add_holds(lua_State *L) {
 }
 
 static void read_force(lua_State *L, int with_point, sw_vec *force, sw_vec *moment) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_vec point = sw_v(NAN, NAN, NAN);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
                                    "point the moment is about (default: the held point)"}};
   static const sw_params params = SW_PARAMS("clamp", rows);
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
   lsw_must(L,
-           sw_scene_hold_force(scene, c->id, isnan(point.x) ? NULL : &point, force, moment, &err),
+           sw_scene_hold_force(c.scene, c.id, isnan(point.x) ? NULL : &point, force, moment, &err),
            &err);
 }
 
@@ -84,22 +83,20 @@ static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
 static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
 
 static int meth_release(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  lsw_must(L, sw_scene_release_hold(scene, c->id, &err), &err);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  lsw_must(L, sw_scene_release_hold(c.scene, c.id, &err), &err);
   return 0;
 }
 
 /* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
  * obstacle [s], [m]; nil when it never did */
 static int meth_crash(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   double time, depth;
   const char *obstacle;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  lsw_must(L, sw_scene_hold_crash(scene, c->id, &time, &depth, &obstacle, &err), &err);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  lsw_must(L, sw_scene_hold_crash(c.scene, c.id, &time, &depth, &obstacle, &err), &err);
   if (!(depth > 0)) return 0;
   lua_createtable(L, 0, 3);
   lsw_set_number(L, "time", time);
@@ -122,14 +119,13 @@ static void push_columns(lua_State *L, const double *rows, size_t count, size_t 
  * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s].
  * clamp:log(first) starts at that row. */
 static int meth_log(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   const double *rows;
   size_t count;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const lua_Integer first =
       lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
-  lsw_must(L, sw_scene_hold_log(scene, c->id, &rows, &count, &err), &err);
+  lsw_must(L, sw_scene_hold_log(c.scene, c.id, &rows, &count, &err), &err);
   const size_t past = first > 1 ? (size_t)(first - 1) : 0, skip = past < count ? past : count;
   const size_t n = count - skip;
   if (skip) rows += skip * SW_LOG_SIZE;
@@ -141,28 +137,26 @@ static int meth_log(lua_State *L) {
 
 /* clamp:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_hold_args args;
   const sw_params *rows;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  lsw_must(L, sw_scene_hold_args(scene, c->id, &rows, &args, &err), &err);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  lsw_must(L, sw_scene_hold_args(c.scene, c.id, &rows, &args, &err), &err);
   lsw_push_values(L, rows, &args);
   return 1;
 }
 
 /* clamp:set{ friction = }: from now on. */
 static int meth_set(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_hold_args args;
   const sw_params *rows;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(scene, &err), &err);
-  lsw_must(L, sw_scene_hold_args(scene, c->id, &rows, &args, &err), &err);
+  lsw_must(L, sw_scene_editable(c.scene, &err), &err);
+  lsw_must(L, sw_scene_hold_args(c.scene, c.id, &rows, &args, &err), &err);
   lsw_changes(L, 2, lua_pushfstring(L, "%s:set", rows->object), rows, &args);
-  lsw_must(L, sw_scene_set_hold(scene, c->id, &args, &err), &err);
+  lsw_must(L, sw_scene_set_hold(c.scene, c.id, &args, &err), &err);
   return 0;
 }
 
@@ -170,11 +164,10 @@ static int meth_set(lua_State *L) {
 
 /* slider:place() -> place along the rail, speed, force on the wire along it [m], [m/s], [N] */
 static int meth_place(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_slide_state state;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  lsw_must(L, sw_scene_slide_state(scene, c->id, &state, &err), &err);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  lsw_must(L, sw_scene_slide_state(c.scene, c.id, &state, &err), &err);
   lua_pushnumber(L, state.place);
   lua_pushnumber(L, state.speed);
   lua_pushnumber(L, state.force);
@@ -184,11 +177,10 @@ static int meth_place(lua_State *L) {
 /* --- feeds ---------------------------------------------------------------------- */
 
 static sw_feed_state feed_state(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_feed_state state;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  lsw_must(L, sw_scene_feed_state(scene, c->id, &state, &err), &err);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  lsw_must(L, sw_scene_feed_state(c.scene, c.id, &state, &err), &err);
   return state;
 }
 
@@ -219,11 +211,10 @@ static double feed_argument(lua_State *L, const char *name) {
 /* may_be_nil: that is none. */
 static int set_feed(lua_State *L, const char *name, int may_be_nil,
                     sw_status (*set)(sw_scene *, sw_handle, double, sw_error *)) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, name);
-  lsw_must(L, set(scene, c->id, value, &err), &err);
+  lsw_must(L, set(c.scene, c.id, value, &err), &err);
   return 0;
 }
 
@@ -270,11 +261,10 @@ static const sw_params length_params = SW_PARAMS("feed:feed", length_rows);
 
 /* feed:feed{ length =, speed = or duration = } -> seconds it will take. */
 static int meth_feed(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_motion *motion = NULL;
   length_args a = {.speed = NAN, .duration = NAN, .acceleration = NAN};
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   lsw_arguments(L, 2, "feed:feed", &length_params, &a);
   const sw_waypoint points[2] = {{.t = NAN}, {.p = {a.length, 0, 0}, .t = NAN}};
   sw_motion_plan plan = sw_motion_plan_empty();
@@ -282,7 +272,7 @@ static int meth_feed(lua_State *L) {
   plan.points = points, plan.count = 2;
   plan.speed = a.speed, plan.duration = a.duration, plan.acceleration = a.acceleration;
   if (a.length != 0) lsw_must(L, sw_motion_create(&plan, &motion, &err), &err);
-  const sw_status status = sw_scene_feed_length(scene, c->id, motion, a.length, &err);
+  const sw_status status = sw_scene_feed_length(c.scene, c.id, motion, a.length, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);
   lsw_must(L, status, &err);
@@ -292,10 +282,9 @@ static int meth_feed(lua_State *L) {
 /* --- what it is ----------------------------------------------------------------- */
 
 static const char *identity(lua_State *L, const char **kind, int *held) {
-  sw_scene *scene;
-  const lsw_child *c = lsw_check_child(L, 1, &lsw_class_clamp, &scene);
-  const char *name = sw_scene_hold_name(scene, c->id, kind, held);
-  if (!name) luaL_error(L, "this clamp is not of scene '%s' any more", sw_scene_name(scene));
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  const char *name = sw_scene_hold_name(c.scene, c.id, kind, held);
+  if (!name) lsw_not_there(L, &lsw_class_clamp, c.scene);
   return name;
 }
 
@@ -323,20 +312,19 @@ static int prop_held(lua_State *L) {
 }
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
+  lsw_self c;
   sw_error err;
   const char *kind;
   sw_vec force, moment;
   int held;
   char text[SW_NAME_SIZE + 160];
-  const lsw_child *c = lsw_find_child(L, &lsw_class_clamp, &scene);
-  if (!c) return 1;
-  const char *name = sw_scene_hold_name(scene, c->id, &kind, &held);
+  if (!lsw_find_self(L, &lsw_class_clamp, &c)) return 1;
+  const char *name = sw_scene_hold_name(c.scene, c.id, &kind, &held);
   if (!name)
     snprintf(text, sizeof text, "clamp (taken back when a snapshot was restored)");
   else if (!held)
     snprintf(text, sizeof text, "%s '%s' (released)", kind, name);
-  else if (sw_scene_hold_force(scene, c->id, NULL, &force, &moment, &err) != SW_OK)
+  else if (sw_scene_hold_force(c.scene, c.id, NULL, &force, &moment, &err) != SW_OK)
     snprintf(text, sizeof text, "%s '%s'", kind, name);
   else
     snprintf(text, sizeof text, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", kind, name,
@@ -346,11 +334,12 @@ static int meta_describe(lua_State *L) {
 }
 
 static const char *word_of(lua_State *L) {
-  sw_scene *scene;
+  lsw_self c;
   const char *kind;
   int held;
-  const lsw_child *c = lsw_find_child(L, &lsw_class_clamp, &scene);
-  return c && sw_scene_hold_name(scene, c->id, &kind, &held) ? kind : NULL;
+  return lsw_find_self(L, &lsw_class_clamp, &c) && sw_scene_hold_name(c.scene, c.id, &kind, &held)
+             ? kind
+             : NULL;
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},

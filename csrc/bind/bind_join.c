@@ -55,14 +55,13 @@ int lsw_scene_join(lua_State *L) {
 }
 
 static void read_force(lua_State *L, sw_vec *force, sw_vec *moment) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
+  const lsw_self j = lsw_check_self(L, &lsw_class_join);
   const lua_Integer k = lua_isinteger(L, 2) ? lua_tointeger(L, 2) : 0;
   if (k < 1)
     luaL_error(L, "join: the number of one of its ends is wanted, from 1; got %s",
                lsw_describe(L, 2));
-  lsw_must(L, sw_scene_join_force(scene, j->id, (size_t)k - 1, force, moment, &err), &err);
+  lsw_must(L, sw_scene_join_force(j.scene, j.id, (size_t)k - 1, force, moment, &err), &err);
 }
 
 /* join:force(k) on its end number k [N]; join:moment(k) about its point [N m]. */
@@ -82,11 +81,10 @@ static int meth_moment(lua_State *L) {
 
 /* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
 static int meth_read(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_tie_state state;
-  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
-  lsw_must(L, sw_scene_tie_state(scene, j->id, &state, &err), &err);
+  const lsw_self j = lsw_check_self(L, &lsw_class_join);
+  lsw_must(L, sw_scene_tie_state(j.scene, j.id, &state, &err), &err);
   lua_newtable(L);
   lsw_set_number(L, "distance", state.distance);
   lsw_set_number(L, "tension", state.tension);
@@ -103,19 +101,17 @@ static int meth_log(lua_State *L) {
 }
 
 static int meth_release(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
-  lsw_must(L, sw_scene_release_join(scene, j->id, &err), &err);
+  const lsw_self j = lsw_check_self(L, &lsw_class_join);
+  lsw_must(L, sw_scene_release_join(j.scene, j.id, &err), &err);
   return 0;
 }
 
 static const char *identity(lua_State *L, int *held) {
-  sw_scene *scene;
   size_t ends;
-  const lsw_child *j = lsw_check_child(L, 1, &lsw_class_join, &scene);
-  const char *name = sw_scene_join_name(scene, j->id, held, &ends);
-  if (!name) luaL_error(L, "this join is not of scene '%s' any more", sw_scene_name(scene));
+  const lsw_self j = lsw_check_self(L, &lsw_class_join);
+  const char *name = sw_scene_join_name(j.scene, j.id, held, &ends);
+  if (!name) lsw_not_there(L, &lsw_class_join, j.scene);
   return name;
 }
 
@@ -133,13 +129,12 @@ static int prop_held(lua_State *L) {
 }
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
+  lsw_self j;
   int held;
   size_t ends;
   char text[SW_NAME_SIZE + 80];
-  const lsw_child *j = lsw_find_child(L, &lsw_class_join, &scene);
-  if (!j) return 1;
-  const char *name = sw_scene_join_name(scene, j->id, &held, &ends);
+  if (!lsw_find_self(L, &lsw_class_join, &j)) return 1;
+  const char *name = sw_scene_join_name(j.scene, j.id, &held, &ends);
   if (!name)
     snprintf(text, sizeof text, "join (taken back when a snapshot was restored)");
   else

@@ -6,31 +6,27 @@
 
 /* core.remove_body(wire or object of particles): what holds it lets go. */
 static int mod_remove_body(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   const int loose = lsw_test(L, 1, &lsw_class_particles) != NULL;
-  const lsw_child *body =
-      lsw_check_child(L, 1, loose ? &lsw_class_particles : &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_remove_body(scene, body->id, &err), &err);
+  const lsw_self body = lsw_check_self(L, loose ? &lsw_class_particles : &lsw_class_wire);
+  lsw_must(L, sw_scene_remove_body(body.scene, body.id, &err), &err);
   return 0;
 }
 
 /* core.remove_tool(tool): with its pads. */
 static int mod_remove_tool(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *tool = lsw_check_child(L, 1, &lsw_class_tool, &scene);
-  lsw_must(L, sw_scene_remove_tool(scene, tool->id, &err), &err);
+  const lsw_self tool = lsw_check_self(L, &lsw_class_tool);
+  lsw_must(L, sw_scene_remove_tool(tool.scene, tool.id, &err), &err);
   return 0;
 }
 
 /* core.shape_of(obstacle) -> its shape, also of one that was removed, which frames still show */
 static int mod_shape_of(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_shape *shape;
-  const lsw_child *o = lsw_check_child(L, 1, &lsw_class_obstacle, &scene);
-  lsw_must(L, sw_scene_obstacle_shape(scene, o->id, &shape, &err), &err);
+  const lsw_self o = lsw_check_self(L, &lsw_class_obstacle);
+  lsw_must(L, sw_scene_obstacle_shape(o.scene, o.id, &shape, &err), &err);
   lsw_push_shape(L, shape);
   return 1;
 }

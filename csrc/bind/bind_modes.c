@@ -26,22 +26,20 @@ static void push_note(lua_State *L, const sw_modes_result *r) {
 /* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =, note =,
  * shapes = } [Hz], [-], [1/s], words, [1/sqrt(kg)] */
 int lsw_wire_frequencies(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_modes_args args;
   size_t nodes;
   lua_settop(L, 2);
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   lsw_arguments(L, 2, "wire:frequencies", &sw_modes_params, &args);
-  lsw_must(L, sw_scene_wire_nodes(scene, w->id, &nodes, &err), &err);
-  const sw_handle id = w->id;
+  lsw_must(L, sw_scene_wire_nodes(w.scene, w.id, &nodes, &err), &err);
   const size_t modes = (size_t)args.modes, n = 3 * nodes;
   sw_modes_result r = {.frequencies = lua_newuserdatauv(L, modes * sizeof(double), 0)};
   if (args.shapes) r.shapes = lua_newuserdatauv(L, modes * n * sizeof(double), 0);
   lua_getiuservalue(L, 1, 1); /* functions as forces need their scene at index 1 */
   lua_replace(L, 1);
   lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_wire_modes(scene, id, &args, sw_interrupted, &r, &err);
+  const sw_status status = sw_scene_wire_modes(w.scene, w.id, &args, sw_interrupted, &r, &err);
   lsw_end_forces(outer);
   lsw_must(L, status, &err);
   lsw_push_flat(L, r.frequencies, r.count);

@@ -27,31 +27,27 @@ int lsw_scene_obstacle(lua_State *L) {
   return 0;
 }
 
-static lsw_child *check(lua_State *L, sw_scene **scene) {
-  return lsw_check_child(L, 1, &lsw_class_obstacle, scene);
-}
+static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_obstacle); }
 
 /* Contact force on the obstacle, mean over the last step [N]; its moment { at = point } [N m]. */
 static int meth_force(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_vec force, moment;
-  const lsw_child *o = check(L, &scene);
-  lsw_must(L, sw_scene_obstacle_force(scene, o->id, sw_v(0, 0, 0), &force, &moment, &err), &err);
+  const lsw_self o = check(L);
+  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err), &err);
   lsw_push_vector(L, force);
   return 1;
 }
 
 static int meth_moment(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_vec force, moment, about;
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
                                    "point the moment is about (default: the world's origin)"}};
   static const sw_params params = SW_PARAMS("obstacle:moment", rows);
-  const lsw_child *o = check(L, &scene);
+  const lsw_self o = check(L);
   lsw_arguments(L, 2, "obstacle:moment", &params, &about);
-  lsw_must(L, sw_scene_obstacle_force(scene, o->id, about, &force, &moment, &err), &err);
+  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, about, &force, &moment, &err), &err);
   lsw_push_vector(L, moment);
   return 1;
 }
@@ -68,11 +64,10 @@ static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
 
 /* obstacle:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_obstacle_args args;
-  const lsw_child *o = check(L, &scene);
-  lsw_must(L, sw_scene_obstacle_args(scene, o->id, &args, &err), &err);
+  const lsw_self o = check(L);
+  lsw_must(L, sw_scene_obstacle_args(o.scene, o.id, &args, &err), &err);
   lsw_push_values(L, &sw_obstacle_params, &args);
   return 1;
 }
@@ -86,30 +81,28 @@ static int given(lua_State *L, const char *name) {
 /* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone is that
  * of what slides, too. */
 static int meth_set(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_obstacle_args args;
-  const lsw_child *o = check(L, &scene);
+  const lsw_self o = check(L);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(scene, &err), &err);
-  lsw_must(L, sw_scene_obstacle_args(scene, o->id, &args, &err), &err);
+  lsw_must(L, sw_scene_editable(o.scene, &err), &err);
+  lsw_must(L, sw_scene_obstacle_args(o.scene, o.id, &args, &err), &err);
   lsw_changes(L, 2, "obstacle:set", &sw_obstacle_params, &args);
   const int rubs = given(L, "friction"), slides = given(L, "kinetic_friction");
   if (rubs && !slides) args.kinetic = args.friction;
   if (given(L, "at") || given(L, "rotation")) {
     const sw_pose pose = {args.at, args.rotation};
-    lsw_must(L, sw_scene_obstacle_set_pose(scene, o->id, pose, &err), &err);
+    lsw_must(L, sw_scene_obstacle_set_pose(o.scene, o.id, pose, &err), &err);
   }
   if (rubs || slides || given(L, "restitution"))
-    lsw_must(L, sw_scene_obstacle_set_surface(scene, o->id, &args, &err), &err);
+    lsw_must(L, sw_scene_obstacle_set_surface(o.scene, o.id, &args, &err), &err);
   return 0;
 }
 
 static int meth_remove(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  lsw_child *o = check(L, &scene);
-  lsw_must(L, sw_scene_remove_obstacle(scene, o->id, &err), &err);
+  const lsw_self o = check(L);
+  lsw_must(L, sw_scene_remove_obstacle(o.scene, o.id, &err), &err);
   return 0;
 }
 
@@ -121,15 +114,14 @@ static int meth_log(lua_State *L) {
 
 /* obstacle.shape: the shape at the origin, in its own axes. */
 static int prop_shape(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_shape *shape;
   const char *kind;
   int present = 0;
-  const lsw_child *o = check(L, &scene);
-  if (!sw_scene_obstacle_name(scene, o->id, &kind, &present) || !present)
-    return luaL_error(L, "this obstacle is not of scene '%s' any more", sw_scene_name(scene));
-  lsw_must(L, sw_scene_obstacle_shape(scene, o->id, &shape, &err), &err);
+  const lsw_self o = check(L);
+  if (!sw_scene_obstacle_name(o.scene, o.id, &kind, &present) || !present)
+    return lsw_not_there(L, &lsw_class_obstacle, o.scene);
+  lsw_must(L, sw_scene_obstacle_shape(o.scene, o.id, &shape, &err), &err);
   lsw_push_shape(L, shape);
   return 1;
 }
@@ -140,41 +132,37 @@ static const luaL_Reg methods[] = {
     {"get", meth_get},       {"set", meth_set},       {NULL, NULL}};
 
 static int prop_name(lua_State *L) {
-  sw_scene *scene;
   const char *kind;
   int present;
-  const lsw_child *o = check(L, &scene);
-  const char *name = sw_scene_obstacle_name(scene, o->id, &kind, &present);
-  if (!name)
-    return luaL_error(L, "this obstacle is not of scene '%s' any more", sw_scene_name(scene));
+  const lsw_self o = check(L);
+  const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
+  if (!name) return lsw_not_there(L, &lsw_class_obstacle, o.scene);
   lua_pushstring(L, name);
   return 1;
 }
 
 static int prop_present(lua_State *L) {
-  sw_scene *scene;
   const char *kind;
   int present = 0;
-  const lsw_child *o = check(L, &scene);
-  lua_pushboolean(L, sw_scene_obstacle_name(scene, o->id, &kind, &present) && present);
+  const lsw_self o = check(L);
+  lua_pushboolean(L, sw_scene_obstacle_name(o.scene, o.id, &kind, &present) && present);
   return 1;
 }
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
+  lsw_self o;
   sw_error err;
   const char *kind;
   sw_vec force, moment;
   int present;
   char text[SW_NAME_SIZE + 160];
-  const lsw_child *o = lsw_find_child(L, &lsw_class_obstacle, &scene);
-  if (!o) return 1;
-  const char *name = sw_scene_obstacle_name(scene, o->id, &kind, &present);
+  if (!lsw_find_self(L, &lsw_class_obstacle, &o)) return 1;
+  const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
   if (!name)
     snprintf(text, sizeof text, "obstacle (taken back when a snapshot was restored)");
   else if (!present)
     snprintf(text, sizeof text, "%s '%s' (removed)", kind, name);
-  else if (sw_scene_obstacle_force(scene, o->id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
+  else if (sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
     snprintf(text, sizeof text, "%s '%s'", kind, name);
   else
     snprintf(text, sizeof text, "%s '%s': force on it (%.4g, %.4g, %.4g) N", kind, name, force.x,

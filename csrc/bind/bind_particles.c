@@ -54,22 +54,21 @@ int lsw_hold_particles(lua_State *L) {
 
 /* --- read-outs ---------------------------------------------------------------- */
 
-static sw_particles_info info_of(lua_State *L, sw_scene **scene, const lsw_child **child) {
+static sw_particles_info info_of(lua_State *L, lsw_self *of) {
   sw_error err = {""};
   sw_particles_info info;
-  *child = lsw_check_child(L, 1, &lsw_class_particles, scene);
-  lsw_must(L, sw_scene_particles_info(*scene, (*child)->id, &info, &err), &err);
+  *of = lsw_check_self(L, &lsw_class_particles);
+  lsw_must(L, sw_scene_particles_info(of->scene, of->id, &info, &err), &err);
   return info;
 }
 
 static int push_copy(lua_State *L, int velocities) {
-  sw_scene *scene;
-  const lsw_child *p;
+  lsw_self p;
   sw_error err = {""};
-  const size_t n = 3 * info_of(L, &scene, &p).particles;
+  const size_t n = 3 * info_of(L, &p).particles;
   double *x = lua_newuserdatauv(L, n * sizeof *x, 0);
   lsw_must(
-      L, sw_scene_particles_copy(scene, p->id, velocities ? NULL : x, velocities ? x : NULL, &err),
+      L, sw_scene_particles_copy(p.scene, p.id, velocities ? NULL : x, velocities ? x : NULL, &err),
       &err);
   lsw_push_flat(L, x, n);
   return 1;
@@ -81,17 +80,16 @@ static int meth_velocities(lua_State *L) { return push_copy(L, 1); }
 
 /* object:particle(i) -> position [m], velocity [m/s] */
 static int meth_particle(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
+  lsw_self p;
   sw_error err = {""};
   sw_vec x, v;
-  info_of(L, &scene, &p);
+  info_of(L, &p);
   int whole;
   const lua_Integer i = lua_tointegerx(L, 2, &whole);
   if (!whole || i < 1)
     return luaL_error(L, "particles:particle takes the number of a particle, from 1 on, got %s",
                       lsw_describe(L, 2));
-  lsw_must(L, sw_scene_particle(scene, p->id, (size_t)i - 1, &x, &v, &err), &err);
+  lsw_must(L, sw_scene_particle(p.scene, p.id, (size_t)i - 1, &x, &v, &err), &err);
   lsw_push_vector(L, x);
   lsw_push_vector(L, v);
   return 2;
@@ -99,12 +97,11 @@ static int meth_particle(lua_State *L) {
 
 /* object:links() -> flat lists of all links: force pulling [N], strain [-], plastic strain [-] */
 static int meth_links(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
+  lsw_self p;
   sw_error err = {""};
-  const size_t n = info_of(L, &scene, &p).links;
+  const size_t n = info_of(L, &p).links;
   double *values = lua_newuserdatauv(L, (3 * n + 1) * sizeof *values, 0);
-  lsw_must(L, sw_scene_particles_links(scene, p->id, values, values + n, values + 2 * n, &err),
+  lsw_must(L, sw_scene_particles_links(p.scene, p.id, values, values + n, values + 2 * n, &err),
            &err);
   for (size_t k = 0; k < 3; k++) lsw_push_flat(L, values + k * n, n);
   return 3;
@@ -112,18 +109,17 @@ static int meth_links(lua_State *L) {
 
 /* object:energy() -> { kinetic =, stretch =, ... } of it alone [J] */
 static int meth_energy(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
+  lsw_self p;
   sw_error err = {""};
   sw_energy e;
-  info_of(L, &scene, &p);
-  lsw_must(L, sw_scene_body_energy(scene, p->id, &e, &err), &err);
+  info_of(L, &p);
+  lsw_must(L, sw_scene_body_energy(p.scene, p.id, &e, &err), &err);
   lsw_push_energy(L, &e);
   return 1;
 }
 
 /* A flat list of three numbers for each particle. */
-static int set_all(lua_State *L, sw_scene *scene, const lsw_child *p, size_t count) {
+static int set_all(lua_State *L, lsw_self p, size_t count) {
   sw_error err = {""};
   const size_t n = 3 * count;
   if (lua_rawlen(L, 2) != n)
@@ -137,81 +133,74 @@ static int set_all(lua_State *L, sw_scene *scene, const lsw_child *p, size_t cou
     v[i] = lsw_number(L, -1, "particles:set_velocity: an item", "m/s");
     lua_pop(L, 1);
   }
-  lsw_must(L, sw_scene_particles_set_velocities(scene, p->id, v, &err), &err);
+  lsw_must(L, sw_scene_particles_set_velocities(p.scene, p.id, v, &err), &err);
   return 0;
 }
 
 /* object:set_velocity(v [, omega [, about]]) moves it as a rigid body; with a flat list of all
  * velocities each particle [m/s]. */
 static int meth_set_velocity(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
+  lsw_self p;
   sw_error err = {""};
   const sw_vec zero = sw_v(0, 0, 0);
-  const size_t count = info_of(L, &scene, &p).particles;
-  if (lua_istable(L, 2) && lua_rawlen(L, 2) > 3) return set_all(L, scene, p, count);
+  const size_t count = info_of(L, &p).particles;
+  if (lua_istable(L, 2) && lua_rawlen(L, 2) > 3) return set_all(L, p, count);
   const sw_vec v = lsw_vector(L, 2, "particles:set_velocity: velocity", "m/s");
   const sw_vec omega =
       lua_isnoneornil(L, 3) ? zero : lsw_vector(L, 3, "particles:set_velocity: omega", "rad/s");
   const sw_vec about =
       lua_isnoneornil(L, 4) ? zero : lsw_vector(L, 4, "particles:set_velocity: about", "m");
-  lsw_must(L, sw_scene_wire_set_velocity(scene, p->id, v, omega, about, &err), &err);
+  lsw_must(L, sw_scene_wire_set_velocity(p.scene, p.id, v, omega, about, &err), &err);
   return 0;
 }
 
 /* --- what it is ----------------------------------------------------------------- */
 
 static int prop_name(lua_State *L) {
-  sw_scene *scene;
   double gone; /* objects that were taken away have their name still */
-  const lsw_child *p = lsw_check_child(L, 1, &lsw_class_particles, &scene);
-  const char *name = sw_scene_wire_name(scene, p->id);
-  lua_pushstring(L, name ? name : sw_scene_gone_name(scene, p->id, &gone));
+  const lsw_self p = lsw_check_self(L, &lsw_class_particles);
+  const char *name = sw_scene_wire_name(p.scene, p.id);
+  lua_pushstring(L, name ? name : sw_scene_gone_name(p.scene, p.id, &gone));
   return 1;
 }
 
 static int prop_present(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p = lsw_check_child(L, 1, &lsw_class_particles, &scene);
-  lua_pushboolean(L, sw_scene_wire_name(scene, p->id) != NULL);
+  const lsw_self p = lsw_check_self(L, &lsw_class_particles);
+  lua_pushboolean(L, sw_scene_wire_name(p.scene, p.id) != NULL);
   return 1;
 }
 
 static int prop_count(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
-  lua_pushinteger(L, (lua_Integer)info_of(L, &scene, &p).particles);
+  lsw_self p;
+  lua_pushinteger(L, (lua_Integer)info_of(L, &p).particles);
   return 1;
 }
 
 static int prop_mass(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
-  lua_pushnumber(L, info_of(L, &scene, &p).mass);
+  lsw_self p;
+  lua_pushnumber(L, info_of(L, &p).mass);
   return 1;
 }
 
 static int prop_radius(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *p;
-  lua_pushnumber(L, info_of(L, &scene, &p).radius);
+  lsw_self p;
+  lua_pushnumber(L, info_of(L, &p).radius);
   return 1;
 }
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
+  lsw_self p;
   sw_error err;
   sw_particles_info info;
   char text[SW_NAME_SIZE + 160];
-  const lsw_child *p = lsw_find_child(L, &lsw_class_particles, &scene);
-  if (!p) return 1;
-  const char *gone = sw_scene_gone_name(scene, p->id, &info.mass);
+  if (!lsw_find_self(L, &lsw_class_particles, &p)) return 1;
+  const char *gone = sw_scene_gone_name(p.scene, p.id, &info.mass);
   if (gone) return lua_pushfstring(L, "particles '%s' (taken away)", gone), 1;
-  if (sw_scene_particles_info(scene, p->id, &info, &err) != SW_OK)
+  if (sw_scene_particles_info(p.scene, p.id, &info, &err) != SW_OK)
     return lua_pushliteral(L, "particles (gone)"), 1;
   snprintf(text, sizeof text,
            "particles '%s': %zu of them, %zu links, %zu folds, %zu elements, %.6g kg",
-           sw_scene_wire_name(scene, p->id), info.particles, info.links, info.folds, info.elements,
+           sw_scene_wire_name(p.scene, p.id), info.particles, info.links, info.folds, info.elements,
            info.mass);
   lua_pushstring(L, text);
   return 1;

@@ -32,22 +32,21 @@ static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *m
 /* -> { energy_before, energy_after, energy_change [J], before, after = { linear [N s], angular
  * [N m s] about the place `about` [m] } } */
 int lsw_wire_remodel(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_wire_args args = {0};
   sw_wire_mesh_args mesh;
   sw_remodel_report r;
   double region[2];
   lua_settop(L, 2);
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   args.model = read_arguments(L, &args, &mesh, region);
   if (args.segments == 1)
     return luaL_error(L, "wire:remodel: segments = 1 is not allowed; it must be 2 or more");
   sw_params_default(&sw_section_params, &mesh.section);
   mesh.section.EI2 = (double)NAN;
-  lsw_must(L,
-           sw_scene_remodel(scene, w->id, &args, &mesh, isnan(region[0]) ? NULL : region, &r, &err),
-           &err);
+  lsw_must(
+      L, sw_scene_remodel(w.scene, w.id, &args, &mesh, isnan(region[0]) ? NULL : region, &r, &err),
+      &err);
   lua_createtable(L, 0, 6);
   lsw_set_number(L, "energy_before", r.energy_before);
   lsw_set_number(L, "energy_after", r.energy_after);

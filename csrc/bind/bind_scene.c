@@ -170,24 +170,22 @@ static int mod_remesh(lua_State *L) {
 
 /* core.redraw(wire, rolls, EA, EI, GJ): a rod with other stiffnesses (factors), or that rolls. */
 static int mod_redraw(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_redrawing as = {.rolls = lua_toboolean(L, 2),
                            .EA = luaL_optnumber(L, 3, 1),
                            .EI = luaL_optnumber(L, 4, 1),
                            .GJ = luaL_optnumber(L, 5, 1)};
-  lsw_must(L, sw_scene_redraw(scene, w->id, &as, &err), &err);
+  lsw_must(L, sw_scene_redraw(w.scene, w.id, &as, &err), &err);
   return 0;
 }
 
 /* core.segments(wire): even ones of its mesh, before holds added nodes. */
 static int mod_segments(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   size_t n;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_segments(scene, w->id, &n, &err), &err);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_wire_segments(w.scene, w.id, &n, &err), &err);
   lua_pushinteger(L, (lua_Integer)n);
   return 1;
 }

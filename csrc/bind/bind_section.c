@@ -16,13 +16,13 @@ static void set_stress(lua_State *L, double E, const double *strain, size_t coun
 }
 
 /* The width along up, where the wire does not go that way itself. */
-static void set_height(lua_State *L, sw_scene *scene, sw_handle wire, double s, sw_vec tangent) {
-  const sw_vec g = sw_scene_gravity(scene);
+static void set_height(lua_State *L, lsw_self w, double s, sw_vec tangent) {
+  const sw_vec g = sw_scene_gravity(w.scene);
   const sw_vec up = sw_unit_or(sw_neg(g), sw_v(0, 0, 1));
   sw_error err = {""};
   double height;
   if (fabs(sw_dot(up, tangent)) > 0.999) return; /* nothing across the wire points up */
-  lsw_must(L, sw_scene_wire_width(scene, wire, s, up, &height, &err), &err);
+  lsw_must(L, sw_scene_wire_width(w.scene, w.id, s, up, &height, &err), &err);
   lsw_set_number(L, "height", height);
 }
 
@@ -48,45 +48,43 @@ static void push_section(lua_State *L, const sw_section_shape *p) {
 
 /* wire:section(s) -> table */
 int lsw_wire_section(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_beam beam;
   size_t n;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire:section: s", "m");
-  lsw_must(L, sw_scene_wire_outline(scene, w->id, &n, &err), &err);
-  lsw_must(L, sw_scene_wire_beam(scene, w->id, &beam, &err), &err);
+  lsw_must(L, sw_scene_wire_outline(w.scene, w.id, &n, &err), &err);
+  lsw_must(L, sw_scene_wire_beam(w.scene, w.id, &beam, &err), &err);
   double *room = lua_newuserdatauv(L, 8 * n * sizeof *room, 0);
   sw_section_shape p = {
       .particles = room, .surface = room + 3 * n, .axial = room + 6 * n, .hoop = room + 7 * n};
-  lsw_must(L, sw_scene_wire_section(scene, w->id, s, &p, &err), &err);
+  lsw_must(L, sw_scene_wire_section(w.scene, w.id, s, &p, &err), &err);
   push_section(L, &p);
   lsw_set_number(L, "s", s);
   set_stress(L, beam.E, p.axial, n);
-  set_height(L, scene, w->id, s, p.tangent);
+  set_height(L, w, s, p.tangent);
   return 1;
 }
 
 /* wire:width(s, direction) [m] */
 int lsw_wire_width(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   double width;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire:width: s", "m");
   const sw_vec direction = lsw_vector(L, 3, "wire:width: direction", "-");
-  lsw_must(L, sw_scene_wire_width(scene, w->id, s, direction, &width, &err), &err);
+  lsw_must(L, sw_scene_wire_width(w.scene, w.id, s, direction, &width, &err), &err);
   lua_pushnumber(L, width);
   return 1;
 }
 
 /* The place at index 2, which must be on the wire; NAN: none is given. */
-static double read_place(lua_State *L, sw_scene *scene, sw_handle wire, const char *what) {
+static double read_place(lua_State *L, lsw_self w, const char *what) {
   sw_error err = {""};
   sw_point_state any;
   if (lua_isnoneornil(L, 2)) return (double)NAN;
   const double s = lsw_number(L, 2, what, "m");
-  lsw_must(L, sw_scene_wire_at(scene, wire, s, &any, &err), &err);
+  lsw_must(L, sw_scene_wire_at(w.scene, w.id, s, &any, &err), &err);
   return s;
 }
 
@@ -98,15 +96,15 @@ typedef struct pressed {
 } pressed;
 
 /* Arrays in a userdata on the stack. */
-static pressed read_pressed(lua_State *L, sw_scene *scene, sw_handle wire) {
+static pressed read_pressed(lua_State *L, lsw_self w) {
   sw_error err = {""};
   pressed p;
-  lsw_must(L, sw_scene_wire_particles(scene, wire, &p.n, &err), &err);
+  lsw_must(L, sw_scene_wire_particles(w.scene, w.id, &p.n, &err), &err);
   p.x = lua_newuserdatauv(L, 9 * p.n * sizeof *p.x, 0);
   p.force = p.x + 3 * p.n, p.arc = p.force + 3 * p.n;
   p.normal = p.arc + p.n, p.area = p.normal + p.n;
-  lsw_must(L, sw_scene_wire_pressed(scene, wire, p.force, p.normal, p.area, p.arc, &err), &err);
-  lsw_must(L, sw_scene_wire_particle_copy(scene, wire, p.x, p.arc, &err), &err);
+  lsw_must(L, sw_scene_wire_pressed(w.scene, w.id, p.force, p.normal, p.area, p.arc, &err), &err);
+  lsw_must(L, sw_scene_wire_particle_copy(w.scene, w.id, p.x, p.arc, &err), &err);
   return p;
 }
 
@@ -131,10 +129,9 @@ static void push_particle(lua_State *L, const pressed *p, size_t i) {
 
 /* wire:contact_pressure([s]) -> list of the particles that obstacles press, .largest [Pa] */
 int lsw_wire_contact_pressure(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  const double s = read_place(L, scene, w->id, "wire:contact_pressure: s");
-  const pressed p = read_pressed(L, scene, w->id);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const double s = read_place(L, w, "wire:contact_pressure: s");
+  const pressed p = read_pressed(L, w);
   const double only = isnan(s) ? s : nearest(&p, s);
   double largest = 0;
   lua_Integer count = 0;
@@ -156,16 +153,15 @@ int lsw_wire_contact_pressure(lua_State *L) {
 
 /* wire:von_mises([s]) -> list of the elements' stress, .largest [Pa] and where */
 int lsw_wire_von_mises(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   size_t n, best = 0;
   lua_Integer count = 0;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_elements(scene, w->id, &n, &err), &err);
-  const double s = read_place(L, scene, w->id, "wire:von_mises: s");
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_wire_elements(w.scene, w.id, &n, &err), &err);
+  const double s = read_place(L, w, "wire:von_mises: s");
   double *mises = lua_newuserdatauv(L, 6 * n * sizeof *mises, 0);
   double *middle = mises + n, *arc = middle + 3 * n;
-  lsw_must(L, sw_scene_wire_mises(scene, w->id, mises, middle, arc, &err), &err);
+  lsw_must(L, sw_scene_wire_mises(w.scene, w.id, mises, middle, arc, &err), &err);
   lua_newtable(L);
   for (size_t i = 0; i < n; i++) {
     if (!isnan(s) && (s < arc[2 * i] || s > arc[2 * i + 1])) continue;

@@ -32,39 +32,34 @@ int lsw_scene_tool(lua_State *L) {
   return 1;
 }
 
-static lsw_child *check(lua_State *L, sw_scene **scene) {
-  return lsw_check_child(L, 1, &lsw_class_tool, scene);
-}
+static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_tool); }
 
 /* tool:pad(obstacle, finger, opens): the obstacle goes with the tool from now on. */
 static int meth_pad(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *t = check(L, &scene);
-  const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, scene, "tool:pad");
+  const lsw_self t = check(L);
+  const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad");
   const lua_Integer finger = lsw_integer(L, 3, "tool: the number of the finger");
   luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
-  lsw_must(L, sw_scene_tool_pad(scene, t->id, o->id, (int)finger - 1, opens, &err), &err);
+  lsw_must(L, sw_scene_tool_pad(t.scene, t.id, o->id, (int)finger - 1, opens, &err), &err);
   return 0;
 }
 
 static int meth_hold(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *t = check(L, &scene);
-  const lsw_child *h = lsw_check_child_of(L, 2, &lsw_class_clamp, scene, "tool:hold");
-  lsw_must(L, sw_scene_tool_hold(scene, t->id, h->id, &err), &err);
+  const lsw_self t = check(L);
+  const lsw_child *h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:hold");
+  lsw_must(L, sw_scene_tool_hold(t.scene, t.id, h->id, &err), &err);
   return 0;
 }
 
 static int meth_pads_on(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *t = check(L, &scene);
+  const lsw_self t = check(L);
   if (!lua_isboolean(L, 2))
     luaL_error(L, "tool:pads_on must be true or false, got %s", lsw_describe(L, 2));
-  lsw_must(L, sw_scene_tool_pads_on(scene, t->id, lua_toboolean(L, 2), &err), &err);
+  lsw_must(L, sw_scene_tool_pads_on(t.scene, t.id, lua_toboolean(L, 2), &err), &err);
   return 0;
 }
 
@@ -90,22 +85,20 @@ static const sw_param jaw_rows[] = {
 static const sw_params jaw_params = SW_PARAMS("tool:jaws", jaw_rows);
 
 static int meth_jaws(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_jaw_args args;
-  const lsw_child *t = check(L, &scene);
+  const lsw_self t = check(L);
   lsw_arguments(L, 2, "tool:jaws", &jaw_params, &args);
-  lsw_must(L, sw_scene_tool_jaws(scene, t->id, &args, &err), &err);
+  lsw_must(L, sw_scene_tool_jaws(t.scene, t.id, &args, &err), &err);
   return 0;
 }
 
 /* tool:watch(slip [m], stops): slip beyond it is an event, which may end a run. */
 static int meth_watch(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *t = check(L, &scene);
+  const lsw_self t = check(L);
   const double slip = lsw_number(L, 2, "tool:watch: slip", "m");
-  lsw_must(L, sw_scene_tool_watch(scene, t->id, slip, lua_toboolean(L, 3), &err), &err);
+  lsw_must(L, sw_scene_tool_watch(t.scene, t.id, slip, lua_toboolean(L, 3), &err), &err);
   return 0;
 }
 
@@ -114,11 +107,10 @@ static const char *const statuses[] = {"rests", "moves", "holds", "stopped", "em
 /* tool:state() -> { opening, jaws, squeeze, normal, margin, sliding, slip, slipped, place } and,
  * when it slipped, slip_time, slip_place. */
 static int meth_state(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_tool_state now;
-  const lsw_child *t = check(L, &scene);
-  lsw_must(L, sw_scene_tool_state(scene, t->id, &now, &err), &err);
+  const lsw_self t = check(L);
+  lsw_must(L, sw_scene_tool_state(t.scene, t.id, &now, &err), &err);
   lua_createtable(L, 0, 12);
   lsw_set_text(L, "jaws", statuses[now.status]);
   lsw_set_number(L, "opening", now.opening);
@@ -146,10 +138,9 @@ static int meth_state(lua_State *L) {
 
 /* tool:force([finger]), tool:moment([point [, finger]]): on wires [N], [N m]. */
 static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec *moment) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_vec about;
-  const lsw_child *t = check(L, &scene);
+  const lsw_self t = check(L);
   const sw_vec *at = NULL;
   if (point && !lua_isnoneornil(L, point)) {
     about = lsw_vector(L, point, "gripper:moment: at", "m");
@@ -157,8 +148,8 @@ static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec 
   }
   const sw_status status =
       lua_isnoneornil(L, finger)
-          ? sw_scene_tool_force(scene, t->id, at, force, moment, &err)
-          : sw_scene_tool_finger(scene, t->id,
+          ? sw_scene_tool_force(t.scene, t.id, at, force, moment, &err)
+          : sw_scene_tool_finger(t.scene, t.id,
                                  (int)lsw_integer(L, finger, "tool: the number of the finger") - 1,
                                  at, force, moment, &err);
   lsw_must(L, status, &err);
@@ -188,16 +179,15 @@ static int meth_log(lua_State *L) {
 /* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,
  * wire_name }, ... } */
 static int meth_touches(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   size_t count;
   lua_Integer found = 0;
-  const lsw_child *t = check(L, &scene);
-  lsw_must(L, sw_scene_tool_touches(scene, t->id, &count, &err), &err);
+  const lsw_self t = check(L);
+  lsw_must(L, sw_scene_tool_touches(t.scene, t.id, &count, &err), &err);
   lua_newtable(L);
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;
-    if (!sw_scene_tool_touch(scene, t->id, k, &touch)) continue;
+    if (!sw_scene_tool_touch(t.scene, t.id, k, &touch)) continue;
     lua_createtable(L, 0, 7);
     lsw_set_text(L, "wire_name", touch.name);
     lsw_set_integer(L, "finger", (size_t)touch.finger + 1);
@@ -228,31 +218,28 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
 /* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N],
  * moment [N m] of the tool before, before, after = momentum { linear, angular } } */
 static int meth_freeze(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_freeze_report r;
-  const lsw_child *t = check(L, &scene);
-  const lsw_child *w = lsw_check_child_of(L, 2, &lsw_class_wire, scene, "tool:freeze");
-  lsw_must(L, sw_scene_tool_freeze(scene, t->id, w->id, sw_scene_balance, &r, &err), &err);
+  const lsw_self t = check(L);
+  const lsw_child *w = lsw_check_child_of(L, 2, &lsw_class_wire, t.scene, "tool:freeze");
+  lsw_must(L, sw_scene_tool_freeze(t.scene, t.id, w->id, sw_scene_balance, &r, &err), &err);
   return push_report(L, &r);
 }
 
 static int meth_thaw(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_freeze_report r;
-  const lsw_child *t = check(L, &scene);
-  lsw_must(L, sw_scene_tool_thaw(scene, t->id, sw_scene_balance, &r, &err), &err);
+  const lsw_self t = check(L);
+  lsw_must(L, sw_scene_tool_thaw(t.scene, t.id, sw_scene_balance, &r, &err), &err);
   return push_report(L, &r);
 }
 
 /* tool:limit(margin): at which a frozen grip is lost. */
 static int meth_limit(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *t = check(L, &scene);
+  const lsw_self t = check(L);
   const double margin = lsw_number(L, 2, "tool:limit: margin", "-");
-  lsw_must(L, sw_scene_tool_limit(scene, t->id, margin, &err), &err);
+  lsw_must(L, sw_scene_tool_limit(t.scene, t.id, margin, &err), &err);
   return 0;
 }
 
@@ -266,10 +253,9 @@ static const luaL_Reg methods[] = {{"pad", meth_pad},         {"hold", meth_hold
                                    {"limit", meth_limit},     {NULL, NULL}};
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *t = lsw_find_child(L, &lsw_class_tool, &scene);
-  if (!t) return 1;
-  const char *name = sw_scene_tool_name(scene, t->id);
+  lsw_self t;
+  if (!lsw_find_self(L, &lsw_class_tool, &t)) return 1;
+  const char *name = sw_scene_tool_name(t.scene, t.id);
   if (name)
     lua_pushfstring(L, "tool '%s'", name);
   else

@@ -11,24 +11,23 @@ static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
 }
 
 /* The wire at 1, and how many places of it are kept; partial: of a part of the run only. */
-static const lsw_child *wire_at(lua_State *L, sw_scene **scene, size_t *places, int *partial) {
+static lsw_self wire_at(lua_State *L, size_t *places, int *partial) {
   sw_error err = {""};
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, scene);
-  lsw_must(L, sw_scene_worn(*scene, w->id, places, partial, &err), &err);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_worn(w.scene, w.id, places, partial, &err), &err);
   return w;
 }
 
 /* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }, is it of a part of the run
  * only?; nil where nothing is kept */
 static int mod_worn(lua_State *L) {
-  sw_scene *scene;
   size_t count;
   int partial;
-  const lsw_child *w = wire_at(L, &scene, &count, &partial);
+  const lsw_self w = wire_at(L, &count, &partial);
   if (!count) return 0;
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {
-    const sw_worn x = sw_scene_worn_place(scene, w->id, k);
+    const sw_worn x = sw_scene_worn_place(w.scene, w.id, k);
     lua_createtable(L, 0, 4);
     lsw_set_number(L, "s", x.s);
     lsw_set_number(L, "rubbed", x.rubbed);
@@ -44,12 +43,11 @@ static int mod_worn(lua_State *L) {
 /* core.worn_sidewall(wire) -> largest pressure T/R where it touched [N/m], where [m], when [s]; nil
  * where nothing is kept, or of a part of the run only */
 static int mod_worn_sidewall(lua_State *L) {
-  sw_scene *scene;
   size_t count;
   int partial;
-  const lsw_child *w = wire_at(L, &scene, &count, &partial);
+  const lsw_self w = wire_at(L, &count, &partial);
   if (!count || partial) return 0;
-  const sw_extreme x = sw_scene_worn_sidewall(scene, w->id);
+  const sw_extreme x = sw_scene_worn_sidewall(w.scene, w.id);
   lua_pushnumber(L, x.value), lua_pushnumber(L, x.s), lua_pushnumber(L, x.time);
   return 3;
 }
@@ -58,18 +56,17 @@ static int mod_worn_sidewall(lua_State *L) {
  * reversals among them that wait for their cycle; signal 0: the tension [N], others: the bend in
  * one of 12 directions over half a turn [1/m] */
 static int mod_worn_cycles(lua_State *L) {
-  sw_scene *scene;
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
   size_t count;
   int partial;
-  const lsw_child *w = wire_at(L, &scene, &count, &partial);
+  const lsw_self w = wire_at(L, &count, &partial);
   const lua_Integer k = lsw_integer(L, 2, "worn_cycles: the place");
   const lua_Integer signal = lsw_integer(L, 3, "worn_cycles: the signal");
   luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
   luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
   double open[SW_CYCLES_OPEN];
-  push_cycles(L, list, sw_scene_worn_cycles(scene, w->id, (size_t)k - 1, (int)signal, list));
-  lsw_push_flat(L, open, sw_scene_worn_open(scene, w->id, (size_t)k - 1, (int)signal, open));
+  push_cycles(L, list, sw_scene_worn_cycles(w.scene, w.id, (size_t)k - 1, (int)signal, list));
+  lsw_push_flat(L, open, sw_scene_worn_open(w.scene, w.id, (size_t)k - 1, (int)signal, open));
   return 2;
 }
 

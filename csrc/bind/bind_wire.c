@@ -114,12 +114,11 @@ int lsw_scene_wire(lua_State *L) {
 /* --- read-outs ---------------------------------------------------------------- */
 
 static sw_point_state at(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_point_state p;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire: s", "m");
-  lsw_must(L, sw_scene_wire_at(scene, w->id, s, &p, &err), &err);
+  lsw_must(L, sw_scene_wire_at(w.scene, w.id, s, &p, &err), &err);
   return p;
 }
 
@@ -128,12 +127,11 @@ static int meth_tangent(lua_State *L) { return lsw_push_vector(L, at(L).tangent)
 static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocity), 1; }
 
 static int push_readout(lua_State *L, const sw_readout *r) {
-  sw_scene *scene;
   sw_error err = {""};
   double value;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = r->at_place ? lsw_number(L, 2, "wire: s", "m") : 0.0;
-  lsw_must(L, r->read(scene, w->id, s, &value, &err), &err);
+  lsw_must(L, r->read(w.scene, w.id, s, &value, &err), &err);
   return lua_pushnumber(L, value), 1;
 }
 
@@ -143,11 +141,10 @@ SW_READOUTS(READOUT)
 #undef READOUT
 
 static double modulus(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_beam b;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_beam(scene, w->id, &b, &err), &err);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_wire_beam(w.scene, w.id, &b, &err), &err);
   return b.E;
 }
 
@@ -162,21 +159,20 @@ static int push_fibres(lua_State *L, double factor) {
 static int meth_strain(lua_State *L) { return push_fibres(L, 1.0); }
 static int meth_stress(lua_State *L) { return push_fibres(L, modulus(L)); }
 
-static size_t node_count(lua_State *L, sw_scene *scene, const lsw_child *w) {
+static size_t node_count(lua_State *L, lsw_self w) {
   size_t n;
   sw_error err = {""};
-  lsw_must(L, sw_scene_wire_nodes(scene, w->id, &n, &err), &err);
+  lsw_must(L, sw_scene_wire_nodes(w.scene, w.id, &n, &err), &err);
   return n;
 }
 
 /* Flat {x1, y1, z1, x2, ...} of all nodes [m], and their arc lengths [m]. */
 static int meth_positions(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  const size_t n = node_count(L, scene, w);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const size_t n = node_count(L, w);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
-  lsw_must(L, sw_scene_wire_copy(scene, w->id, x, x + 3 * n, NULL, &err), &err);
+  lsw_must(L, sw_scene_wire_copy(w.scene, w.id, x, x + 3 * n, NULL, &err), &err);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
   return 2;
@@ -185,56 +181,52 @@ static int meth_positions(lua_State *L) {
 /* Flat {x1, y1, z1, x2, ...} of all particles of a mesh, ring by ring, and their arc lengths; of
  * any other wire its nodes [m]. */
 static int meth_particles(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   size_t n;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_particles(scene, w->id, &n, &err), &err);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_wire_particles(w.scene, w.id, &n, &err), &err);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
-  lsw_must(L, sw_scene_wire_particle_copy(scene, w->id, x, x + 3 * n, &err), &err);
+  lsw_must(L, sw_scene_wire_particle_copy(w.scene, w.id, x, x + 3 * n, &err), &err);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
   return 2;
 }
 
 static int meth_velocities(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  const size_t n = node_count(L, scene, w);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const size_t n = node_count(L, w);
   double *v = lua_newuserdatauv(L, 3 * n * sizeof *v, 0);
-  lsw_must(L, sw_scene_wire_copy(scene, w->id, NULL, NULL, v, &err), &err);
+  lsw_must(L, sw_scene_wire_copy(w.scene, w.id, NULL, NULL, v, &err), &err);
   lsw_push_flat(L, v, 3 * n);
   return 1;
 }
 
 /* wire:set_velocity(v [, omega [, about]]) */
 static int meth_set_velocity(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   const sw_vec zero = sw_v(0, 0, 0);
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_vec v = lsw_vector(L, 2, "wire:set_velocity: velocity", "m/s");
   const sw_vec omega =
       lua_isnoneornil(L, 3) ? zero : lsw_vector(L, 3, "wire:set_velocity: omega", "rad/s");
   const sw_vec about =
       lua_isnoneornil(L, 4) ? zero : lsw_vector(L, 4, "wire:set_velocity: about", "m");
-  lsw_must(L, sw_scene_wire_set_velocity(scene, w->id, v, omega, about, &err), &err);
+  lsw_must(L, sw_scene_wire_set_velocity(w.scene, w.id, v, omega, about, &err), &err);
   return 0;
 }
 
 /* The options table { now = true } asks for the present value. */
 static sw_wire_extremes read_extremes(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_wire_extremes present, run;
   int now = 0;
   static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
                                    "present value instead of the run's extreme"}};
   static const sw_params params = SW_PARAMS("wire", rows);
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   lsw_arguments(L, 2, "wire", &params, &now);
-  lsw_must(L, sw_scene_wire_extremes(scene, w->id, &present, &run, &err), &err);
+  lsw_must(L, sw_scene_wire_extremes(w.scene, w.id, &present, &run, &err), &err);
   return now ? present : run;
 }
 
@@ -268,19 +260,18 @@ static const sw_params tension_params = SW_PARAMS("wire:max_tension", tension_ro
 /* Largest tension [N], where [m], when [s]: of means over the run's window. { raw = true } or
  * { window = 0 }: of single steps, and how long that one was [s]. */
 static int meth_max_tension(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_wire_extremes now, run;
   tension_args args;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   lsw_arguments(L, 2, "wire:max_tension", &tension_params, &args);
-  const double kept = sw_scene_window(scene);
+  const double kept = sw_scene_window(w.scene);
   if (args.window > 0 && fabs(args.window - kept) > 1e-9 * kept)
     luaL_error(L,
                "wire:max_tension: window = %f s: of this run means over %f s are kept, and raw "
                "values (window = 0); give it to scene:run{ window = } to have others",
                args.window, kept);
-  lsw_must(L, sw_scene_wire_extremes(scene, w->id, &now, &run, &err), &err);
+  lsw_must(L, sw_scene_wire_extremes(w.scene, w.id, &now, &run, &err), &err);
   if (args.now) return push_extreme(L, now.tension.value, &now.tension);
   if (!args.raw && args.window != 0) return push_extreme(L, run.tension.value, &run.tension);
   push_extreme(L, run.raw.value, &run.raw);
@@ -302,27 +293,25 @@ static int meth_max_stress(lua_State *L) {
 
 /* Largest torsion M_t / GJ of a line [rad/m], where [m], when [s]. */
 static int meth_max_torsion(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).torsion;
-  if (!sw_scene_wire_calibration(scene, w->id)) return push_extreme(L, x.value, &x);
+  if (!sw_scene_wire_calibration(w.scene, w.id)) return push_extreme(L, x.value, &x);
   return luaL_error(
       L,
       "wire:max_torsion: wire '%s' is a %s; the torsion of a mesh of particles is not "
       "kept, frames have its twist_moment",
-      sw_scene_wire_name(scene, w->id), sw_scene_wire_model(scene, w->id));
+      sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 
 /* Largest ovalisation of a section of a mesh [-], where [m], when [s]. */
 static int meth_max_ovalisation(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).ovalisation;
-  if (sw_scene_wire_calibration(scene, w->id)) return push_extreme(L, x.value, &x);
+  if (sw_scene_wire_calibration(w.scene, w.id)) return push_extreme(L, x.value, &x);
   return luaL_error(L,
                     "wire:max_ovalisation: wire '%s' is a %s, whose section does not change; it is "
                     "known of meshes of particles",
-                    sw_scene_wire_name(scene, w->id), sw_scene_wire_model(scene, w->id));
+                    sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 
 /* Where [m] and when [s] in the run a section of springs has first folded through itself, which
@@ -341,28 +330,25 @@ static int meth_log(lua_State *L) {
 }
 
 static int prop_length(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   double length;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_length(scene, w->id, &length, &err), &err);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_wire_length(w.scene, w.id, &length, &err), &err);
   lua_pushnumber(L, length);
   return 1;
 }
 
 static int prop_segments(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lua_pushinteger(L, (lua_Integer)node_count(L, scene, w) - 1);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lua_pushinteger(L, (lua_Integer)node_count(L, w) - 1);
   return 1;
 }
 
 static int push_beam(lua_State *L) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_beam b;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lsw_must(L, sw_scene_wire_beam(scene, w->id, &b, &err), &err);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lsw_must(L, sw_scene_wire_beam(w.scene, w.id, &b, &err), &err);
   lua_createtable(L, 0, 5);
   lsw_set_number(L, "EA", b.EA);
   lsw_set_number(L, "EI", b.EI);
@@ -381,44 +367,40 @@ static int prop_radius(lua_State *L) {
 }
 
 static int prop_model(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lua_pushstring(L, sw_scene_wire_model(scene, w->id));
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lua_pushstring(L, sw_scene_wire_model(w.scene, w.id));
   return 1;
 }
 
 static int prop_name(lua_State *L) {
-  sw_scene *scene;
   double gone; /* a wire that was taken away has its name still */
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  const char *name = sw_scene_wire_name(scene, w->id);
-  lua_pushstring(L, name ? name : sw_scene_gone_name(scene, w->id, &gone));
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const char *name = sw_scene_wire_name(w.scene, w.id);
+  lua_pushstring(L, name ? name : sw_scene_gone_name(w.scene, w.id, &gone));
   return 1;
 }
 
 static int prop_present(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  lua_pushboolean(L, sw_scene_wire_name(scene, w->id) != NULL);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  lua_pushboolean(L, sw_scene_wire_name(w.scene, w.id) != NULL);
   return 1;
 }
 
 static int meta_describe(lua_State *L) {
-  sw_scene *scene;
+  lsw_self w;
   sw_error err;
   double length = 0;
   size_t nodes = 1;
   char text[SW_NAME_SIZE + 96];
-  const lsw_child *w = lsw_find_child(L, &lsw_class_wire, &scene);
-  if (!w) return 1;
-  const char *name = sw_scene_wire_name(scene, w->id);
-  const char *gone = name ? NULL : sw_scene_gone_name(scene, w->id, &length);
+  if (!lsw_find_self(L, &lsw_class_wire, &w)) return 1;
+  const char *name = sw_scene_wire_name(w.scene, w.id);
+  const char *gone = name ? NULL : sw_scene_gone_name(w.scene, w.id, &length);
   if (gone) return lua_pushfstring(L, "wire '%s' (taken away)", gone), 1;
-  if (sw_scene_wire_length(scene, w->id, &length, &err) != SW_OK ||
-      sw_scene_wire_nodes(scene, w->id, &nodes, &err) != SW_OK)
+  if (sw_scene_wire_length(w.scene, w.id, &length, &err) != SW_OK ||
+      sw_scene_wire_nodes(w.scene, w.id, &nodes, &err) != SW_OK)
     return lua_pushliteral(L, "wire (gone)"), 1;
   snprintf(text, sizeof text, "wire '%s': %.6g m, %zu segments, t = %.6g s", name, length,
-           nodes - 1, sw_scene_time(scene));
+           nodes - 1, sw_scene_time(w.scene));
   lua_pushstring(L, text);
   return 1;
 }

@@ -27,13 +27,12 @@ static void set_known(lua_State *L, const char *name, double value) {
 /* core.zones(wire) -> { { name, temperature [degC], and where a step was watched gap [m], s [m],
  * time [s], between [m], inside [s] }, ... } */
 static int mod_zones(lua_State *L) {
-  sw_scene *scene;
-  const lsw_child *w = lsw_check_child(L, 1, &lsw_class_wire, &scene);
-  const size_t count = sw_scene_zones(scene);
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  const size_t count = sw_scene_zones(w.scene);
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {
-    const sw_zone *z = sw_scene_zone(scene, k);
-    const sw_zone_past *past = sw_scene_zone_past(scene, w->id, k);
+    const sw_zone *z = sw_scene_zone(w.scene, k);
+    const sw_zone_past *past = sw_scene_zone_past(w.scene, w.id, k);
     lua_createtable(L, 0, 7);
     lsw_set_text(L, "name", z->name);
     set_known(L, "temperature", z->temperature);

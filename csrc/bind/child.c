@@ -29,6 +29,12 @@ lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene
   return child;
 }
 
+lsw_self lsw_check_self(lua_State *L, const lsw_class *c) {
+  lsw_self self;
+  self.id = lsw_check_child(L, 1, c, &self.scene)->id;
+  return self;
+}
+
 lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                               const char *what) {
   sw_scene *owner;
@@ -45,14 +51,19 @@ lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, con
   return lsw_check_child_of(L, index, loose ? &lsw_class_particles : &lsw_class_wire, scene, what);
 }
 
-const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **scene) {
-  lsw_child *child = lsw_test(L, 1, c);
+int lsw_find_self(lua_State *L, const lsw_class *c, lsw_self *out) {
+  const lsw_child *child = lsw_test(L, 1, c);
   const lsw_scene_handle *owner = child ? child->h.object : NULL;
-  *scene = owner ? owner->h.object : NULL;
-  if (*scene && is_body(c)) child->id = sw_scene_body_now(*scene, child->id);
-  if (*scene) return child;
+  if (owner && owner->h.object) {
+    *out = lsw_check_self(L, c);
+    return 1;
+  }
   lua_pushfstring(L, "%s (its scene has been closed)", c->name);
-  return NULL;
+  return 0;
+}
+
+int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene) {
+  return luaL_error(L, "this %s is not of scene '%s' any more", c->name, sw_scene_name(scene));
 }
 
 void lsw_check_table(lua_State *L, int index, const char *what) {

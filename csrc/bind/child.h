@@ -16,6 +16,12 @@ typedef struct lsw_child {
   sw_handle id;
 } lsw_child;
 
+/* Which object of which scene. */
+typedef struct lsw_self {
+  sw_scene *scene;
+  sw_handle id;
+} lsw_self;
+
 extern const lsw_class lsw_class_scene, lsw_class_wire, lsw_class_particles, lsw_class_clamp,
     lsw_class_obstacle, lsw_class_tool, lsw_class_force, lsw_class_join, lsw_class_snapshot;
 
@@ -38,9 +44,14 @@ lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const
 /* A wire or an object of particles, as above. */
 lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what);
 
-/* The child at index 1 without raising: when its scene is gone NULL, and what
- * tostring may say is pushed. */
-const lsw_child *lsw_find_child(lua_State *L, const lsw_class *c, sw_scene **scene);
+/* The child at index 1 as above, for its methods. */
+lsw_self lsw_check_self(lua_State *L, const lsw_class *c);
+
+/* The same without raising: when its scene is gone 0, and what tostring may say is pushed. */
+int lsw_find_self(lua_State *L, const lsw_class *c, lsw_self *out);
+
+/* Raise: a restored snapshot has taken it back. */
+int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene);
 
 /* Raise unless status is SW_OK; callback errors keep their value. */
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);

@@ -4,36 +4,34 @@
 #include "bind/bind_motion.h"
 
 int lsw_pose(lua_State *L, const lsw_posed *of) {
-  sw_scene *scene;
   sw_error err = {""};
   sw_pose pose;
-  const lsw_child *c = lsw_check_child(L, 1, of->cls, &scene);
+  const lsw_self c = lsw_check_self(L, of->cls);
   if (lua_gettop(L) > 1) {
     lua_settop(L, 3);
     const sw_vec to = lsw_vector(L, 2, lua_pushfstring(L, "%s:pose: position", of->name), "m");
-    lsw_must(L, sw_scene_editable(scene, &err), &err);
+    lsw_must(L, sw_scene_editable(c.scene, &err), &err);
     if (lua_isnil(L, 3))
-      lsw_must(L, of->get(scene, c->id, &pose, &err), &err);
+      lsw_must(L, of->get(c.scene, c.id, &pose, &err), &err);
     else
       pose.q = lsw_rotation(L, 3, lua_pushfstring(L, "%s:pose: rotation", of->name));
     pose.p = to;
-    lsw_must(L, of->set(scene, c->id, pose, &err), &err);
+    lsw_must(L, of->set(c.scene, c.id, pose, &err), &err);
     return 0;
   }
-  lsw_must(L, of->get(scene, c->id, &pose, &err), &err);
+  lsw_must(L, of->get(c.scene, c.id, &pose, &err), &err);
   lsw_push_vector(L, pose.p);
   lsw_push_quaternion(L, pose.q);
   return 2;
 }
 
 int lsw_follow(lua_State *L, const lsw_posed *of) {
-  sw_scene *scene;
   sw_error err = {""};
-  const lsw_child *c = lsw_check_child(L, 1, of->cls, &scene);
+  const lsw_self c = lsw_check_self(L, of->cls);
   if (lua_isnone(L, 2))
     return luaL_error(L, "%s:follow: a trajectory is needed, or nil to stop", of->name);
   sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, of->mover);
-  const sw_status status = of->follow(scene, c->id, motion, 0, &err);
+  const sw_status status = of->follow(c.scene, c.id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);
   lsw_must(L, status, &err);
@@ -41,12 +39,11 @@ int lsw_follow(lua_State *L, const lsw_posed *of) {
 }
 
 int lsw_log(lua_State *L, const lsw_class *c, lsw_log_reader read, size_t size) {
-  sw_scene *scene;
   sw_error err = {""};
   const double *rows;
   size_t count;
-  const lsw_child *child = lsw_check_child(L, 1, c, &scene);
-  lsw_must(L, read(scene, child->id, &rows, &count, &err), &err);
+  const lsw_self child = lsw_check_self(L, c);
+  lsw_must(L, read(child.scene, child.id, &rows, &count, &err), &err);
   lsw_push_flat(L, rows, count * size);
   lua_pushinteger(L, (lua_Integer)count);
   return 2;
