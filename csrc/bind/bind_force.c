@@ -259,11 +259,8 @@ static int meta_describe(lua_State *L) {
   lsw_self f;
   if (!lsw_find_self(L, &lsw_class_force, &f)) return 1;
   const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
-  if (!cls)
-    lua_pushliteral(L, "force (taken back when a snapshot was restored)");
-  else
-    lua_pushfstring(L, "force %s: %s", cls->name, cls->summary);
-  return 1;
+  if (!cls) return lsw_say_taken_back(L, &lsw_class_force);
+  return lsw_say(L, "force %s: %s", cls->name, cls->summary);
 }
 
 /* force:get() -> a table of its rows, as they are now */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class clamp (clamps, pins, grips and feeds) and scene:clamp, pin, grip, feed. */
 #include <limits.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "bind/bind_motion.h"
@@ -317,20 +316,14 @@ static int meta_describe(lua_State *L) {
   const char *kind;
   sw_vec force, moment;
   int held;
-  char text[SW_NAME_SIZE + 160];
   if (!lsw_find_self(L, &lsw_class_clamp, &c)) return 1;
   const char *name = sw_scene_hold_name(c.scene, c.id, &kind, &held);
-  if (!name)
-    snprintf(text, sizeof text, "clamp (taken back when a snapshot was restored)");
-  else if (!held)
-    snprintf(text, sizeof text, "%s '%s' (released)", kind, name);
-  else if (sw_scene_hold_force(c.scene, c.id, NULL, &force, &moment, &err) != SW_OK)
-    snprintf(text, sizeof text, "%s '%s'", kind, name);
-  else
-    snprintf(text, sizeof text, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", kind, name,
-             force.x, force.y, force.z);
-  lua_pushstring(L, text);
-  return 1;
+  if (!name) return lsw_say_taken_back(L, &lsw_class_clamp);
+  if (!held) return lsw_say(L, "%s '%s' (released)", kind, name);
+  if (sw_scene_hold_force(c.scene, c.id, NULL, &force, &moment, &err) != SW_OK)
+    return lsw_say(L, "%s '%s'", kind, name);
+  return lsw_say(L, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", kind, name, force.x, force.y,
+                 force.z);
 }
 
 static const char *word_of(lua_State *L) {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class join and scene:join. */
-#include <stdio.h>
 
 #include "bind/child.h"
 #include "bind/share.h"
@@ -132,15 +131,10 @@ static int meta_describe(lua_State *L) {
   lsw_self j;
   int held;
   size_t ends;
-  char text[SW_NAME_SIZE + 80];
   if (!lsw_find_self(L, &lsw_class_join, &j)) return 1;
   const char *name = sw_scene_join_name(j.scene, j.id, &held, &ends);
-  if (!name)
-    snprintf(text, sizeof text, "join (taken back when a snapshot was restored)");
-  else
-    snprintf(text, sizeof text, "join '%s' of %zu wires%s", name, ends, held ? "" : " (released)");
-  lua_pushstring(L, text);
-  return 1;
+  if (!name) return lsw_say_taken_back(L, &lsw_class_join);
+  return lsw_say(L, "join '%s' of %zu wires%s", name, ends, held ? "" : " (released)");
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},

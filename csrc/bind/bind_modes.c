@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* wire:frequencies. */
-#include <stdio.h>
 
 #include "bind/child.h"
 
@@ -14,13 +13,12 @@ static void push_shapes(lua_State *L, const sw_modes_result *r, size_t n) {
 }
 
 static void push_note(lua_State *L, const sw_modes_result *r) {
-  char text[240];
-  snprintf(text, sizeof text,
-           "unstable in %zu direction%s: the wire would buckle or tip over, e-fold in %.2g s; what "
-           "is listed swings beside that",
-           r->unstable, r->unstable == 1 ? "" : "s", 1.0 / r->growth);
   lsw_set_number(L, "growth", r->growth);
-  lsw_set_text(L, "note", text);
+  lsw_say(L,
+          "unstable in %zu direction%s: the wire would buckle or tip over, e-fold in %.2g s; what "
+          "is listed swings beside that",
+          r->unstable, r->unstable == 1 ? "" : "s", 1.0 / r->growth);
+  lua_setfield(L, -2, "note");
 }
 
 /* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =, note =,

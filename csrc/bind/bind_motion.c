@@ -2,9 +2,9 @@
 /* The class `trajectory`. */
 #include "bind/bind_motion.h"
 
-#include <stdio.h>
 #include <string.h>
 
+#include "bind/child.h"
 #include "bind/module.h"
 
 typedef struct trajectory {
@@ -192,17 +192,13 @@ static int describe(lua_State *L) {
   const sw_motion *motion = check(L);
   const char *displaced = sw_motion_is_relative(motion) ? ", displacement" : "";
   const double duration = sw_motion_duration(motion);
-  char text[160];
   if (sw_motion_count(motion) == 0 && isfinite(duration))
-    snprintf(text, sizeof text, "trajectory: a function of time for %.6g s%s", duration, displaced);
-  else if (sw_motion_count(motion) == 0)
-    snprintf(text, sizeof text, "trajectory: a function of time%s", displaced);
-  else
-    snprintf(text, sizeof text, "trajectory: %s, %zu way-points, %.6g m in %.6g s%s",
-             sw_motion_law_name(motion), sw_motion_count(motion), sw_motion_length(motion),
-             duration, displaced);
-  lua_pushstring(L, text);
-  return 1;
+    return lsw_say(L, "trajectory: a function of time for %.6g s%s", duration, displaced);
+  if (sw_motion_count(motion) == 0)
+    return lsw_say(L, "trajectory: a function of time%s", displaced);
+  return lsw_say(L, "trajectory: %s, %zu way-points, %.6g m in %.6g s%s",
+                 sw_motion_law_name(motion), sw_motion_count(motion), sw_motion_length(motion),
+                 duration, displaced);
 }
 
 static const luaL_Reg methods[] = {{"position", m_position},

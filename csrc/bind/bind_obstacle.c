@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class obstacle and scene:obstacle. */
-#include <stdio.h>
 
 #include "bind/bind_motion.h"
 #include "bind/bind_shape.h"
@@ -155,20 +154,14 @@ static int meta_describe(lua_State *L) {
   const char *kind;
   sw_vec force, moment;
   int present;
-  char text[SW_NAME_SIZE + 160];
   if (!lsw_find_self(L, &lsw_class_obstacle, &o)) return 1;
   const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
-  if (!name)
-    snprintf(text, sizeof text, "obstacle (taken back when a snapshot was restored)");
-  else if (!present)
-    snprintf(text, sizeof text, "%s '%s' (removed)", kind, name);
-  else if (sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
-    snprintf(text, sizeof text, "%s '%s'", kind, name);
-  else
-    snprintf(text, sizeof text, "%s '%s': force on it (%.4g, %.4g, %.4g) N", kind, name, force.x,
-             force.y, force.z);
-  lua_pushstring(L, text);
-  return 1;
+  if (!name) return lsw_say_taken_back(L, &lsw_class_obstacle);
+  if (!present) return lsw_say(L, "%s '%s' (removed)", kind, name);
+  if (sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
+    return lsw_say(L, "%s '%s'", kind, name);
+  return lsw_say(L, "%s '%s': force on it (%.4g, %.4g, %.4g) N", kind, name, force.x, force.y,
+                 force.z);
 }
 
 static const luaL_Reg properties[] = {

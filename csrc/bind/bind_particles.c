@@ -2,8 +2,6 @@
 /* Lua class particles and scene:particles. */
 #include "bind/bind_particles.h"
 
-#include <stdio.h>
-
 int lsw_scene_particles(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   sw_particles_args args;
@@ -192,18 +190,14 @@ static int meta_describe(lua_State *L) {
   lsw_self p;
   sw_error err;
   sw_particles_info info;
-  char text[SW_NAME_SIZE + 160];
   if (!lsw_find_self(L, &lsw_class_particles, &p)) return 1;
   const char *gone = sw_scene_gone_name(p.scene, p.id, &info.mass);
-  if (gone) return lua_pushfstring(L, "particles '%s' (taken away)", gone), 1;
+  if (gone) return lsw_say(L, "particles '%s' (taken away)", gone);
   if (sw_scene_particles_info(p.scene, p.id, &info, &err) != SW_OK)
-    return lua_pushliteral(L, "particles (gone)"), 1;
-  snprintf(text, sizeof text,
-           "particles '%s': %zu of them, %zu links, %zu folds, %zu elements, %.6g kg",
-           sw_scene_wire_name(p.scene, p.id), info.particles, info.links, info.folds, info.elements,
-           info.mass);
-  lua_pushstring(L, text);
-  return 1;
+    return lsw_say(L, "particles (gone)");
+  return lsw_say(L, "particles '%s': %zu of them, %zu links, %zu folds, %zu elements, %.6g kg",
+                 sw_scene_wire_name(p.scene, p.id), info.particles, info.links, info.folds,
+                 info.elements, info.mass);
 }
 
 static const luaL_Reg methods[] = {{"positions", meth_positions},

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class scene: making, running, settling, snapshots, frames. */
-#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -351,20 +350,13 @@ static void close_snapshot(lsw_handle *h) { sw_snapshot_free(h->object); }
 static int snapshot_busy(const lsw_handle *h) { return sw_snapshot_busy(h->object); }
 
 static int describe_snapshot(lua_State *L) {
-  char text[80];
   const lsw_handle *h = lsw_check(L, 1, &lsw_class_snapshot);
-  snprintf(text, sizeof text, "snapshot at t = %.6g s", sw_snapshot_time(h->object));
-  lua_pushstring(L, text);
-  return 1;
+  return lsw_say(L, "snapshot at t = %.6g s", sw_snapshot_time(h->object));
 }
 
 static int meta_describe(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
-  char text[SW_NAME_SIZE + 64];
-  snprintf(text, sizeof text, "scene '%s' at t = %.6g s", sw_scene_name(scene),
-           sw_scene_time(scene));
-  lua_pushstring(L, text);
-  return 1;
+  return lsw_say(L, "scene '%s' at t = %.6g s", sw_scene_name(scene), sw_scene_time(scene));
 }
 
 static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},

@@ -264,8 +264,7 @@ static int meth_triangles(lua_State *L) {
 }
 
 static int meta_describe(lua_State *L) {
-  lua_pushfstring(L, "shape: %s", sw_shape_kind(check_shape(L)));
-  return 1;
+  return lsw_say(L, "shape: %s", sw_shape_kind(check_shape(L)));
 }
 
 static void close(lsw_handle *h) { sw_shape_release(h->object); }

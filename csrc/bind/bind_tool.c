@@ -2,7 +2,6 @@
 /* Lua class tool and scene:tool: a gripper's frame, jaws and pads (see grip/tool.h). Users meet
  * it as scene:gripper. */
 #include <math.h>
-#include <stdio.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
@@ -256,11 +255,8 @@ static int meta_describe(lua_State *L) {
   lsw_self t;
   if (!lsw_find_self(L, &lsw_class_tool, &t)) return 1;
   const char *name = sw_scene_tool_name(t.scene, t.id);
-  if (name)
-    lua_pushfstring(L, "tool '%s'", name);
-  else
-    lua_pushstring(L, "tool (taken back when a snapshot was restored)");
-  return 1;
+  if (!name) return lsw_say_taken_back(L, &lsw_class_tool);
+  return lsw_say(L, "tool '%s'", name);
 }
 
 static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};

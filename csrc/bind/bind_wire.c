@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class wire and scene:wire. */
-#include <stdio.h>
 #include <string.h>
 
 #include "bind/child.h"
@@ -391,18 +390,15 @@ static int meta_describe(lua_State *L) {
   sw_error err;
   double length = 0;
   size_t nodes = 1;
-  char text[SW_NAME_SIZE + 96];
   if (!lsw_find_self(L, &lsw_class_wire, &w)) return 1;
   const char *name = sw_scene_wire_name(w.scene, w.id);
   const char *gone = name ? NULL : sw_scene_gone_name(w.scene, w.id, &length);
-  if (gone) return lua_pushfstring(L, "wire '%s' (taken away)", gone), 1;
+  if (gone) return lsw_say(L, "wire '%s' (taken away)", gone);
   if (sw_scene_wire_length(w.scene, w.id, &length, &err) != SW_OK ||
       sw_scene_wire_nodes(w.scene, w.id, &nodes, &err) != SW_OK)
-    return lua_pushliteral(L, "wire (gone)"), 1;
-  snprintf(text, sizeof text, "wire '%s': %.6g m, %zu segments, t = %.6g s", name, length,
-           nodes - 1, sw_scene_time(w.scene));
-  lua_pushstring(L, text);
-  return 1;
+    return lsw_say(L, "wire (gone)");
+  return lsw_say(L, "wire '%s': %.6g m, %zu segments, t = %.6g s", name, length, nodes - 1,
+                 sw_scene_time(w.scene));
 }
 
 #define READOUT(name) {#name, read_##name},

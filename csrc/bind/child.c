@@ -2,6 +2,8 @@
 #include "bind/child.h"
 
 #include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
 
 #include "bind/bind_motion.h"
 
@@ -60,6 +62,20 @@ int lsw_find_self(lua_State *L, const lsw_class *c, lsw_self *out) {
   }
   lua_pushfstring(L, "%s (its scene has been closed)", c->name);
   return 0;
+}
+
+int lsw_say(lua_State *L, const char *format, ...) {
+  char text[512];
+  va_list values;
+  va_start(values, format);
+  vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  lua_pushstring(L, text);
+  return 1;
+}
+
+int lsw_say_taken_back(lua_State *L, const lsw_class *c) {
+  return lsw_say(L, "%s (taken back when a snapshot was restored)", c->name);
 }
 
 int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene) {

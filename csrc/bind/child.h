@@ -50,6 +50,11 @@ lsw_self lsw_check_self(lua_State *L, const lsw_class *c);
 /* The same without raising: when its scene is gone 0, and what tostring may say is pushed. */
 int lsw_find_self(lua_State *L, const lsw_class *c, lsw_self *out);
 
+/* Push a text of less than 512 bytes, as C formats it; return 1. */
+__attribute__((format(printf, 2, 3))) int lsw_say(lua_State *L, const char *format, ...);
+/* For tostring of what is there no more. */
+int lsw_say_taken_back(lua_State *L, const lsw_class *c);
+
 /* Raise: a restored snapshot has taken it back. */
 int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene);
 
