@@ -42,34 +42,23 @@ void lsw_add_holds(lua_State *L) {
   }
 }
 
-static void read_force(lua_State *L, int with_point, sw_vec *force, sw_vec *moment) {
+static lsw_load load_of(lua_State *L, int with_point) {
   sw_error err = {""};
+  lsw_load on;
   sw_vec point = sw_v(NAN, NAN, NAN);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
                                    "point the moment is about (default: the held point)"}};
   static const sw_params params = SW_PARAMS("clamp", rows);
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
-  lsw_must(L,
-           sw_scene_hold_force(c.scene, c.id, isnan(point.x) ? NULL : &point, force, moment, &err),
-           &err);
+  const sw_vec *at = isnan(point.x) ? NULL : &point;
+  lsw_must(L, sw_scene_hold_force(c.scene, c.id, at, &on.force, &on.moment, &err), &err);
+  return on;
 }
 
-/* Force on the wire [N]. */
-static int meth_force(lua_State *L) {
-  sw_vec force, moment;
-  read_force(L, 0, &force, &moment);
-  lsw_push_vector(L, force);
-  return 1;
-}
-
-/* Moment on the wire about the held point or { at = point } [N m]. */
-static int meth_moment(lua_State *L) {
-  sw_vec force, moment;
-  read_force(L, 1, &force, &moment);
-  lsw_push_vector(L, moment);
-  return 1;
-}
+/* Force on the wire [N]; its moment about the held point or { at = point } [N m]. */
+static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
+static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
 static const lsw_posed posed = {&lsw_class_clamp,   "clamp",           "clamp:follow",
                                 sw_scene_hold_pose, sw_scene_set_pose, sw_scene_follow};
@@ -82,10 +71,7 @@ static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
 static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
 
 static int meth_release(lua_State *L) {
-  sw_error err = {""};
-  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_release_hold(c.scene, c.id, &err), &err);
-  return 0;
+  return lsw_order(L, &lsw_class_clamp, sw_scene_release_hold);
 }
 
 /* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
@@ -184,16 +170,10 @@ static sw_feed_state feed_state(lua_State *L) {
 }
 
 /* Length of wire paid out so far, unstressed [m]. */
-static int meth_fed(lua_State *L) {
-  lua_pushnumber(L, feed_state(L).fed);
-  return 1;
-}
+static int meth_fed(lua_State *L) { return lua_pushnumber(L, feed_state(L).fed), 1; }
 
 /* Force that moves the wire outwards [N]; the guide's walls bear the rest of force(). */
-static int meth_drive_force(lua_State *L) {
-  lua_pushnumber(L, feed_state(L).drive);
-  return 1;
-}
+static int meth_drive_force(lua_State *L) { return lua_pushnumber(L, feed_state(L).drive), 1; }
 
 /* The argument at 2, checked as the parameter of that name of scene:feed is. */
 static double feed_argument(lua_State *L, const char *name) {
@@ -280,35 +260,22 @@ static int meth_feed(lua_State *L) {
 
 /* --- what it is ----------------------------------------------------------------- */
 
-static const char *identity(lua_State *L, const char **kind, int *held) {
+typedef struct identity {
+  const char *name, *kind;
+  int held;
+} identity;
+
+static identity identify(lua_State *L) {
+  identity is;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  const char *name = sw_scene_hold_name(c.scene, c.id, kind, held);
-  if (!name) lsw_not_there(L, &lsw_class_clamp, c.scene);
-  return name;
+  is.name = sw_scene_hold_name(c.scene, c.id, &is.kind, &is.held);
+  if (!is.name) lsw_not_there(L, &lsw_class_clamp, c.scene);
+  return is;
 }
 
-static int prop_name(lua_State *L) {
-  const char *kind;
-  int held;
-  lua_pushstring(L, identity(L, &kind, &held));
-  return 1;
-}
-
-static int prop_kind(lua_State *L) {
-  const char *kind;
-  int held;
-  identity(L, &kind, &held);
-  lua_pushstring(L, kind);
-  return 1;
-}
-
-static int prop_held(lua_State *L) {
-  const char *kind;
-  int held;
-  identity(L, &kind, &held);
-  lua_pushboolean(L, held);
-  return 1;
-}
+static int prop_name(lua_State *L) { return lua_pushstring(L, identify(L).name), 1; }
+static int prop_kind(lua_State *L) { return lua_pushstring(L, identify(L).kind), 1; }
+static int prop_held(lua_State *L) { return lua_pushboolean(L, identify(L).held), 1; }
 
 static int meta_describe(lua_State *L) {
   lsw_self c;

@@ -53,30 +53,21 @@ int lsw_scene_join(lua_State *L) {
   return 1;
 }
 
-static void read_force(lua_State *L, sw_vec *force, sw_vec *moment) {
+static lsw_load load_of(lua_State *L) {
   sw_error err = {""};
+  lsw_load on;
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
   const lua_Integer k = lua_isinteger(L, 2) ? lua_tointeger(L, 2) : 0;
   if (k < 1)
     luaL_error(L, "join: the number of one of its ends is wanted, from 1; got %s",
                lsw_describe(L, 2));
-  lsw_must(L, sw_scene_join_force(j.scene, j.id, (size_t)k - 1, force, moment, &err), &err);
+  lsw_must(L, sw_scene_join_force(j.scene, j.id, (size_t)k - 1, &on.force, &on.moment, &err), &err);
+  return on;
 }
 
 /* join:force(k) on its end number k [N]; join:moment(k) about its point [N m]. */
-static int meth_force(lua_State *L) {
-  sw_vec force, moment;
-  read_force(L, &force, &moment);
-  lsw_push_vector(L, force);
-  return 1;
-}
-
-static int meth_moment(lua_State *L) {
-  sw_vec force, moment;
-  read_force(L, &force, &moment);
-  lsw_push_vector(L, moment);
-  return 1;
-}
+static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L).force), 1; }
+static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L).moment), 1; }
 
 /* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
 static int meth_read(lua_State *L) {
@@ -100,10 +91,7 @@ static int meth_log(lua_State *L) {
 }
 
 static int meth_release(lua_State *L) {
-  sw_error err = {""};
-  const lsw_self j = lsw_check_self(L, &lsw_class_join);
-  lsw_must(L, sw_scene_release_join(j.scene, j.id, &err), &err);
-  return 0;
+  return lsw_order(L, &lsw_class_join, sw_scene_release_join);
 }
 
 static const char *identity(lua_State *L, int *held) {
@@ -116,15 +104,13 @@ static const char *identity(lua_State *L, int *held) {
 
 static int prop_name(lua_State *L) {
   int held;
-  lua_pushstring(L, identity(L, &held));
-  return 1;
+  return lua_pushstring(L, identity(L, &held)), 1;
 }
 
 static int prop_held(lua_State *L) {
   int held;
   identity(L, &held);
-  lua_pushboolean(L, held);
-  return 1;
+  return lua_pushboolean(L, held), 1;
 }
 
 static int meta_describe(lua_State *L) {

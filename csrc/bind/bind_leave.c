@@ -3,22 +3,17 @@
 #include "bind/bind_shape.h"
 #include "bind/child.h"
 #include "bind/module.h"
+#include "bind/share.h"
 
 /* core.remove_body(wire or object of particles): what holds it lets go. */
 static int mod_remove_body(lua_State *L) {
-  sw_error err = {""};
   const int loose = lsw_test(L, 1, &lsw_class_particles) != NULL;
-  const lsw_self body = lsw_check_self(L, loose ? &lsw_class_particles : &lsw_class_wire);
-  lsw_must(L, sw_scene_remove_body(body.scene, body.id, &err), &err);
-  return 0;
+  return lsw_order(L, loose ? &lsw_class_particles : &lsw_class_wire, sw_scene_remove_body);
 }
 
 /* core.remove_tool(tool): with its pads. */
 static int mod_remove_tool(lua_State *L) {
-  sw_error err = {""};
-  const lsw_self tool = lsw_check_self(L, &lsw_class_tool);
-  lsw_must(L, sw_scene_remove_tool(tool.scene, tool.id, &err), &err);
-  return 0;
+  return lsw_order(L, &lsw_class_tool, sw_scene_remove_tool);
 }
 
 /* core.shape_of(obstacle) -> its shape, also of one that was removed, which frames still show */

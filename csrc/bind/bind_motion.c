@@ -36,52 +36,18 @@ static sw_motion_state state(lua_State *L) {
   return s;
 }
 
-static int m_position(lua_State *L) {
-  lsw_push_vector(L, state(L).pose.p);
-  return 1;
-}
-
-static int m_rotation(lua_State *L) {
-  lsw_push_quaternion(L, state(L).pose.q);
-  return 1;
-}
-
-static int m_velocity(lua_State *L) {
-  lsw_push_vector(L, state(L).v);
-  return 1;
-}
-
-static int m_acceleration(lua_State *L) {
-  lsw_push_vector(L, state(L).a);
-  return 1;
-}
-
-static int m_angular_velocity(lua_State *L) {
-  lsw_push_vector(L, state(L).omega);
-  return 1;
-}
-
-static int m_angular_acceleration(lua_State *L) {
-  lsw_push_vector(L, state(L).alpha);
-  return 1;
-}
+static int m_position(lua_State *L) { return lsw_push_vector(L, state(L).pose.p), 1; }
+static int m_rotation(lua_State *L) { return lsw_push_quaternion(L, state(L).pose.q), 1; }
+static int m_velocity(lua_State *L) { return lsw_push_vector(L, state(L).v), 1; }
+static int m_acceleration(lua_State *L) { return lsw_push_vector(L, state(L).a), 1; }
+static int m_angular_velocity(lua_State *L) { return lsw_push_vector(L, state(L).omega), 1; }
+static int m_angular_acceleration(lua_State *L) { return lsw_push_vector(L, state(L).alpha), 1; }
 
 /* --- as a whole ------------------------------------------------------------------- */
 
-static int m_duration(lua_State *L) {
-  lua_pushnumber(L, sw_motion_duration(check(L)));
-  return 1;
-}
-
-static int m_starts(lua_State *L) {
-  lua_pushnumber(L, sw_motion_start(check(L)));
-  return 1;
-}
-
-static int m_ends(lua_State *L) {
-  lua_pushnumber(L, sw_motion_end(check(L)));
-  return 1;
-}
+static int m_duration(lua_State *L) { return lua_pushnumber(L, sw_motion_duration(check(L))), 1; }
+static int m_starts(lua_State *L) { return lua_pushnumber(L, sw_motion_start(check(L))), 1; }
+static int m_ends(lua_State *L) { return lua_pushnumber(L, sw_motion_end(check(L))), 1; }
 
 static int m_length(lua_State *L) {
   const double length = sw_motion_length(check(L));
@@ -90,10 +56,7 @@ static int m_length(lua_State *L) {
   return 1;
 }
 
-static int m_law(lua_State *L) {
-  lua_pushstring(L, sw_motion_law_name(check(L)));
-  return 1;
-}
+static int m_law(lua_State *L) { return lua_pushstring(L, sw_motion_law_name(check(L))), 1; }
 
 static int m_relative(lua_State *L) {
   lua_pushboolean(L, sw_motion_is_relative(check(L)));

@@ -28,28 +28,22 @@ int lsw_scene_obstacle(lua_State *L) {
 
 static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_obstacle); }
 
-/* Contact force on the obstacle, mean over the last step [N]; its moment { at = point } [N m]. */
-static int meth_force(lua_State *L) {
+static lsw_load load_of(lua_State *L, int with_point) {
   sw_error err = {""};
-  sw_vec force, moment;
-  const lsw_self o = check(L);
-  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err), &err);
-  lsw_push_vector(L, force);
-  return 1;
-}
-
-static int meth_moment(lua_State *L) {
-  sw_error err = {""};
-  sw_vec force, moment, about;
+  lsw_load on;
+  sw_vec about = sw_v(0, 0, 0);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
                                    "point the moment is about (default: the world's origin)"}};
   static const sw_params params = SW_PARAMS("obstacle:moment", rows);
   const lsw_self o = check(L);
-  lsw_arguments(L, 2, "obstacle:moment", &params, &about);
-  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, about, &force, &moment, &err), &err);
-  lsw_push_vector(L, moment);
-  return 1;
+  if (with_point) lsw_arguments(L, 2, "obstacle:moment", &params, &about);
+  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, about, &on.force, &on.moment, &err), &err);
+  return on;
 }
+
+/* Contact force on the obstacle, mean over the last step [N]; its moment { at = point } [N m]. */
+static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
+static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
 static const lsw_posed posed = {&lsw_class_obstacle,        "obstacle",
                                 "obstacle:follow",          sw_scene_obstacle_pose,
@@ -99,10 +93,7 @@ static int meth_set(lua_State *L) {
 }
 
 static int meth_remove(lua_State *L) {
-  sw_error err = {""};
-  const lsw_self o = check(L);
-  lsw_must(L, sw_scene_remove_obstacle(o.scene, o.id, &err), &err);
-  return 0;
+  return lsw_order(L, &lsw_class_obstacle, sw_scene_remove_obstacle);
 }
 
 /* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an

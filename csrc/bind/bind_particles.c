@@ -2,6 +2,8 @@
 /* Lua class particles and scene:particles. */
 #include "bind/bind_particles.h"
 
+#include "bind/share.h"
+
 int lsw_scene_particles(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   sw_particles_args args;
@@ -139,52 +141,25 @@ static int set_all(lua_State *L, lsw_self p, size_t count) {
  * velocities each particle [m/s]. */
 static int meth_set_velocity(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
-  const sw_vec zero = sw_v(0, 0, 0);
   const size_t count = info_of(L, &p).particles;
   if (lua_istable(L, 2) && lua_rawlen(L, 2) > 3) return set_all(L, p, count);
-  const sw_vec v = lsw_vector(L, 2, "particles:set_velocity: velocity", "m/s");
-  const sw_vec omega =
-      lua_isnoneornil(L, 3) ? zero : lsw_vector(L, 3, "particles:set_velocity: omega", "rad/s");
-  const sw_vec about =
-      lua_isnoneornil(L, 4) ? zero : lsw_vector(L, 4, "particles:set_velocity: about", "m");
-  lsw_must(L, sw_scene_wire_set_velocity(p.scene, p.id, v, omega, about, &err), &err);
-  return 0;
+  return lsw_set_velocity(L, &lsw_class_particles);
 }
 
 /* --- what it is ----------------------------------------------------------------- */
 
-static int prop_name(lua_State *L) {
-  double gone; /* objects that were taken away have their name still */
-  const lsw_self p = lsw_check_self(L, &lsw_class_particles);
-  const char *name = sw_scene_wire_name(p.scene, p.id);
-  lua_pushstring(L, name ? name : sw_scene_gone_name(p.scene, p.id, &gone));
-  return 1;
+static sw_particles_info info(lua_State *L) {
+  lsw_self p;
+  return info_of(L, &p);
 }
 
-static int prop_present(lua_State *L) {
-  const lsw_self p = lsw_check_self(L, &lsw_class_particles);
-  lua_pushboolean(L, sw_scene_wire_name(p.scene, p.id) != NULL);
-  return 1;
-}
-
+static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_particles); }
+static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_particles); }
 static int prop_count(lua_State *L) {
-  lsw_self p;
-  lua_pushinteger(L, (lua_Integer)info_of(L, &p).particles);
-  return 1;
+  return lua_pushinteger(L, (lua_Integer)info(L).particles), 1;
 }
-
-static int prop_mass(lua_State *L) {
-  lsw_self p;
-  lua_pushnumber(L, info_of(L, &p).mass);
-  return 1;
-}
-
-static int prop_radius(lua_State *L) {
-  lsw_self p;
-  lua_pushnumber(L, info_of(L, &p).radius);
-  return 1;
-}
+static int prop_mass(lua_State *L) { return lua_pushnumber(L, info(L).mass), 1; }
+static int prop_radius(lua_State *L) { return lua_pushnumber(L, info(L).radius), 1; }
 
 static int meta_describe(lua_State *L) {
   lsw_self p;

@@ -82,16 +82,10 @@ static int mod_exists(lua_State *L) {
   return 1;
 }
 
-static int mod_interrupted(lua_State *L) {
-  lua_pushboolean(L, sw_interrupted());
-  return 1;
-}
+static int mod_interrupted(lua_State *L) { return lua_pushboolean(L, sw_interrupted()), 1; }
 
 /* Monotonic wall clock [s]. */
-static int mod_clock(lua_State *L) {
-  lua_pushnumber(L, sw_wall_clock());
-  return 1;
-}
+static int mod_clock(lua_State *L) { return lua_pushnumber(L, sw_wall_clock()), 1; }
 
 /* core.sleep(s): do nothing for so long; Ctrl-C ends it with an error [s]. */
 static int mod_sleep(lua_State *L) {

@@ -168,10 +168,7 @@ static void push_closest(lua_State *L, const sw_closest *c) {
   lua_pushinteger(L, c->feature), lua_setfield(L, -2, "feature");
 }
 
-static int meth_kind(lua_State *L) {
-  lua_pushstring(L, sw_shape_kind(check_shape(L)));
-  return 1;
-}
+static int meth_kind(lua_State *L) { return lua_pushstring(L, sw_shape_kind(check_shape(L))), 1; }
 
 /* shape:distance(p, reach) -> gap [m], normal, point [m], feature; nothing
  * when it is not below reach (default: any distance). */

@@ -136,8 +136,9 @@ static int meth_state(lua_State *L) {
 }
 
 /* tool:force([finger]), tool:moment([point [, finger]]): on wires [N], [N m]. */
-static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec *moment) {
+static lsw_load load_of(lua_State *L, int point, int finger) {
   sw_error err = {""};
+  lsw_load on;
   sw_vec about;
   const lsw_self t = check(L);
   const sw_vec *at = NULL;
@@ -145,28 +146,17 @@ static void force_of(lua_State *L, int point, int finger, sw_vec *force, sw_vec 
     about = lsw_vector(L, point, "gripper:moment: at", "m");
     at = &about;
   }
-  const sw_status status =
-      lua_isnoneornil(L, finger)
-          ? sw_scene_tool_force(t.scene, t.id, at, force, moment, &err)
-          : sw_scene_tool_finger(t.scene, t.id,
-                                 (int)lsw_integer(L, finger, "tool: the number of the finger") - 1,
-                                 at, force, moment, &err);
-  lsw_must(L, status, &err);
+  if (lua_isnoneornil(L, finger)) {
+    lsw_must(L, sw_scene_tool_force(t.scene, t.id, at, &on.force, &on.moment, &err), &err);
+    return on;
+  }
+  const int k = (int)lsw_integer(L, finger, "tool: the number of the finger") - 1;
+  lsw_must(L, sw_scene_tool_finger(t.scene, t.id, k, at, &on.force, &on.moment, &err), &err);
+  return on;
 }
 
-static int meth_force(lua_State *L) {
-  sw_vec force, moment;
-  force_of(L, 0, 2, &force, &moment);
-  lsw_push_vector(L, force);
-  return 1;
-}
-
-static int meth_moment(lua_State *L) {
-  sw_vec force, moment;
-  force_of(L, 2, 3, &force, &moment);
-  lsw_push_vector(L, moment);
-  return 1;
-}
+static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0, 2).force), 1; }
+static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 2, 3).moment), 1; }
 
 /* tool:log() -> flat rows of 15: t, force, moment, centre, span, opening, squeeze, margin, slip;
  * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at

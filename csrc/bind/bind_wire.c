@@ -202,18 +202,7 @@ static int meth_velocities(lua_State *L) {
 }
 
 /* wire:set_velocity(v [, omega [, about]]) */
-static int meth_set_velocity(lua_State *L) {
-  sw_error err = {""};
-  const sw_vec zero = sw_v(0, 0, 0);
-  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  const sw_vec v = lsw_vector(L, 2, "wire:set_velocity: velocity", "m/s");
-  const sw_vec omega =
-      lua_isnoneornil(L, 3) ? zero : lsw_vector(L, 3, "wire:set_velocity: omega", "rad/s");
-  const sw_vec about =
-      lua_isnoneornil(L, 4) ? zero : lsw_vector(L, 4, "wire:set_velocity: about", "m");
-  lsw_must(L, sw_scene_wire_set_velocity(w.scene, w.id, v, omega, about, &err), &err);
-  return 0;
-}
+static int meth_set_velocity(lua_State *L) { return lsw_set_velocity(L, &lsw_class_wire); }
 
 /* The options table { now = true } asks for the present value. */
 static sw_wire_extremes read_extremes(lua_State *L) {
@@ -371,19 +360,8 @@ static int prop_model(lua_State *L) {
   return 1;
 }
 
-static int prop_name(lua_State *L) {
-  double gone; /* a wire that was taken away has its name still */
-  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  const char *name = sw_scene_wire_name(w.scene, w.id);
-  lua_pushstring(L, name ? name : sw_scene_gone_name(w.scene, w.id, &gone));
-  return 1;
-}
-
-static int prop_present(lua_State *L) {
-  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lua_pushboolean(L, sw_scene_wire_name(w.scene, w.id) != NULL);
-  return 1;
-}
+static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_wire); }
+static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_wire); }
 
 static int meta_describe(lua_State *L) {
   lsw_self w;

@@ -64,10 +64,7 @@ static int meth_stop(lua_State *L) {
   return 0;
 }
 
-static int meth_pid(lua_State *L) {
-  lua_pushinteger(L, check(L, 1)->pid);
-  return 1;
-}
+static int meth_pid(lua_State *L) { return lua_pushinteger(L, check(L, 1)->pid), 1; }
 
 static int meth_send(lua_State *L) {
   size_t size;

@@ -1,7 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bind/share.h"
 
+#include <stdio.h>
+
 #include "bind/bind_motion.h"
+
+int lsw_order(lua_State *L, const lsw_class *c,
+              sw_status (*order)(sw_scene *scene, sw_handle id, sw_error *err)) {
+  sw_error err = {""};
+  const lsw_self self = lsw_check_self(L, c);
+  lsw_must(L, order(self.scene, self.id, &err), &err);
+  return 0;
+}
+
+int lsw_body_name(lua_State *L, const lsw_class *c) {
+  double length;
+  const lsw_self b = lsw_check_self(L, c);
+  const char *name = sw_scene_wire_name(b.scene, b.id);
+  return lua_pushstring(L, name ? name : sw_scene_gone_name(b.scene, b.id, &length)), 1;
+}
+
+int lsw_body_present(lua_State *L, const lsw_class *c) {
+  const lsw_self b = lsw_check_self(L, c);
+  return lua_pushboolean(L, sw_scene_wire_name(b.scene, b.id) != NULL), 1;
+}
+
+int lsw_set_velocity(lua_State *L, const lsw_class *c) {
+  static const char *const words[] = {"velocity", "omega", "about"};
+  static const char *const units[] = {"m/s", "rad/s", "m"};
+  sw_error err = {""};
+  sw_vec v[3] = {{0}};
+  char what[64];
+  const lsw_self b = lsw_check_self(L, c);
+  for (int k = 0; k < 3; k++) {
+    if (k > 0 && lua_isnoneornil(L, 2 + k)) continue;
+    snprintf(what, sizeof what, "%s:set_velocity: %s", c->name, words[k]);
+    v[k] = lsw_vector(L, 2 + k, what, units[k]);
+  }
+  lsw_must(L, sw_scene_wire_set_velocity(b.scene, b.id, v[0], v[1], v[2], &err), &err);
+  return 0;
+}
 
 int lsw_pose(lua_State *L, const lsw_posed *of) {
   sw_error err = {""};

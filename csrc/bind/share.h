@@ -5,6 +5,21 @@
 
 #include "bind/child.h"
 
+/* Force and moment on something [N], [N m]. */
+typedef struct lsw_load {
+  sw_vec force, moment;
+} lsw_load;
+
+/* A method without arguments or results. */
+int lsw_order(lua_State *L, const lsw_class *c,
+              sw_status (*order)(sw_scene *scene, sw_handle id, sw_error *err));
+
+/* Of a wire or an object of particles: its name, also when it was taken away; is it there? */
+int lsw_body_name(lua_State *L, const lsw_class *c);
+int lsw_body_present(lua_State *L, const lsw_class *c);
+/* body:set_velocity(v [, omega [, about]]) */
+int lsw_set_velocity(lua_State *L, const lsw_class *c);
+
 /* Something that has a place of its own: clamp, obstacle, tool. */
 typedef struct lsw_posed {
   const lsw_class *cls;
