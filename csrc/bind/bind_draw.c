@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Drawings and canvases, for softworld.output.picture. Lists are flat: x, y, z, x, ... */
-#include <string.h>
-
 #include "bind/child.h"
 #include "bind/class.h"
 #include "bind/module.h"
@@ -22,16 +20,7 @@ static int free_keeper(lua_State *L) {
   return 0;
 }
 
-static keeper *keep(lua_State *L) {
-  keeper *k = lua_newuserdatauv(L, sizeof *k, 0);
-  k->bytes = NULL;
-  if (luaL_newmetatable(L, BUFFER)) {
-    lua_pushcfunction(L, free_keeper);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return k;
-}
+static keeper *keep(lua_State *L) { return lsw_keep(L, sizeof(keeper), BUFFER, NULL, free_keeper); }
 
 static void *room(lua_State *L, keeper *k, size_t count, size_t size) {
   k->bytes = sw_alloc(count, size);
@@ -288,23 +277,9 @@ static const luaL_Reg canvas_methods[] = {{"show", meth_show}, {"fill", meth_fil
                                           {"text", meth_text}, {"png", meth_png},
                                           {"rgb", meth_rgb},   {NULL, NULL}};
 
-static void set_class(lua_State *L, const char *name, const luaL_Reg *methods, lua_CFunction end) {
-  if (luaL_newmetatable(L, name)) {
-    lua_pushcfunction(L, end);
-    lua_setfield(L, -2, "__gc");
-    lua_newtable(L);
-    luaL_setfuncs(L, methods, 0);
-    lua_setfield(L, -2, "__index");
-    lsw_set_text(L, "__metatable", "a part of the library");
-  }
-  lua_setmetatable(L, -2);
-}
-
 /* core.drawing() -> a drawing with nothing in it */
 static int mod_drawing(lua_State *L) {
-  sw_drawing **d = lua_newuserdatauv(L, sizeof(void *), 0);
-  *d = NULL;
-  set_class(L, DRAWING, drawing_methods, free_drawing);
+  sw_drawing **d = lsw_keep(L, sizeof(void *), DRAWING, drawing_methods, free_drawing);
   must(L, sw_drawing_new(d), "drawing");
   return 1;
 }
@@ -312,9 +287,7 @@ static int mod_drawing(lua_State *L) {
 /* core.canvas(width, height) -> a white one [px] */
 static int mod_canvas(lua_State *L) {
   const size_t width = size_at(L, 1), height = size_at(L, 2);
-  sw_canvas *canvas = lua_newuserdatauv(L, sizeof *canvas, 0);
-  memset(canvas, 0, sizeof *canvas);
-  set_class(L, CANVAS, canvas_methods, free_canvas);
+  sw_canvas *canvas = lsw_keep(L, sizeof *canvas, CANVAS, canvas_methods, free_canvas);
   must(L, sw_canvas_new(width, height, canvas), "canvas");
   return 1;
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "bind/module.h"
+#include "bind/process.h"
 
 /* --- locks ---------------------------------------------------------------- */
 
@@ -98,13 +99,6 @@ static int mod_sweep(lua_State *L) {
 
 /* --- making --------------------------------------------------------------- */
 
-static int failed(lua_State *L) {
-  const int why = errno;
-  lua_pushnil(L);
-  lua_pushstring(L, strerror(why));
-  return 2;
-}
-
 static int make(const char *path, int folder) {
   if (!folder) return open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (mkdir(path, 0777) != 0) return -1;
@@ -132,7 +126,7 @@ static int mod_part(lua_State *L) {
     lua_pushfstring(L, "%s.%I-%I.tmp", start, (LUAI_UACINT)getpid(), (LUAI_UACINT)++number);
     const char *path = lua_tostring(L, -1);
     lock->fd = make(path, folder);
-    if (lock->fd < 0 && errno != EEXIST) return failed(L);
+    if (lock->fd < 0 && errno != EEXIST) return lsw_failed(L);
     if (lock->fd >= 0 && keep(lock->fd, path)) {
       lua_insert(L, -2);
       return 2;
@@ -141,7 +135,7 @@ static int mod_part(lua_State *L) {
     lock->fd = -1;
   }
   errno = EEXIST;
-  return failed(L);
+  return lsw_failed(L);
 }
 
 /* core.lock(path) -> lock: of a file that this process alone writes to, made if it is not there;
@@ -150,7 +144,7 @@ static int mod_lock(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   part_lock *lock = new_lock(L);
   lock->fd = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
-  if (lock->fd < 0) return failed(L);
+  if (lock->fd < 0) return lsw_failed(L);
   if (flock(lock->fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return 1;
   lua_pushnil(L);
   lua_pushliteral(L, "busy");
@@ -168,7 +162,7 @@ static int mod_create(lua_State *L) {
     lua_pushliteral(L, "busy");
     return 2;
   }
-  if (fd < 0) return failed(L);
+  if (fd < 0) return lsw_failed(L);
   const int whole = write(fd, text, size) == (ssize_t)size, why = errno;
   if (close(fd) == 0 && whole) {
     lua_pushboolean(L, 1);
@@ -176,7 +170,7 @@ static int mod_create(lua_State *L) {
   }
   unlinkat(AT_FDCWD, path, 0);
   if (!whole) errno = why ? why : ENOSPC;
-  return failed(L);
+  return lsw_failed(L);
 }
 
 static int sync_path(const char *path, int flags) {
@@ -192,7 +186,7 @@ static int sync_path(const char *path, int flags) {
  * true, or nil and the reason. */
 static int mod_sync(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
-  if (sync_path(path, lua_toboolean(L, 2) ? O_DIRECTORY : 0) != 0) return failed(L);
+  if (sync_path(path, lua_toboolean(L, 2) ? O_DIRECTORY : 0) != 0) return lsw_failed(L);
   lua_pushboolean(L, 1);
   return 1;
 }

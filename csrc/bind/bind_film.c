@@ -23,21 +23,13 @@ static int free_pack(lua_State *L) {
   return 0;
 }
 
-static void *keeper(lua_State *L, size_t size, const char *name, lua_CFunction end) {
-  void *p = lua_newuserdatauv(L, size, 0);
-  memset(p, 0, size);
-  if (luaL_newmetatable(L, name)) lua_pushcfunction(L, end), lua_setfield(L, -2, "__gc");
-  lua_setmetatable(L, -2);
-  return p;
-}
-
 /* core.film(scene, from, to, values) -> bytes, frames, those left out as broken */
 static int mod_film(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4),
                              0};
   sw_error err = {""};
-  sw_film *film = keeper(L, sizeof *film, "softworld.film", free_film);
+  sw_film *film = lsw_keep(L, sizeof *film, "softworld.film", NULL, free_film);
   lsw_must(L, sw_film_make(scene, &args, sw_interrupted, film, &err), &err);
   lua_pushlstring(L, (const char *)film->bytes, film->size);
   lua_pushinteger(L, (lua_Integer)film->frames);
@@ -97,7 +89,7 @@ static int mod_skin(lua_State *L) {
                        .differences = lua_toboolean(L, 6)};
   if (args.sides < 3 || args.sides > 64) return luaL_error(L, "core.skin: 3 to 64 sides");
   args.frames = frames_at(L, 3, scene, &args.count);
-  sw_skin *skin = keeper(L, sizeof *skin, "softworld.skin", free_skin);
+  sw_skin *skin = lsw_keep(L, sizeof *skin, "softworld.skin", NULL, free_skin);
   const sw_status status = sw_skin_make(scene, &args, sw_interrupted, skin, &err);
   if (status == SW_EINVAL) return 0;
   lsw_must(L, status, &err);
@@ -122,7 +114,7 @@ static int mod_deflate(lua_State *L) {
   size_t size;
   sw_error err = {"out of memory for deflated data"};
   const char *bytes = luaL_checklstring(L, 1, &size);
-  packer *p = keeper(L, sizeof *p, "softworld.pack", free_pack);
+  packer *p = lsw_keep(L, sizeof *p, "softworld.pack", NULL, free_pack);
   const unsigned char *out;
   lsw_must(L, sw_pack_new(&p->pack), &err);
   sw_pack_put(p->pack, bytes, size);

@@ -14,10 +14,15 @@ static const char SEARCH[] = "softworld.search";
 
 enum { MOST = 1000 }; /* rows of a matrix [-] */
 
-static sw_search *check(lua_State *L) {
-  sw_search **s = luaL_checkudata(L, 1, SEARCH);
-  if (!*s) luaL_error(L, "the search is closed");
-  return *s;
+typedef struct holder {
+  sw_search *search;
+  size_t n, constraints; /* numbers in a place and of what may be broken [-] */
+} holder;
+
+static holder *check(lua_State *L) {
+  holder *h = luaL_checkudata(L, 1, SEARCH);
+  if (!h->search) luaL_error(L, "the search is closed");
+  return h;
 }
 
 static void read_list(lua_State *L, int index, double *x, size_t n) {
@@ -32,61 +37,39 @@ static void read_list(lua_State *L, int index, double *x, size_t n) {
   }
 }
 
-/* The sizes are kept beside the search: index 1 is its userdata. */
-static size_t kept(lua_State *L, int which) {
-  lua_getiuservalue(L, 1, which);
-  const size_t n = (size_t)lua_tointeger(L, -1);
-  lua_pop(L, 1);
-  return n;
-}
-
 static int meth_ask(lua_State *L) {
   double x[SW_SEARCH_MOST];
-  sw_search *s = check(L);
+  const holder *h = check(L);
   int ok;
-  if (sw_search_ask(s, x)) {
-    lsw_push_flat(L, x, kept(L, 1));
+  if (sw_search_ask(h->search, x)) {
+    lsw_push_flat(L, x, h->n);
     return 1;
   }
   lua_pushnil(L);
-  lua_pushstring(L, sw_search_reason(s, &ok));
+  lua_pushstring(L, sw_search_reason(h->search, &ok));
   lua_pushboolean(L, ok);
   return 3;
 }
 
 static int meth_tell(lua_State *L) {
   double broken[SW_SEARCH_MOST] = {0};
-  sw_search *s = check(L);
+  const holder *h = check(L);
   const double value = luaL_checknumber(L, 2);
-  const size_t count = kept(L, 2);
   luaL_argcheck(L, isfinite(value), 2, "a finite number is wanted");
-  if (count > 0) read_list(L, 3, broken, count);
-  sw_search_tell(s, value, broken);
+  if (h->constraints > 0) read_list(L, 3, broken, h->constraints);
+  sw_search_tell(h->search, value, broken);
   return 0;
 }
 
 static int meth_close(lua_State *L) {
-  sw_search **s = luaL_checkudata(L, 1, SEARCH);
-  sw_search_free(*s);
-  *s = NULL;
+  holder *h = luaL_checkudata(L, 1, SEARCH);
+  sw_search_free(h->search);
+  h->search = NULL;
   return 0;
 }
 
 static const luaL_Reg methods[] = {
     {"ask", meth_ask}, {"tell", meth_tell}, {"close", meth_close}, {NULL, NULL}};
-
-static sw_search **new_search(lua_State *L) {
-  sw_search **s = lua_newuserdatauv(L, sizeof(sw_search *), 2);
-  *s = NULL;
-  if (luaL_newmetatable(L, SEARCH)) {
-    luaL_newlib(L, methods);
-    lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, meth_close), lua_setfield(L, -2, "__gc");
-    lua_pushcfunction(L, meth_close), lua_setfield(L, -2, "__close");
-  }
-  lua_setmetatable(L, -2);
-  return s;
-}
 
 static int mod_search(lua_State *L) {
   double start[SW_SEARCH_MOST];
@@ -106,10 +89,9 @@ static int mod_search(lua_State *L) {
                                (unsigned long)luaL_checkinteger(L, 6)};
   luaL_argcheck(L, args.step > 0 && args.step <= 0.5, 4, "above 0 to 0.5");
   luaL_argcheck(L, args.tolerance > 0 && args.tolerance <= 0.5, 5, "above 0 to 0.5");
-  sw_search **s = new_search(L);
-  lsw_must(L, sw_search_new(&args, s, &err), &err);
-  lua_pushinteger(L, (lua_Integer)n), lua_setiuservalue(L, -2, 1);
-  lua_pushinteger(L, count), lua_setiuservalue(L, -2, 2);
+  holder *h = lsw_keep(L, sizeof *h, SEARCH, methods, meth_close);
+  h->n = n, h->constraints = (size_t)count;
+  lsw_must(L, sw_search_new(&args, &h->search, &err), &err);
   return 1;
 }
 

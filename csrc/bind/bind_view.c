@@ -87,15 +87,7 @@ static const luaL_Reg methods[] = {{"page", meth_page},   {"put", meth_put},   {
 static int mod_serve(lua_State *L) {
   sw_error err = {""};
   const lua_Integer port = lsw_integer(L, 1, "view: port");
-  holder *h = lua_newuserdatauv(L, sizeof *h, 0);
-  h->server = NULL;
-  if (luaL_newmetatable(L, SERVER)) {
-    luaL_newlib(L, methods);
-    lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, meth_stop);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
+  holder *h = lsw_keep(L, sizeof *h, SERVER, methods, meth_stop);
   lsw_must(L, sw_server_start((int)port, &h->server, &err), &err);
   running++;
   lua_pushinteger(L, sw_server_port(h->server));
@@ -111,10 +103,7 @@ static int free_film(lua_State *L) {
 static int mod_film_now(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
-  sw_film *film = lua_newuserdatauv(L, sizeof *film, 0);
-  memset(film, 0, sizeof *film);
-  if (luaL_newmetatable(L, FILM)) lua_pushcfunction(L, free_film), lua_setfield(L, -2, "__gc");
-  lua_setmetatable(L, -2);
+  sw_film *film = lsw_keep(L, sizeof *film, FILM, NULL, free_film);
   lsw_must(L, sw_film_now(scene, lua_toboolean(L, 2), film, &err), &err);
   lua_pushlstring(L, (const char *)film->bytes, film->size);
   lua_pushinteger(L, (lua_Integer)film->frames);

@@ -107,15 +107,8 @@ static const luaL_Reg methods[] = {{"send", meth_send},
                                    {NULL, NULL}};
 
 static worker *new_worker(lua_State *L) {
-  worker *w = lua_newuserdatauv(L, sizeof *w, 0);
+  worker *w = lsw_keep(L, sizeof *w, WORKER, methods, meth_stop);
   *w = (worker){.fd = -1, .status = -1, .owner = getpid()};
-  if (luaL_newmetatable(L, WORKER)) {
-    luaL_newlib(L, methods);
-    lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, meth_stop), lua_setfield(L, -2, "__gc");
-    lua_pushcfunction(L, meth_stop), lua_setfield(L, -2, "__close");
-  }
-  lua_setmetatable(L, -2);
   return w;
 }
 
@@ -136,13 +129,6 @@ static void work(lua_State *L, pid_t parent, double memory) {
   _exit(status == LUA_OK ? 0 : 1);
 }
 
-static int failed(lua_State *L) {
-  const int why = errno;
-  lua_pushnil(L);
-  lua_pushstring(L, strerror(why));
-  return 2;
-}
-
 static int is_worker; /* 1: this process is one */
 
 static int mod_fork(lua_State *L) {
@@ -157,7 +143,7 @@ static int mod_fork(lua_State *L) {
   lua_settop(L, 1);
   worker *ours = new_worker(L), *theirs = new_worker(L);
   luaL_checkstack(L, 8, "fork");
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return failed(L);
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return lsw_failed(L);
   ours->fd = ends[0], theirs->fd = ends[1];
   const pid_t parent = getpid();
   fflush(NULL); /* or it would be written twice */
@@ -173,7 +159,7 @@ static int mod_fork(lua_State *L) {
   if (pid < 0) {
     bury(ours, 0);
     errno = why;
-    return failed(L);
+    return lsw_failed(L);
   }
   ours->pid = pid;
   setpgid(pid, pid); /* whoever comes first */

@@ -30,6 +30,22 @@ void *lsw_test(lua_State *L, int index, const lsw_class *c) {
   return same ? h : NULL;
 }
 
+void *lsw_keep(lua_State *L, size_t size, const char *name, const luaL_Reg *methods,
+               lua_CFunction end) {
+  void *kept = lua_newuserdatauv(L, size, 0);
+  memset(kept, 0, size);
+  if (luaL_newmetatable(L, name)) {
+    lua_pushcfunction(L, end), lua_setfield(L, -2, "__gc");
+    lua_pushcfunction(L, end), lua_setfield(L, -2, "__close");
+    lua_newtable(L);
+    if (methods) luaL_setfuncs(L, methods, 0);
+    lua_setfield(L, -2, "__index");
+    lua_pushliteral(L, "a part of the library"), lua_setfield(L, -2, "__metatable");
+  }
+  lua_setmetatable(L, -2);
+  return kept;
+}
+
 const lsw_class *lsw_class_of(lua_State *L, int index) {
   for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
     if (lsw_test(L, index, classes[i])) return classes[i];

@@ -42,6 +42,11 @@ void *lsw_check(lua_State *L, int index, const lsw_class *c);
  * type. */
 void *lsw_test(lua_State *L, int index, const lsw_class *c);
 
+/* Push a zeroed userdata of a kind that is no class: end(it) frees what it has, also when it was
+ * closed before. methods: NULL = none. */
+void *lsw_keep(lua_State *L, size_t size, const char *name, const luaL_Reg *methods,
+               lua_CFunction end);
+
 /* The class of the userdata at index, or NULL for anything that is not ours. */
 const lsw_class *lsw_class_of(lua_State *L, int index);
 

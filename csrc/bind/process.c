@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -16,6 +17,13 @@ enum { LIMIT_AS = 0 };
 #else
 enum { LIMIT_AS = 1 };
 #endif
+
+int lsw_failed(lua_State *L) {
+  const int why = errno;
+  lua_pushnil(L);
+  lua_pushstring(L, strerror(why));
+  return 2;
+}
 
 pid_t lsw_process_fork(void) {
   sigset_t all, before;

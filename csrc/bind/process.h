@@ -4,7 +4,11 @@
 #ifndef LSW_PROCESS_H
 #define LSW_PROCESS_H
 
+#include <lua.h>
 #include <sys/types.h>
+
+/* Push nil and what errno says; return 2. */
+int lsw_failed(lua_State *L);
 
 /* Fork without a chance for this process's signal handlers to run in the child. As fork(2); errno.
  */
