@@ -26,6 +26,22 @@ static int unknown_key(lua_State *L, const char *object, const lsw_section *sect
                     lua_tostring(L, -1));
 }
 
+size_t lsw_word(lua_State *L, const char *what, const char *also, const char *const *names,
+                size_t count) {
+  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, -1);
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(names[i], word) == 0) return i;
+  const char *near = sw_nearest_name(word, names, sizeof names[0], count);
+  if (near) luaL_error(L, "%s '%s'; did you mean '%s'?", what, word, near);
+  lua_pushstring(L, also);
+  for (size_t i = 0; i < count; i++) {
+    lua_pushfstring(L, "%s%s", i || *also ? ", " : "", names[i]);
+    lua_concat(L, 2);
+  }
+  luaL_error(L, "%s '%s'; known are: %s", what, word, lua_tostring(L, -1));
+  return 0;
+}
+
 static int read_choice(lua_State *L, const char *object, const sw_param *row) {
   size_t count = 0;
   while (row->choices[count]) count++;

@@ -15,10 +15,6 @@ static int push_protected(lua_State *L, lua_CFunction push, void *p) {
   return lua_pcall(L, 1, 1, 0);
 }
 
-static void set_unless_nan(lua_State *L, const char *name, double value) {
-  if (!isnan(value)) lsw_set_number(L, name, value);
-}
-
 /* S as a list of rows, under the name matrix. */
 static void set_matrix(lua_State *L, const double S[SW_CELL_SIZE]) {
   lua_createtable(L, SW_CELL_STRAINS, 0);
@@ -161,7 +157,7 @@ static int push_calibration(lua_State *L) {
   }
   lsw_set_number(L, "spacing", c->lattice.spacing);
   lua_newtable(L);
-  for (int t = 0; t < SW_TARGETS; t++) set_unless_nan(L, sw_target_names[t], c->residual[t]);
+  for (int t = 0; t < SW_TARGETS; t++) lsw_set_known(L, sw_target_names[t], c->residual[t]);
   lua_setfield(L, -2, "residuals");
   lua_newtable(L);
   for (int g = 0; g < SW_GROUPS; g++)

@@ -46,8 +46,8 @@ static void push_event(lua_State *L, const sw_event *e) {
   lsw_set_number(L, "first", e->first);
   lsw_set_number(L, "last", e->last);
   lsw_set_integer(L, "count", e->count);
-  if (!isnan(e->s)) lsw_set_number(L, "s", e->s);
-  if (!isnan(e->value)) lsw_set_number(L, "value", e->value);
+  lsw_set_known(L, "s", e->s);
+  lsw_set_known(L, "value", e->value);
 }
 
 /* scene:events() -> list, number of events for which there was no room */

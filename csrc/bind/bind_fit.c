@@ -19,26 +19,13 @@ typedef struct caller {
   int derivatives;
 } caller;
 
-/* The list on top of the stack, of exactly count finite numbers. */
-static void read_list(lua_State *L, double *out, size_t count) {
-  luaL_checktype(L, -1, LUA_TTABLE);
-  if (lua_rawlen(L, -1) != count)
-    luaL_error(L, "least_squares: %d numbers instead of %d", (int)lua_rawlen(L, -1), (int)count);
-  for (size_t i = 0; i < count; i++) {
-    lua_rawgeti(L, -1, (lua_Integer)i + 1);
-    out[i] = lua_tonumber(L, -1);
-    if (!isfinite(out[i])) luaL_error(L, "least_squares: number %d is not finite", (int)i + 1);
-    lua_pop(L, 1);
-  }
-}
-
 static int call_function(lua_State *L) {
   caller *c = lua_touserdata(L, 2);
   lua_pushvalue(L, 1);
   lsw_push_flat(L, c->x, c->n);
   lua_pushboolean(L, c->derivatives);
   lua_call(L, 2, 1);
-  read_list(L, c->out, c->derivatives ? c->rows * c->n : c->rows);
+  lsw_read_flat(L, -1, c->out, c->derivatives ? c->rows * c->n : c->rows);
   return 0;
 }
 
@@ -74,9 +61,7 @@ static int mod_least_squares(lua_State *L) {
   luaL_argcheck(L, n >= 1 && n <= 1000, 1, "1 to 1000 parameters");
   luaL_argcheck(L, rows >= n && rows <= MOST / n, 3, "rows from the parameters to 1e7 numbers");
   double *x = lua_newuserdatauv(L, sizeof *x * (size_t)n, 0);
-  lua_pushvalue(L, 1);
-  read_list(L, x, (size_t)n);
-  lua_pop(L, 1);
+  lsw_read_flat(L, 1, x, (size_t)n);
   caller c = {.L = L, .n = (size_t)n, .rows = (size_t)rows};
   lsw_must(L,
            sw_fit(residuals, &c, c.n, c.rows, x, tolerance, (size_t)(most > 0 ? most : 1), &end,
@@ -99,8 +84,7 @@ static int mod_singular(lua_State *L) {
   const size_t size = (size_t)(rows * n), square = (size_t)(n * n);
   double *a = lua_newuserdatauv(L, sizeof *a * (size + (size_t)n + square), 0);
   double *s = a + size, *v = s + n;
-  lua_pushvalue(L, 1);
-  read_list(L, a, size);
+  lsw_read_flat(L, 1, a, size);
   lsw_must(L, sw_singular(a, (size_t)rows, (size_t)n, s, v, &err), &err);
   lsw_push_flat(L, s, (size_t)n);
   lsw_push_flat(L, v, square);

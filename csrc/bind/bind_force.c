@@ -148,20 +148,10 @@ static const sw_params own_params = {"force", own_rows, OWN_ROWS};
 static const sw_force_class *read_kind(lua_State *L) {
   const char *names[64];
   size_t count = 0;
-  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, -1);
   for (size_t i = 0; sw_force_all()[i] && count < 64; i++)
     if (!(sw_force_all()[i]->flags & SW_FORCE_INNER)) names[count++] = sw_force_all()[i]->name;
-  for (size_t i = 0; i < count; i++)
-    if (strcmp(names[i], word) == 0) return sw_force_find(word);
-  const char *near = sw_nearest_name(word, names, sizeof names[0], count);
-  if (near) luaL_error(L, "scene:force: there is no kind '%s'; did you mean '%s'?", word, near);
-  lua_pushliteral(L, "a function");
-  for (size_t i = 0; i < count; i++) {
-    lua_pushfstring(L, ", %s", names[i]);
-    lua_concat(L, 2);
-  }
-  luaL_error(L, "scene:force: there is no kind '%s'; known are: %s", word, lua_tostring(L, -1));
-  return NULL;
+  return sw_force_find(
+      names[lsw_word(L, "scene:force: there is no kind", "a function", names, count)]);
 }
 
 int lsw_scene_force(lua_State *L) {
@@ -255,7 +245,7 @@ static int prop_held(lua_State *L) {
   return 1;
 }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self f;
   if (!lsw_find_self(L, &lsw_class_force, &f)) return 1;
   const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
@@ -295,11 +285,10 @@ static const luaL_Reg methods[] = {
     {"release", meth_release}, {"get", meth_get},         {"set", meth_set}, {"read", meth_read},
     {"log", meth_log},         {"call_it", meth_call_it}, {NULL, NULL}};
 static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_force = {.name = "force",
                                    .size = sizeof(lsw_child),
                                    .methods = methods,
-                                   .meta = meta,
+                                   .describe = describe,
                                    .properties = properties,
                                    .gone = "this force was never made"};

@@ -277,7 +277,7 @@ static int prop_name(lua_State *L) { return lua_pushstring(L, identify(L).name),
 static int prop_kind(lua_State *L) { return lua_pushstring(L, identify(L).kind), 1; }
 static int prop_held(lua_State *L) { return lua_pushboolean(L, identify(L).held), 1; }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self c;
   sw_error err;
   const char *kind;
@@ -322,12 +322,11 @@ static const luaL_Reg methods[] = {{"force", meth_force},
 
 static const luaL_Reg properties[] = {
     {"name", prop_name}, {"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_clamp = {.name = "clamp",
                                    .size = sizeof(lsw_child),
                                    .methods = methods,
-                                   .meta = meta,
+                                   .describe = describe,
                                    .properties = properties,
                                    .gone = "this clamp was never made",
                                    .word = word_of};

@@ -113,7 +113,7 @@ static int prop_held(lua_State *L) {
   return lua_pushboolean(L, held), 1;
 }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self j;
   int held;
   size_t ends;
@@ -127,11 +127,10 @@ static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_mo
                                    {"release", meth_release}, {"read", meth_read},
                                    {"log", meth_log},         {NULL, NULL}};
 static const luaL_Reg properties[] = {{"name", prop_name}, {"held", prop_held}, {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_join = {.name = "join",
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
-                                  .meta = meta,
+                                  .describe = describe,
                                   .properties = properties,
                                   .gone = "this join was never made"};

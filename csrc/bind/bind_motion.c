@@ -180,12 +180,11 @@ static const luaL_Reg methods[] = {{"position", m_position},
                                    {"delayed", m_delayed},
                                    {"sample", m_sample},
                                    {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_trajectory = {.name = "trajectory",
                                         .size = sizeof(trajectory),
                                         .methods = methods,
-                                        .meta = meta,
+                                        .describe = describe,
                                         .close = close_trajectory,
                                         .gone = "the trajectory has been closed"};
 

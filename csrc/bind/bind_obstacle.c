@@ -139,7 +139,7 @@ static int prop_present(lua_State *L) {
   return 1;
 }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self o;
   sw_error err;
   const char *kind;
@@ -157,11 +157,10 @@ static int meta_describe(lua_State *L) {
 
 static const luaL_Reg properties[] = {
     {"shape", prop_shape}, {"name", prop_name}, {"present", prop_present}, {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_obstacle = {.name = "obstacle",
                                       .size = sizeof(lsw_child),
                                       .methods = methods,
-                                      .meta = meta,
+                                      .describe = describe,
                                       .properties = properties,
                                       .gone = "this obstacle was never made"};

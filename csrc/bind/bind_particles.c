@@ -161,7 +161,7 @@ static int prop_count(lua_State *L) {
 static int prop_mass(lua_State *L) { return lua_pushnumber(L, info(L).mass), 1; }
 static int prop_radius(lua_State *L) { return lua_pushnumber(L, info(L).radius), 1; }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self p;
   sw_error err;
   sw_particles_info info;
@@ -185,11 +185,10 @@ static const luaL_Reg methods[] = {{"positions", meth_positions},
 static const luaL_Reg properties[] = {{"name", prop_name},     {"present", prop_present},
                                       {"count", prop_count},   {"mass", prop_mass},
                                       {"radius", prop_radius}, {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_particles = {.name = "particles",
                                        .size = sizeof(lsw_child),
                                        .methods = methods,
-                                       .meta = meta,
+                                       .describe = describe,
                                        .properties = properties,
                                        .gone = "these particles were never made"};

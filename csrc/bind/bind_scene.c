@@ -348,7 +348,7 @@ static int describe_snapshot(lua_State *L) {
   return lsw_say(L, "snapshot at t = %.6g s", sw_snapshot_time(h->object));
 }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   return lsw_say(L, "scene '%s' at t = %.6g s", sw_scene_name(scene), sw_scene_time(scene));
 }
@@ -379,24 +379,22 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"restore", meth_restore},
                                    {NULL, NULL}};
 static const luaL_Reg properties[] = {{"time", prop_time}, {"name", prop_name}, {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_scene = {.name = "scene",
                                    .size = sizeof(lsw_scene_handle),
                                    .methods = methods,
                                    .more = lsw_add_holds,
-                                   .meta = meta,
+                                   .describe = describe,
                                    .properties = properties,
                                    .close = close_scene,
                                    .gone = "the scene has been closed",
                                    .busy = scene_busy};
 
 static const luaL_Reg none[] = {{NULL, NULL}};
-static const luaL_Reg snapshot_meta[] = {{"__describe", describe_snapshot}, {NULL, NULL}};
 const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .size = sizeof(lsw_handle),
                                       .methods = none,
-                                      .meta = snapshot_meta,
+                                      .describe = describe_snapshot,
                                       .close = close_snapshot,
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};

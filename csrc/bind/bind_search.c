@@ -25,18 +25,6 @@ static holder *check(lua_State *L) {
   return h;
 }
 
-static void read_list(lua_State *L, int index, double *x, size_t n) {
-  luaL_checktype(L, index, LUA_TTABLE);
-  luaL_argcheck(L, lua_rawlen(L, index) == n, index, "a list of another length is wanted");
-  for (size_t i = 0; i < n; i++) {
-    lua_rawgeti(L, index, (lua_Integer)i + 1);
-    x[i] = lua_tonumber(L, -1);
-    luaL_argcheck(L, lua_type(L, -1) == LUA_TNUMBER && isfinite(x[i]), index,
-                  "finite numbers are wanted");
-    lua_pop(L, 1);
-  }
-}
-
 static int meth_ask(lua_State *L) {
   double x[SW_SEARCH_MOST];
   const holder *h = check(L);
@@ -56,7 +44,7 @@ static int meth_tell(lua_State *L) {
   const holder *h = check(L);
   const double value = luaL_checknumber(L, 2);
   luaL_argcheck(L, isfinite(value), 2, "a finite number is wanted");
-  if (h->constraints > 0) read_list(L, 3, broken, h->constraints);
+  if (h->constraints > 0) lsw_read_flat(L, 3, broken, h->constraints);
   sw_search_tell(h->search, value, broken);
   return 0;
 }
@@ -79,7 +67,7 @@ static int mod_search(lua_State *L) {
   const lua_Integer count = luaL_checkinteger(L, 3);
   luaL_argcheck(L, n >= 1 && n <= SW_SEARCH_MOST, 2, "1 to 64 parameters");
   luaL_argcheck(L, count >= 0 && count <= SW_SEARCH_MOST, 3, "0 to 64 constraints");
-  read_list(L, 2, start, n);
+  lsw_read_flat(L, 2, start, n);
   const sw_search_args args = {luaL_checkstring(L, 1),
                                n,
                                (size_t)count,
@@ -101,7 +89,7 @@ static int mod_eigen(lua_State *L) {
   luaL_argcheck(L, n >= 1 && n <= MOST, 2, "1 to 1000 rows");
   const size_t rows = (size_t)n;
   double *a = lua_newuserdatauv(L, sizeof *a * (2 * rows * rows + rows), 0);
-  read_list(L, 1, a, rows * rows);
+  lsw_read_flat(L, 1, a, rows * rows);
   double *values = a + rows * rows, *vectors = values + rows;
   lsw_must(L, sw_symmetric_eigen(a, rows, values, vectors), &err);
   lsw_push_flat(L, values, rows);

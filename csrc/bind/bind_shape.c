@@ -260,9 +260,7 @@ static int meth_triangles(lua_State *L) {
   return status == LUA_OK ? 2 : lua_error(L);
 }
 
-static int meta_describe(lua_State *L) {
-  return lsw_say(L, "shape: %s", sw_shape_kind(check_shape(L)));
-}
+static int describe(lua_State *L) { return lsw_say(L, "shape: %s", sw_shape_kind(check_shape(L))); }
 
 static void close(lsw_handle *h) { sw_shape_release(h->object); }
 
@@ -270,12 +268,11 @@ static const luaL_Reg methods[] = {
     {"kind", meth_kind},   {"distance", meth_distance}, {"segment", meth_segment},
     {"sweep", meth_sweep}, {"bounds", meth_bounds},     {"triangles", meth_triangles},
     {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_shape = {.name = "shape",
                                    .size = sizeof(shape_handle),
                                    .methods = methods,
-                                   .meta = meta,
+                                   .describe = describe,
                                    .close = close,
                                    .gone = "the shape has been closed"};
 

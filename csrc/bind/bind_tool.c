@@ -122,16 +122,15 @@ static int meth_state(lua_State *L) {
   lsw_set_vector(L, "slipped", now.slipped);
   lsw_set_number(L, "place", now.place);
   lsw_set_flag(L, "frozen", now.frozen);
-  if (!isnan(now.lost_time)) lsw_set_number(L, "lost_time", now.lost_time);
+  lsw_set_known(L, "lost_time", now.lost_time);
   if (!isnan(now.crash_time)) {
     lsw_set_number(L, "crash_time", now.crash_time);
     lsw_set_number(L, "crash_depth", now.crash_depth);
     lsw_set_text(L, "crash_part", now.crash_part);
     lsw_set_text(L, "crash_obstacle", now.crash_obstacle);
   }
-  if (isnan(now.slip_time)) return 1;
-  lsw_set_number(L, "slip_time", now.slip_time);
-  lsw_set_number(L, "slip_place", now.slip_place);
+  lsw_set_known(L, "slip_time", now.slip_time);
+  if (!isnan(now.slip_time)) lsw_set_number(L, "slip_place", now.slip_place);
   return 1;
 }
 
@@ -241,7 +240,7 @@ static const luaL_Reg methods[] = {{"pad", meth_pad},         {"hold", meth_hold
                                    {"freeze", meth_freeze},   {"thaw", meth_thaw},
                                    {"limit", meth_limit},     {NULL, NULL}};
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self t;
   if (!lsw_find_self(L, &lsw_class_tool, &t)) return 1;
   const char *name = sw_scene_tool_name(t.scene, t.id);
@@ -249,10 +248,8 @@ static int meta_describe(lua_State *L) {
   return lsw_say(L, "tool '%s'", name);
 }
 
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
-
 const lsw_class lsw_class_tool = {.name = "tool",
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
-                                  .meta = meta,
+                                  .describe = describe,
                                   .gone = "this tool was never made"};

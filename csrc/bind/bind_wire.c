@@ -9,22 +9,8 @@ int lsw_read_model(lua_State *L, int table) {
   const char *names[32];
   size_t count = 0;
   while (count < 32 && sw_wire_all()[count]) names[count] = sw_wire_all()[count]->name, count++;
-  if (lua_getfield(L, table, "model") == LUA_TNIL) {
-    for (size_t i = 0; i < count; i++)
-      if (strcmp(names[i], "rod") == 0) return (int)i;
-    return 0;
-  }
-  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, -1);
-  for (size_t i = 0; i < count; i++)
-    if (strcmp(names[i], word) == 0) return (int)i;
-  const char *near = sw_nearest_name(word, names, sizeof names[0], count);
-  if (near) return luaL_error(L, "wire: there is no model '%s'; did you mean '%s'?", word, near);
-  lua_pushliteral(L, "");
-  for (size_t i = 0; i < count; i++) {
-    lua_pushfstring(L, "%s%s", i ? ", " : "", names[i]);
-    lua_concat(L, 2);
-  }
-  return luaL_error(L, "wire: there is no model '%s'; known are: %s", word, lua_tostring(L, -1));
+  if (lua_getfield(L, table, "model") == LUA_TNIL) lua_pushliteral(L, "rod");
+  return (int)lsw_word(L, "wire: there is no model", "", names, count);
 }
 
 /* EI = {EI1, EI2}: takes the second one and puts, as the arguments, a copy of the
@@ -363,7 +349,7 @@ static int prop_model(lua_State *L) {
 static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_wire); }
 static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_wire); }
 
-static int meta_describe(lua_State *L) {
+static int describe(lua_State *L) {
   lsw_self w;
   sw_error err;
   double length = 0;
@@ -409,11 +395,10 @@ static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop
                                       {"beam", push_beam},     {"radius", prop_radius},
                                       {"name", prop_name},     {"present", prop_present},
                                       {"model", prop_model},   {NULL, NULL}};
-static const luaL_Reg meta[] = {{"__describe", meta_describe}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
-                                  .meta = meta,
+                                  .describe = describe,
                                   .properties = properties,
                                   .gone = "this wire was never made"};

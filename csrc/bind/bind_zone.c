@@ -20,10 +20,6 @@ static int mod_zone(lua_State *L) {
   return 1;
 }
 
-static void set_known(lua_State *L, const char *name, double value) {
-  if (!isnan(value)) lsw_set_number(L, name, value);
-}
-
 /* core.zones(wire) -> { { name, temperature [degC], and where a step was watched gap [m], s [m],
  * time [s], between [m], inside [s] }, ... } */
 static int mod_zones(lua_State *L) {
@@ -35,7 +31,7 @@ static int mod_zones(lua_State *L) {
     const sw_zone_past *past = sw_scene_zone_past(w.scene, w.id, k);
     lua_createtable(L, 0, 7);
     lsw_set_text(L, "name", z->name);
-    set_known(L, "temperature", z->temperature);
+    lsw_set_known(L, "temperature", z->temperature);
     if (past) {
       lsw_set_number(L, "gap", past->gap);
       lsw_set_number(L, "s", past->s);

@@ -99,6 +99,20 @@ void lsw_push_flat(lua_State *L, const double *values, size_t n) {
   }
 }
 
+void lsw_read_flat(lua_State *L, int index, double *out, size_t n) {
+  index = lua_absindex(L, index);
+  luaL_checktype(L, index, LUA_TTABLE);
+  if (lua_rawlen(L, index) != n)
+    luaL_error(L, "%d numbers instead of %d", (int)lua_rawlen(L, index), (int)n);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, index, (lua_Integer)i + 1);
+    out[i] = lua_tonumber(L, -1);
+    if (lua_type(L, -1) != LUA_TNUMBER || !isfinite(out[i]))
+      luaL_error(L, "number %d of the list: finite numbers are wanted", (int)i + 1);
+    lua_pop(L, 1);
+  }
+}
+
 void lsw_set_text(lua_State *L, const char *name, const char *text) {
   lua_pushstring(L, text), lua_setfield(L, -2, name);
 }
@@ -109,6 +123,10 @@ void lsw_set_flag(lua_State *L, const char *name, int flag) {
 
 void lsw_set_number(lua_State *L, const char *name, double value) {
   lua_pushnumber(L, value), lua_setfield(L, -2, name);
+}
+
+void lsw_set_known(lua_State *L, const char *name, double value) {
+  if (!isnan(value)) lsw_set_number(L, name, value);
 }
 
 void lsw_set_integer(lua_State *L, const char *name, size_t value) {

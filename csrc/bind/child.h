@@ -114,6 +114,9 @@ void lsw_check_table(lua_State *L, int index, const char *what);
 /* Push n numbers as a flat array. */
 void lsw_push_flat(lua_State *L, const double *values, size_t n);
 
+/* Read a flat array of exactly n finite numbers. */
+void lsw_read_flat(lua_State *L, int index, double *out, size_t n);
+
 /* Push a table of each kind of energy and their total [J]. */
 void lsw_push_energy(lua_State *L, const sw_energy *energy);
 
@@ -122,6 +125,7 @@ void lsw_push_energy(lua_State *L, const sw_energy *energy);
 void lsw_set_text(lua_State *L, const char *name, const char *text);
 void lsw_set_flag(lua_State *L, const char *name, int flag);
 void lsw_set_number(lua_State *L, const char *name, double value);
+void lsw_set_known(lua_State *L, const char *name, double value); /* not when NAN */
 void lsw_set_integer(lua_State *L, const char *name, size_t value);
 void lsw_set_vector(lua_State *L, const char *name, sw_vec value);
 void lsw_set_flat(lua_State *L, const char *name, const double *values, size_t n);

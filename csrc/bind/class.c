@@ -131,12 +131,7 @@ static int meta_tostring(lua_State *L) {
   const lsw_class *c = class_of(L);
   lsw_handle *h = lsw_test(L, 1, c);
   if (h && h->object) {
-    luaL_getmetafield(L, 1, "__describe");
-    if (lua_isfunction(L, -1)) {
-      lua_pushvalue(L, 1);
-      lua_call(L, 1, 1);
-      return 1;
-    }
+    if (c->describe) return lua_settop(L, 1), c->describe(L);
     lua_pushfstring(L, "%s: %p", c->name, h->object);
   } else {
     lua_pushfstring(L, "%s (closed)", c->name);
@@ -266,7 +261,6 @@ static void open_class(lua_State *L, const lsw_class *c) {
   push_indexer(L, c, methods, meta_names);
   lua_setfield(L, methods - 1, "__names");
   lua_insert(L, -2);
-  if (c->meta) luaL_setfuncs(L, c->meta, 0);
   lua_rawsetp(L, LUA_REGISTRYINDEX, c);
 }
 

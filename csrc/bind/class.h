@@ -21,7 +21,7 @@ typedef struct lsw_class {
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
   void (*more)(lua_State *L);        /* adds methods to the table on top, or NULL */
-  const luaL_Reg *meta;              /* more metamethods, or NULL */
+  lua_CFunction describe;            /* what tostring says of an open one, or NULL */
   const luaL_Reg *properties;        /* getters called as f(object), or NULL */
   void (*close)(lsw_handle *h);      /* frees h->object; never called with NULL there. NULL: the
                                       * object is another's, nothing to close */
@@ -77,6 +77,11 @@ typedef struct lsw_section {
 } lsw_section;
 void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
                   int count);
+
+/* Which of the names is the word on top of the stack; raises what ("wire: there is no model") and
+ * the nearest of them, or all after also. */
+size_t lsw_word(lua_State *L, const char *what, const char *also, const char *const *names,
+                size_t count);
 
 /* object:set{...}: read over what args has; rows that do not change raise. */
 void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args);
