@@ -164,7 +164,7 @@ int lsw_scene_force(lua_State *L) {
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:force");
   if (lua_getfield(L, 2, "on") != LUA_TNIL)
-    wire = lsw_check_body_of(L, 3, owner->h.object, "scene:force: on")->id;
+    wire = lsw_check_body_of(L, 3, owner->h.object, "scene:force: on");
   lua_getfield(L, 2, "kind");
   const int function = lua_isfunction(L, 4);
   if (lua_isnil(L, 4))
@@ -208,8 +208,8 @@ static int meth_read(lua_State *L) {
   double values[SW_FORCE_OUTPUTS_MAX];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
   lua_settop(L, 2);
-  const lsw_child *wire = lsw_check_body_of(L, 2, f.scene, "force:read");
-  lsw_must(L, sw_scene_read_force(f.scene, f.id, wire->id, values, &err), &err);
+  const sw_handle wire = lsw_check_body_of(L, 2, f.scene, "force:read");
+  lsw_must(L, sw_scene_read_force(f.scene, f.id, wire, values, &err), &err);
   const char *const *names = sw_scene_force_class(f.scene, f.id)->outputs;
   lua_newtable(L);
   for (size_t k = 0; names[k]; k++) lsw_set_number(L, names[k], values[k]);

@@ -24,11 +24,11 @@ static int new_hold(lua_State *L) {
     return luaL_error(L, "scene:%s goes with wires; particles are held by scene:hold", kind);
   }
   const char *what = lua_pushfstring(L, "scene:%s", kind);
-  const lsw_child *wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
+  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
   lsw_arguments(L, 3, what, &cls->params, &args);
   if (lua_istable(L, 3)) args.points = lsw_read_points(L, 3, "path", kind, &args.count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  lsw_must(L, sw_scene_add_hold(owner->h.object, cls, wire->id, &args, &child->id, &err), &err);
+  lsw_must(L, sw_scene_add_hold(owner->h.object, cls, wire, &args, &child->id, &err), &err);
   child->h.object = owner;
   return 1;
 }

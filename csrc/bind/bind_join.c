@@ -16,7 +16,7 @@ static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) 
   if (!lua_istable(L, at))
     luaL_error(L, "%s must be { wire, s = arc length }, got %s", what, lsw_describe(L, at));
   lua_rawgeti(L, at, 1);
-  end.wire = lsw_check_child_of(L, at + 1, &lsw_class_wire, scene, what)->id;
+  end.wire = lsw_check_child_of(L, at + 1, &lsw_class_wire, scene, what);
   lua_newtable(L); /* what else is there, to be checked */
   lua_pushnil(L);
   while (lua_next(L, at)) {

@@ -38,14 +38,14 @@ int lsw_hold_particles(lua_State *L) {
   sw_error err = {""};
   size_t count;
   lua_settop(L, 3);
-  const lsw_child *object =
+  const sw_handle object =
       lsw_check_child_of(L, 2, &lsw_class_particles, owner->h.object, "scene:hold");
   lsw_arguments(L, 3, "scene:hold", &params, &args);
   lua_getfield(L, 3, "particles");
   const uint32_t *list = lsw_particle_numbers(L, 4, "particles to be held", &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
   lsw_must(L,
-           sw_scene_hold_particles(owner->h.object, object->id, args.name, list, count, args.at,
+           sw_scene_hold_particles(owner->h.object, object, args.name, list, count, args.at,
                                    &child->id, &err),
            &err);
   child->h.object = owner;

@@ -58,9 +58,9 @@ int lsw_scene_evaluate(lua_State *L) {
   size_t nodes;
   probe_args args;
   lua_settop(L, 3);
-  const lsw_child *wire = lsw_check_body_of(L, 2, scene, "scene:evaluate");
+  const sw_handle wire = lsw_check_body_of(L, 2, scene, "scene:evaluate");
   lsw_arguments(L, 3, "scene:evaluate", &params, &args);
-  lsw_must(L, sw_scene_wire_particles(scene, wire->id, &nodes, &err), &err);
+  lsw_must(L, sw_scene_wire_particles(scene, wire, &nodes, &err), &err);
   const size_t n = 3 * nodes;
   const int table = lua_isnil(L, 3) ? 0 : 3;
   const sw_probe at = {.positions = read_flat(L, table, "positions", n),
@@ -74,7 +74,7 @@ int lsw_scene_evaluate(lua_State *L) {
   for (size_t i = 0; sw_force_all()[i]; i++) {
     const sw_force_class *cls = sw_force_all()[i];
     lua_State *outer = lsw_begin_forces(L);
-    const sw_status status = sw_scene_probe(scene, wire->id, cls, &at, &r, &err);
+    const sw_status status = sw_scene_probe(scene, wire, cls, &at, &r, &err);
     lsw_end_forces(outer);
     lsw_must(L, status, &err);
     if (r.terms == 0) continue;

@@ -135,11 +135,9 @@ static int mod_begin_run(lua_State *L) {
 
 /* core.window(scene or obstacle) -> that of the scene's last run [s]. */
 static int mod_window(lua_State *L) {
-  sw_scene *scene;
-  if (lsw_test(L, 1, &lsw_class_obstacle))
-    lsw_check_child(L, 1, &lsw_class_obstacle, &scene);
-  else
-    scene = lsw_check_scene(L);
+  const int obstacle = lsw_test(L, 1, &lsw_class_obstacle) != NULL;
+  const sw_scene *scene =
+      obstacle ? lsw_check_self(L, &lsw_class_obstacle).scene : lsw_check_scene(L);
   lua_pushnumber(L, sw_scene_window(scene));
   return 1;
 }

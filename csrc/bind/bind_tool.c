@@ -37,19 +37,19 @@ static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_tool);
 static int meth_pad(lua_State *L) {
   sw_error err = {""};
   const lsw_self t = check(L);
-  const lsw_child *o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad");
+  const sw_handle o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad");
   const lua_Integer finger = lsw_integer(L, 3, "tool: the number of the finger");
   luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
-  lsw_must(L, sw_scene_tool_pad(t.scene, t.id, o->id, (int)finger - 1, opens, &err), &err);
+  lsw_must(L, sw_scene_tool_pad(t.scene, t.id, o, (int)finger - 1, opens, &err), &err);
   return 0;
 }
 
 static int meth_hold(lua_State *L) {
   sw_error err = {""};
   const lsw_self t = check(L);
-  const lsw_child *h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:hold");
-  lsw_must(L, sw_scene_tool_hold(t.scene, t.id, h->id, &err), &err);
+  const sw_handle h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:hold");
+  lsw_must(L, sw_scene_tool_hold(t.scene, t.id, h, &err), &err);
   return 0;
 }
 
@@ -209,8 +209,8 @@ static int meth_freeze(lua_State *L) {
   sw_error err = {""};
   sw_freeze_report r;
   const lsw_self t = check(L);
-  const lsw_child *w = lsw_check_child_of(L, 2, &lsw_class_wire, t.scene, "tool:freeze");
-  lsw_must(L, sw_scene_tool_freeze(t.scene, t.id, w->id, sw_scene_balance, &r, &err), &err);
+  const sw_handle w = lsw_check_child_of(L, 2, &lsw_class_wire, t.scene, "tool:freeze");
+  lsw_must(L, sw_scene_tool_freeze(t.scene, t.id, w, sw_scene_balance, &r, &err), &err);
   return push_report(L, &r);
 }
 

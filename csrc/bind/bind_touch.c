@@ -18,7 +18,7 @@ static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count)
       lua_pushvalue(L, at);
     else
       lua_rawgeti(L, at, (lua_Integer)k + 1);
-    wires[k] = lsw_check_body_of(L, lua_gettop(L), scene, what)->id;
+    wires[k] = lsw_check_body_of(L, lua_gettop(L), scene, what);
     lua_pop(L, 1);
   }
   return wires;

@@ -22,33 +22,28 @@ lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
 /* Slots of bodies close up when one leaves. */
 static int is_body(const lsw_class *c) { return c == &lsw_class_wire || c == &lsw_class_particles; }
 
-lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene **scene) {
+static lsw_self check_at(lua_State *L, int index, const lsw_class *c) {
   lsw_child *child = lsw_check(L, index, c);
-  lsw_scene_handle *owner = child->h.object;
-  if (!owner->h.object) luaL_error(L, "the scene of this %s has been closed", c->name);
-  *scene = owner->h.object;
-  if (is_body(c)) child->id = sw_scene_body_now(*scene, child->id);
-  return child;
+  const lsw_scene_handle *owner = child->h.object;
+  sw_scene *scene = owner->h.object;
+  if (!scene) luaL_error(L, "the scene of this %s has been closed", c->name);
+  if (is_body(c)) child->id = sw_scene_body_now(scene, child->id);
+  return (lsw_self){scene, child->id};
 }
 
-lsw_self lsw_check_self(lua_State *L, const lsw_class *c) {
-  lsw_self self;
-  self.id = lsw_check_child(L, 1, c, &self.scene)->id;
-  return self;
-}
+lsw_self lsw_check_self(lua_State *L, const lsw_class *c) { return check_at(L, 1, c); }
 
-lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
-                              const char *what) {
-  sw_scene *owner;
+sw_handle lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
+                             const char *what) {
   if (!lsw_test(L, index, c))
     luaL_error(L, "%s expects a %s of the scene, got %s", what, c->name,
                lua_isnoneornil(L, index) ? "nothing" : lsw_describe(L, index));
-  lsw_child *child = lsw_check_child(L, index, c, &owner);
-  if (owner != scene) luaL_error(L, "%s: this %s belongs to another scene", what, c->name);
-  return child;
+  const lsw_self child = check_at(L, index, c);
+  if (child.scene != scene) luaL_error(L, "%s: this %s belongs to another scene", what, c->name);
+  return child.id;
 }
 
-lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what) {
+sw_handle lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what) {
   const int loose = lsw_test(L, index, &lsw_class_particles) != NULL;
   return lsw_check_child_of(L, index, loose ? &lsw_class_particles : &lsw_class_wire, scene, what);
 }

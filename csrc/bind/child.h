@@ -34,20 +34,18 @@ sw_scene *lsw_check_scene(lua_State *L);
 /* Push a child of the scene userdata at index scene. */
 lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
 
-/* The child at index and its scene; raises when either is gone. */
-lsw_child *lsw_check_child(lua_State *L, int index, const lsw_class *c, sw_scene **scene);
-
-/* The same when it must belong to the given scene. */
-lsw_child *lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
-                              const char *what);
-
-/* A wire or an object of particles, as above. */
-lsw_child *lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what);
-
-/* The child at index 1 as above, for its methods. */
+/* The child at index 1, whose method is called; raises when it or its scene is gone. */
 lsw_self lsw_check_self(lua_State *L, const lsw_class *c);
 
-/* The same without raising: when its scene is gone 0, and what tostring may say is pushed. */
+/* The child at index, which must belong to the given scene. */
+sw_handle lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
+                             const char *what);
+
+/* A wire or an object of particles, as above. */
+sw_handle lsw_check_body_of(lua_State *L, int index, const sw_scene *scene, const char *what);
+
+/* As lsw_check_self without raising: when its scene is gone 0, and what tostring may say is
+ * pushed. */
 int lsw_find_self(lua_State *L, const lsw_class *c, lsw_self *out);
 
 /* Push a text of less than 512 bytes, as C formats it; return 1. */
