@@ -234,9 +234,9 @@ function follower.begin(scene, args)
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
   fields(own.observer).soon = true
-  if own.again then returning.lines(own) end
+  if own.again and returning.lines(own) then told_again(own) end
   if own.paused then
-    while hold(own) do work.all(own) end
+    while not own.wants_again and hold(own) do work.all(own) end
   end
 end
 
@@ -305,7 +305,7 @@ local function run_again(own)
     if type(result) == "string" then return told_again(own, result) end
   end
   returning.lines(own)
-  told_again(own)
+  told_again(own, r.state.inside and "the run ended before it was there" or nil)
 end
 
 -- Between runs: what pages ask for is done at once.
