@@ -5,6 +5,7 @@ local sw = require "softworld"
 local jsonread = require "softworld.output.jsonread"
 local program = dofile "spec/host/program.lua"
 local saving = require "spec.scene.saving"
+local visitor = require "spec.page.visitor"
 local websocket = require "spec.page.websocket"
 local core = sw.core
 
@@ -209,27 +210,18 @@ describe("a run that pages watch", function()
   end)
 
   it("outlives orders to remove what was never there", function()
-    local scene, view, port, path = viewed()
-    local page = assert(websocket.open(port, path .. "s"))
+    local scene, view = viewed()
+    local page = visitor.open(view)
     for k, what in ipairs { '"made":7', '"made":7,"object":"nothing"', '"made":7,"force":"x"', '"made":"x"',
       '"made":[1]', '"force":7', '"force":"x"', '"object":"nothing"', '"object":""', '"object":[1]' } do
-      page:send(('{"do":"remove","ask":%d,%s}'):format(k, what))
+      page.socket:send(('{"do":"remove","ask":%d,%s}'):format(k, what))
     end
-    view:wait(0.5)
-    local answers = {}
-    while true do
-      local text, opcode = page:receive(0.2)
-      if not text then break end
-      local m = opcode == 1 and jsonread.decode(text)
-      if m and m.kind == "answers" then answers = m.answers end
-    end
-    assert.equal(10, #answers)
+    page:hear(0.5)
     local none = "there is no such force any more"
-    for k = 1, 3 do assert.same({ ask = k, ok = false, text = none }, answers[k]) end
-    for k = 4, 10 do assert.is_false(answers[k].ok) end
+    for k = 1, 3 do assert.same({ ask = k, ok = false, text = none }, page.answers[k]) end
+    for k = 4, 10 do assert.is_false(page.answers[k].ok) end
     assert.same({ "floor", "wire" }, scene:names())
     page:close()
-    view:close()
   end)
 
   it("never turns words of a page into Lua", function()
