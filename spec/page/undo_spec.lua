@@ -311,6 +311,25 @@ describe("what was taken away at the start of a second run", function()
   end)
 end)
 
+describe("a run that is held at its beginning", function()
+  it("is left for a state of an earlier one, without a word to go on", function()
+    local p = open(viewing.nothing{ open = false })
+    put_together(p, true)
+    start(p, 0.6, 0.1)
+    p:ask{ ["do"] = "pause" }
+    p:hear(0.1)
+    local first = p.got.state.snapshots[1]
+    assert.equal(0, first.time)
+    function p.at_begin() p:ask({ ["do"] = "back", id = first.id }, "back") end
+    p:ask{ ["do"] = "run", duration = 0.1 }
+    p:hear(0.5)
+    assert.is_true(p.answers.back.ok, p.answers.back.text)
+    assert.truthy(p.answers.back.text:find("back to t = 0 s, by running again", 1, true))
+    assert.equal(0, p.view.scene.time)
+    close(p)
+  end)
+end)
+
 describe("in the scene of a script", function()
   -- A process that waits: 0.1 s once, or 4 ms again and again.
   local function scripted(busy, what, work)
