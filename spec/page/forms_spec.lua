@@ -468,6 +468,14 @@ describe("a view that begins with nothing", function()
     page:close()
   end)
 
+  it("tells why it cannot run in the words of a script, without a place", function()
+    local page = visitor.open(viewing.nothing { open = false })
+    page:ask { ["do"] = "run", duration = 0.1 }
+    page:hear(0.2)
+    assert.equal("scene 'scene': there is no wire", page.got.lines.lines[2].error)
+    page:close()
+  end)
+
   it("does what its page asks, answers, and gives a script of the same bits, by hand included", function()
     local page = visitor.open(viewing.nothing { open = false })
     local view, got = page.view, page.got
