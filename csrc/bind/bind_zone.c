@@ -6,7 +6,8 @@
 #include "bind/child.h"
 #include "bind/module.h"
 
-/* core.zone(scene, { shape =, at =, name =, temperature = }) -> its name */
+/* core.zone(scene, { shape =, at =, name =, temperature = }) -> its name, shape, position, rotation
+ */
 static int mod_zone(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_zone_args args;
@@ -16,8 +17,11 @@ static int mod_zone(lua_State *L) {
   const sw_status status = sw_scene_add_zone(scene, shape, &args, &err);
   sw_shape_release(shape);
   lsw_must(L, status, &err);
-  lua_pushstring(L, sw_scene_zone(scene, sw_scene_zones(scene) - 1)->name);
-  return 1;
+  const sw_zone *zone = sw_scene_zone(scene, sw_scene_zones(scene) - 1);
+  lua_pushstring(L, zone->name);
+  lsw_push_shape(L, zone->shape);
+  lsw_push_vector(L, zone->pose.p), lsw_push_quaternion(L, zone->pose.q);
+  return 4;
 }
 
 /* core.zones(wire) -> { { name, temperature [degC], and where a step was watched gap [m], s [m],

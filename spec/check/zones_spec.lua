@@ -212,6 +212,23 @@ describe("scene:zone", function()
     assert.is_near(0.04 - RADIUS, row.value, 1e-6)
   end)
 
+  -- Vectors may be told by x, y, z, as everywhere: the ends of the drawn normal are at the pose of the core.
+  it("is drawn where it was told to be by names of axes too", function()
+    local other = sw.scene{ gravity = { 0, 0, 0 } }
+    other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    other:zone{ shape = "plane", at = { x = 0, y = 0, z = -1 }, normal = { x = 0, y = 3, z = 0 } }
+    other:zone{ shape = "box", size = { x = 0.1, y = 0.2, z = 0.3 }, at = { x = 0.1, y = 0, z = 0.5 },
+      rotation = { axis = { x = 0, y = 0, z = 2 }, angle = math.pi / 2 } }
+    local zones = other:run{ duration = 0.01, dt = 0.01 }:document().zones
+    assert.same({ 2, 0, 0, -1 }, { #zones, table.unpack(zones[1].position) })
+    for k = 2, 12, 3 do assert.equal(0, zones[1].vertices[k]) end
+    assert.is_near(math.sqrt(0.5), zones[2].rotation[4], 1e-15)
+    for i, x in ipairs(solid.place(zones[2].vertices, zones[2])) do -- x and y have changed places
+      local size, centre = ({ 0.2, 0.1, 0.3 })[(i - 1) % 3 + 1], ({ 0.1, 0, 0.5 })[(i - 1) % 3 + 1]
+      assert.is_near(size / 2, math.abs(x - centre), 1e-12)
+    end
+  end)
+
   -- Eight corners of the box, at its pose; the others have their triangles.
   it("is drawn where it is, also after a snapshot and from a file", function()
     local path = os.tmpname() .. ".html"

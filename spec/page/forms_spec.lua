@@ -12,7 +12,7 @@ local leaving = require "softworld.view.leaving"
 local orders = require "softworld.view.orders"
 local saving = require "spec.scene.saving"
 local viewing = require "softworld.view.view"
-local websocket = require "spec.page.websocket"
+local visitor = require "spec.page.visitor"
 local core = sw.core
 
 local PLAIN = { number = true, integer = true, boolean = true, text = true, file = true, choice = true,
@@ -283,7 +283,7 @@ describe("hostile messages", function()
       told(d, a_change("obstacle", "mesh", { file = name }))
       told(d, { what = name, class = name, kind = name, values = { [name] = name } })
       told(d, a_change("wire", "rod", { cable = name, [name] = 1 }))
-      local chunk = load(d:script() .. "return scene", "=x", "t", { require = require, math = math })
+      local chunk = load(d:script() .. "return scene", "=x", "t", { require = require, math = math, os = os })
       assert.truthy(chunk)
       assert.equal("scene", core.type(chunk()))
     end
@@ -442,11 +442,10 @@ end)
 
 describe("a view that begins with nothing", function()
   it("is as it was after messages that nobody can mean", function()
-    local view = viewing.nothing { open = false }
-    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
-    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
-    page:send(json.encode { ["do"] = "draft", what = "add", class = "wire", kind = "rod", values = WIRE })
-    view:wait(0.2)
+    local page = visitor.open(viewing.nothing { open = false })
+    local view = page.view
+    page:add("wire", "rod", WIRE)
+    page:hear(0.2)
     local scene = view.scene
     for _, text in ipairs { '{"do":"draft"}', '{"do":"draft","what":{}}', '{"do":"draft","what":"add"}',
       '{"do":"draft","what":"new"}', '{"do":"draft","what":"__index"}',
@@ -460,30 +459,29 @@ describe("a view that begins with nothing", function()
       '{"do":"add","class":"obstacle","kind":"plane","values":{}}', '{"do":"add"}', '{"do":"remove"}',
       '{"do":"remove","object":"cord"}', '{"do":"remove","made":1e308}', '{"do":"add","serial":[]}',
       '{"do":"set","object":"","values":{"gravity":[0,0,0]}}', '{"do":"undo"}', '{"do":"back","id":1}' } do
-      page:send(text)
+      page.socket:send(text)
     end
-    view:wait(0.3)
+    page:hear(0.3)
     assert.equal(scene, view.scene) -- nothing was built anew
     assert.equal(1, #scene:names())
     assert.equal(0, scene.time)
     page:close()
-    view:close()
+  end)
+
+  it("tells why it cannot run in the words of a script, without a place", function()
+    local page = visitor.open(viewing.nothing { open = false })
+    page:ask { ["do"] = "run", duration = 0.1 }
+    page:hear(0.2)
+    assert.equal("scene 'scene': there is no wire", page.got.lines.lines[2].error)
+    page:close()
   end)
 
   it("does what its page asks, answers, and gives a script of the same bits, by hand included", function()
-    local view = viewing.nothing { open = false }
-    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
-    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
-    local got = {}
+    local page = visitor.open(viewing.nothing { open = false })
+    local view, got = page.view, page.got
     local function go(text, seconds)
-      if text then page:send(text) end
-      view:wait(seconds or 0.15)
-      while true do
-        local t, opcode = page:receive(0.05)
-        if not t then break end
-        local m = opcode == 1 and jsonread.decode(t)
-        if m then got[m.kind] = m else page:send "a" end
-      end
+      if text then page.socket:send(text) end
+      page:hear(seconds or 0.15)
       local list = got.answers and got.answers.answers or {}
       return list[#list]
     end
@@ -504,13 +502,10 @@ describe("a view that begins with nothing", function()
     go [[{"do":"add","class":"force","kind":"drag","values":{"on":"cord","linear":0.1},"ask":"h"}]]
     go([[{"do":"run","duration":0.1}]], 0.3)
     assert.near(0.3, view.scene.time, 1e-12)
-    local own = saving.all(view.scene)
-    local again = assert(load(got.lines.script:gsub("run:summary%(%)\n$", "return scene")))()
-    assert.is_nil(saving.difference(own, saving.all(again)))
+    assert.is_nil(saving.difference(saving.all(view.scene), saving.all(page:by_script())))
     go [[{"do":"again","ask":"i"}]]
     assert.equal(0, view.scene.time)
     assert.is_true(got.state.at_start)
     page:close()
-    view:close()
   end)
 end)

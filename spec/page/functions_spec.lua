@@ -6,13 +6,12 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local draft = require "softworld.view.draft"
 local functions = require "softworld.view.functions"
-local json = require "softworld.output.json"
-local jsonread = require "softworld.output.jsonread"
 local kinds = require "softworld.view.kinds"
 local orders = require "softworld.view.orders"
 local program = dofile "spec/host/program.lua"
 local saving = require "spec.scene.saving"
 local viewing = require "softworld.view.view"
+local visitor = require "spec.page.visitor"
 local websocket = require "spec.page.websocket"
 
 local function add(d, class, kind, values)
@@ -61,36 +60,36 @@ describe("a function that is typed in a form", function()
     local again = assert(load(text .. "return scene"))() -- with all that a script has
     again:run{ dt = 0.002 }
     assert.is_nil(saving.difference(saving.all(scene), saving.all(again)))
-    -- v' = -g + 0.01 sin(20 t) / m on every free node: the force was felt
-    local plain = a_draft()
-    local other = plain:build()
-    other:run{ duration = 0.1, dt = 0.002 }
-    assert.is_true(other:find("cord"):position(0.3)[3] ~= scene:find("cord"):position(0.3)[3])
+  end)
+
+  -- sum of the nodes' forces = 13 * 0.01 N sin(20 t): the centre of mass gains 13 * 0.01 (1 - cos 2) / 20 / m
+  -- in 0.1 s, m = density pi r^2 L; a node at an end has half the mass of one between.
+  it("adds its forces to each node", function()
+    local function speed(func)
+      local d = a_draft()
+      if func then add(d, "force", "function", { on = "cord", func = func }) end
+      local scene = d:build()
+      assert.is_true(scene:run{ duration = 0.1, dt = 0.002 }.ok)
+      local v, sum = scene:find("cord"):velocities(), 0
+      for k = 0, 12 do sum = sum + (k % 12 == 0 and 0.5 or 1) * v[3 * k + 3] end
+      return sum / 12
+    end
+    local mass = 1500 * math.pi * 0.003 ^ 2 * 0.3
+    local gained = speed "for i = 3, #f, 3 do f[i] = f[i] + 0.01 * math.sin(20 * t) end" - speed()
+    assert.near(13 * 0.01 * (1 - math.cos(2)) / 20 / mass, gained, 1e-3 * gained)
   end)
 
   it("is a check, by which the view and the saved script judge the run alike", function()
-    local view = viewing.nothing{ open = false, functions = true }
-    local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
-    local page = assert(websocket.open(math.tointeger(port), path .. "s"))
-    local function add_by_page(class, kind, values)
-      page:send(json.encode{ ["do"] = "draft", what = "add", class = class, kind = kind, values = values })
-    end
-    add_by_page("wire", "rod", WIRE)
+    local page = visitor.open(viewing.nothing{ open = false, functions = true })
+    page:add("wire", "rod", WIRE)
     -- it falls freely for 0.1 s: v = 0.981 m/s at its end
     local speed = "local v = scene:find('cord'):velocity(0.1)\nreturn -v[3]"
-    add_by_page("check", "check", { name = "slow", unit = "m/s", of = speed, max = 0.5 })
-    add_by_page("check", "check", { name = "fast", unit = "m/s", of = speed, min = 0.5 })
-    add_by_page("check", "check", { name = "wrong", unit = "-", of = "\nreturn run.nothing.at" })
-    page:send(json.encode{ ["do"] = "start", values = { duration = 0.1, dt = 0.005 } })
-    view:wait(0.5)
-    local state, script
-    while true do
-      local text, opcode = page:receive(0.1)
-      if not text then break end
-      local m = opcode == 1 and jsonread.decode(text)
-      if m and m.kind == "state" then state = m end
-      if m and m.kind == "lines" then script = m.script end
-    end
+    page:add("check", "check", { name = "slow", unit = "m/s", of = speed, max = 0.5 })
+    page:add("check", "check", { name = "fast", unit = "m/s", of = speed, min = 0.5 })
+    page:add("check", "check", { name = "wrong", unit = "-", of = "\nreturn run.nothing.at" })
+    page:ask{ ["do"] = "start", values = { duration = 0.1, dt = 0.005 } }
+    page:hear(0.5)
+    local state, script = page.got.state, page.got.lines.script
     local found = {}
     for _, r in ipairs(state.check.rows) do found[r.name] = r end
     assert.same({ "FAIL", "FAIL", "PASS" }, { state.check.verdict, found.slow.verdict, found.fast.verdict })
@@ -102,7 +101,6 @@ describe("a function that is typed in a form", function()
     assert(load(script, "=script", "t", names))()
     assert.truthy(printed[#printed]:find("slow", 1, true) and printed[#printed]:find("FAIL", 1, true), script)
     page:close()
-    view:close()
   end)
 
   it("is refused with the line of its body, and nothing is changed", function()
@@ -155,20 +153,42 @@ describe("a function that is typed in a form", function()
   end)
 end)
 
+describe("an object that has the name of what functions speak of", function()
+  it("does not stand in its place, nor in that of what the script calls", function()
+    for _, name in ipairs{ "_ENV", "print", "assert", "math", "string", "run" } do
+      local d = draft.new(true)
+      local values = {}
+      for key, value in pairs(WIRE) do values[key] = value end
+      values.name = name
+      add(d, "wire", "rod", values)
+      add(d, "hold", "clamp", { _on = name, s = 0 }) -- speaks of it
+      add(d, "observer", "observe", { call = "assert(math.pi > 3 and string.rep and print)" })
+      add(d, "check", "check", { unit = "m", of = "return math.pi" })
+      assert.is_true(d:build():run{ duration = 0.01, dt = 0.005 }.ok)
+      local text = orders.script(d:build(), {}, { { duration = 0.01, dt = 0.005 } }, d:script(), d:checks())
+      local printed
+      local names = setmetatable({ print = function() printed = true end }, { __index = _G })
+      assert(load(text, "=script", "t", names))()
+      assert.is_true(printed)
+    end
+  end)
+end)
+
 describe("a view that was not told to take functions", function()
   local LUA = {}
   for _, kind in ipairs(functions.kinds) do LUA[#LUA + 1] = kind end
 
   it("has no forms for them", function()
-    for _, kind in ipairs(kinds.all().kinds) do
-      for _, field in ipairs(kind.fields) do assert.is_true(field.type ~= "function", kind.kind) end
-    end
-    local count = 0
-    for _, kind in ipairs(kinds.all(true).kinds) do
-      for _, field in ipairs(kind.fields) do
-        if field.type == "function" then count = count + 1 end
+    local function count_of(fields) -- in tables too
+      local count = 0
+      for _, field in ipairs(fields) do
+        count = count + (field.type == "function" and 1 or 0) + count_of(field.rows or {})
       end
+      return count
     end
+    for _, kind in ipairs(kinds.all().kinds) do assert.equal(0, count_of(kind.fields), kind.kind) end
+    local count = 0
+    for _, kind in ipairs(kinds.all(true).kinds) do count = count + count_of(kind.fields) end
     assert.equal(#LUA, count)
   end)
 
@@ -192,29 +212,20 @@ describe("a view that was not told to take functions", function()
   it("refuses a page over its line, and one that was told to takes it", function()
     for _, may in ipairs{ false, true } do
       local view = viewing.nothing{ open = false, functions = may or nil }
-      local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
-      local page = assert(websocket.open(math.tointeger(port), path .. "s"))
-      page:send(json.encode{ ["do"] = "draft", what = "add", class = "observer", kind = "observe",
-        functions = true, may = true, values = { call = "local x = 1" }, ask = "a" })
-      page:send(json.encode{ ["do"] = "draft", what = "add", class = "wire", kind = "rod", values = WIRE,
-        functions = true })
-      view:wait(0.3)
-      local answer, count
-      while true do
-        local text, opcode = page:receive(0.1)
-        if not text then break end
-        local m = opcode == 1 and jsonread.decode(text)
-        if m and m.kind == "answers" then answer = m.answers[1] end
-        if m and m.kind == "draft" then count = #m.items end
-      end
+      local page = visitor.open(view)
+      page:ask({ ["do"] = "draft", what = "add", class = "observer", kind = "observe", functions = true,
+        may = true, values = { call = "local x = 1" } }, "a")
+      page:add("wire", "rod", WIRE)
+      page:hear(0.3)
+      local answer = page.answers.a
       assert.equal(may, answer.ok, answer.text)
-      assert.equal(may and 2 or 1, count)
+      assert.equal(may and 2 or 1, #page.got.draft.items)
       if not may then assert.equal(functions.REFUSED, answer.text) end
+      local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
       -- nobody else's: without the secret, or from another site, there is no line at all
       assert.is_nil(websocket.open(math.tointeger(port), path .. "s", { Origin = "http://evil.example" }))
       assert.is_nil(websocket.open(math.tointeger(port), "/0123456789abcdef0123456789abcdef/s"))
       page:close()
-      view:close()
     end
   end)
 

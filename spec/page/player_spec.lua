@@ -314,7 +314,7 @@ describe("the player", function()
         if (blob.type === "video/webm") { URL.createObjectURL = old; done(blob.size); }
         return old.call(URL, blob);
       };
-      player.state.set({ speed: 1 });]] .. export "WebM") -- slow enough for pictures on a busy machine
+      player.state.set({ speed: 2 });]] .. export "WebM") -- slow enough for pictures on a busy machine
     assert.is_true(size > 10000)
     assert_calm()
   end)
@@ -338,7 +338,7 @@ describe("a page of", function()
     local apart = page:run [[
       const [a, b] = player.view.actors.filter((w) => w.kind === "wire");
       return a.place(0).point.distanceTo(b.place(0).point);]]
-    assert.is_true(apart >= 0)
+    assert.is_true(apart > 0.01) -- the first hand is there, the second one still on its way
     local labels = page:run "return player.charts.list[0].group.curves.map((c) => c.label)"
     assert.truthy(table.concat(labels, " "):find("1: hand.force", 1, true))
     assert.truthy(table.concat(labels, " "):find("2: hand.force", 1, true))

@@ -5,6 +5,7 @@ local sw = require "softworld"
 local jsonread = require "softworld.output.jsonread"
 local program = dofile "spec/host/program.lua"
 local saving = require "spec.scene.saving"
+local visitor = require "spec.page.visitor"
 local websocket = require "spec.page.websocket"
 local core = sw.core
 
@@ -116,7 +117,11 @@ describe("the server of a view", function()
     assert.is_true(kinds.scene and kinds.state and kinds.lines and kinds.forms and kinds.events)
     scene:set { gravity = { 0, 0, -1 } }
     scene:run { duration = 0.01, dt = 0.002 }
-    assert.is_nil((page:receive(0.2)) and page:receive(0.1) and nil)
+    local text, kind = page:receive(0.2)
+    while text do
+      assert.equal(1, kind) -- no frame: the first one was not drawn yet
+      text, kind = page:receive(0.2)
+    end
     page:send "a"
     view:wait(0.3)
     local _, opcode
@@ -202,6 +207,21 @@ describe("a run that pages watch", function()
     view:close()
     assert.is_true(core.clock() - begun < 2)
     for _, page in ipairs(pages) do page:close() end
+  end)
+
+  it("outlives orders to remove what was never there", function()
+    local scene, view = viewed()
+    local page = visitor.open(view)
+    for k, what in ipairs { '"made":7', '"made":7,"object":"nothing"', '"made":7,"force":"x"', '"made":"x"',
+      '"made":[1]', '"force":7', '"force":"x"', '"object":"nothing"', '"object":""', '"object":[1]' } do
+      page.socket:send(('{"do":"remove","ask":%d,%s}'):format(k, what))
+    end
+    page:hear(0.5)
+    local none = "there is no such force any more"
+    for k = 1, 3 do assert.same({ ask = k, ok = false, text = none }, page.answers[k]) end
+    for k = 4, 10 do assert.is_false(page.answers[k].ok) end
+    assert.same({ "floor", "wire" }, scene:names())
+    page:close()
   end)
 
   it("never turns words of a page into Lua", function()

@@ -65,6 +65,20 @@ end
 local function gone(name)
   page:wait(("return !player.panel.build.things('wire').includes(%q)"):format(name))
 end
+local function there(name)
+  page:wait(("return player.view.actors.find((a) => a.name === %q).there"):format(name))
+end
+
+-- What was removed is seen in the past; undo brings it back, and the time when it was there.
+local function comes_back(name, time_before)
+  page:run "player.transport.go(0)"
+  there(name)
+  page:keys "End"
+  click "[aria-label='Undo']"
+  page:wait(("return player.panel.build.things('wire').includes(%q)"):format(name))
+  page:wait(("return Math.abs(player.state.get('time') - %.12f) < 1e-9"):format(time_before))
+  there(name)
+end
 
 setup(function()
   folder = program.folder()
@@ -102,13 +116,7 @@ describe("a run that is touched", function()
     assert.is_false(is_there("wire", "b"))
     assert.is_true(is_there("wire", "a"))
     assert.truthy(page:run "return player.state.get('events').some((e) => e.kind === 'removed')")
-    page:run [[player.transport.go(0)]] -- the past still has it
-    page:wait [[return player.view.actors.find((a) => a.name === "b").there]]
-    page:keys "End"
-    click "[aria-label='Undo']"
-    page:wait "return player.panel.build.things('wire').includes('b')"
-    page:wait(("return Math.abs(player.state.get('time') - %.12f) < 1e-9"):format(before))
-    page:wait [[return player.view.actors.find((a) => a.name === "b").there]]
+    comes_back("b", before)
     assert.truthy(things():find "fixed")
     assert.is_nil(script():find("scene:remove", 1, true))
   end)
@@ -132,13 +140,7 @@ describe("a run that is touched", function()
     assert.is_false(is_there("wire", "a"))
     assert.is_true(is_there("gripper", "hand"))
     assert.truthy(page:run "return player.state.get('events').some((e) => /no wire is left/.test(e.text))")
-    page:run [[player.transport.go(0)]]
-    page:wait [[return player.view.actors.find((a) => a.name === "a").there]]
-    page:keys "End"
-    click "[aria-label='Undo']"
-    page:wait "return player.panel.build.things('wire').includes('a')"
-    page:wait(("return Math.abs(player.state.get('time') - %.12f) < 1e-9"):format(before))
-    page:wait [[return player.view.actors.find((a) => a.name === "a").there]]
+    comes_back("a", before)
     steps(1)
   end)
 

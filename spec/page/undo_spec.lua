@@ -5,16 +5,19 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = sw.core
-local json = require "softworld.output.json"
-local jsonread = require "softworld.output.jsonread"
 local observe = require "softworld.run.observe"
 local saving = require "spec.scene.saving"
 local socket = require "socket"
 local viewing = require "softworld.view.view"
-local websocket = require "spec.page.websocket"
+local visitor = require "spec.page.visitor"
 
 local talk -- called between two steps of every run, after the view's own look
+local now -- the page that is open; at_begin(): what it does before a run begins
 
+table.insert(observe.followers, 1, {
+  begin = function() if now and now.at_begin then now.at_begin() end end,
+  finish = function() end,
+})
 observe.followers[#observe.followers + 1] = {
   begin = function(scene)
     if talk then scene:observe{ call = function() if talk then talk(scene) end end } end
@@ -23,28 +26,62 @@ observe.followers[#observe.followers + 1] = {
 }
 
 local function open(view)
-  local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
-  local page = assert(websocket.open(math.tointeger(port), path .. "s"))
-  local got = { answers = {} }
-  local function hear()
-    while true do
-      local t, opcode = page:receive(0.02)
-      if not t then break end
-      local m = opcode == 1 and jsonread.decode(t)
-      if not m then page:send "a" end
-      if m then got[m.kind] = m end
-      for _, a in ipairs(m and m.kind == "answers" and m.answers or {}) do got.answers[a.ask] = a end
+  now = visitor.open(view)
+  return now
+end
+
+-- Run so long [s of the scene]; nil: to the end of its steps. The view waits so long.
+local function start(p, seconds, duration)
+  p:ask({ ["do"] = "start", values = { dt = 0.004, duration = duration } }, "start")
+  p:hear(seconds)
+end
+
+local function close(p)
+  talk, now = nil, nil
+  p:close()
+end
+
+local function after(time) return function(scene) return scene.time >= time end end
+
+-- f(reach, answered, set, keep) goes on between the steps of the runs: reach(condition, slowly) until that
+-- holds, slowly where the page is waited for, and gives the scene; answered(mark) until an order is; set(g)
+-- until gravity is that; keep(count) gives the state that is kept. Returns a function: has f ended?
+local function between_steps(p, f)
+  local ended, scene = false, nil
+  local function reach(condition, slowly)
+    while not condition(scene) do
+      if slowly then
+        socket.sleep(0.04)
+        p:hear()
+      end
+      scene = coroutine.yield()
     end
+    return scene
   end
-  local function ask(order, mark)
-    order.ask = mark
-    page:send(json.encode(order))
+  local function answered(mark) reach(function() return p.answers[mark] end, true) end
+  local function set(g)
+    p:ask({ ["do"] = "set", object = "", values = { gravity = { 0, 0, g } } }, "set")
+    reach(function(now_there) return now_there:gravity()[3] == g end, true)
   end
-  return got, ask, hear, function()
-    talk = nil
-    page:close()
-    view:close()
+  local function keep(count)
+    p:ask({ ["do"] = "keep" }, "keep")
+    reach(function() return p.got.state and #p.got.state.snapshots == count end, true)
+    return p.got.state.snapshots[count]
   end
+  local thread = coroutine.create(function(first)
+    scene = first
+    f(reach, answered, set, keep)
+    ended = true
+  end)
+  function talk(of)
+    if coroutine.status(thread) == "suspended" then assert(coroutine.resume(thread, of)) end
+  end
+  return function() return ended end
+end
+
+-- The script that is saved gives the same bits.
+local function same_by_script(p)
+  assert.is_nil(saving.difference(saving.all(p.view.scene), saving.all(p:by_script())))
 end
 
 local function is_there(scene, what)
@@ -74,19 +111,23 @@ local ITEMS = {
 }
 local WAITS = 12 -- of a second process, between which it goes on
 
--- The form's scene; busy: a process that goes on all the time.
-local function put_together(ask, hear, view, busy)
+-- The form's scene; busy: a process that goes on all the time; idle: there are no steps.
+local function put_together(p, busy, idle)
   local function add(class, kind, values, process)
-    local order = { ["do"] = "draft", what = "add", class = class, kind = kind, values = values }
-    order.process = process
-    ask(order, "add")
+    if class ~= "step" or not idle then p:add(class, kind, values, process) end
   end
   for _, item in ipairs(ITEMS) do add(item[1], item[2], item[3], item[1] == "step" and 1 or nil) end
   for _ = 1, busy and WAITS or 1 do add("step", "wait", { seconds = busy and 0.02 or 0.24 }, 2) end
-  for _ = 1, 3 do
-    view:wait(0.1)
-    hear()
+  for _ = 1, 3 do p:hear(0.1) end
+end
+
+-- What gravity was set to, by the lines that are not undone.
+local function shown(p)
+  local held = {}
+  for _, line in ipairs(p.got.lines.lines) do
+    held[#held + 1] = not line.undone and line.text:match "^scene:set .*, ([-%d]+) } }" or nil
   end
+  return held
 end
 
 describe("what was taken away while a process goes on", function()
@@ -94,134 +135,198 @@ describe("what was taken away while a process goes on", function()
     local how = busy and "by running again" or "by the state before"
     for _, what in ipairs{ "cord", "floor", "fixed", "drag", "hand" } do
       it(("comes back by undo, %s: '%s'"):format(how, what), function()
-        local view = viewing.nothing{ open = false }
-        local got, ask, hear, close = open(view)
-        put_together(ask, hear, view, busy)
-        assert.equal(#ITEMS + (busy and WAITS or 1), #got.draft.items)
-        local stage, at, later = "before", nil, nil
-        function talk(scene)
-          if stage == "before" and scene.time >= 0.05 then
-            local force = what == "drag" and 1 or nil
-            ask({ ["do"] = "remove", object = not force and what or nil, force = force }, "remove")
-            stage = "going"
-          elseif stage == "going" then
-            socket.sleep(0.04)
-            if not is_there(scene, what) then stage, at = "gone", scene.time end
-          elseif stage == "gone" and scene.time >= at + (busy and 0.05 or 0.012) then
-            later = scene.time
-            ask({ ["do"] = "undo" }, "undo")
-            stage = "coming"
-          elseif stage == "coming" then
-            socket.sleep(0.02)
-            hear()
-            if got.answers.undo then stage = "there" end
-          end
-        end
-        ask({ ["do"] = "start", values = { dt = 0.004 } }, "start")
-        view:wait(1)
-        hear()
-        assert.equal("there", stage)
-        local answer = got.answers.undo
+        local p = open(viewing.nothing{ open = false })
+        put_together(p, busy)
+        assert.equal(#ITEMS + (busy and WAITS or 1), #p.got.draft.items)
+        local later
+        local ended = between_steps(p, function(reach, answered)
+          reach(after(0.05))
+          p:ask({ ["do"] = "remove", object = what ~= "drag" and what or nil,
+            force = what == "drag" and 1 or nil }, "remove")
+          local at = reach(function(scene) return not is_there(scene, what) end, true).time
+          later = reach(after(at + (busy and 0.05 or 0.012))).time
+          p:ask({ ["do"] = "undo" }, "undo")
+          answered "undo"
+        end)
+        start(p, 1)
+        assert.is_true(ended())
+        local answer = p.answers.undo
         assert.is_true(answer.ok, answer.text)
         local before = tonumber(answer.text:match "^back to t = ([%d.]+) s, before .-'?%l+'? was removed")
         assert(before and before < later, answer.text)
         assert.equal(busy, answer.text:find "by running again" ~= nil, answer.text)
-        assert.is_true(got.state.done and got.state.ok, got.state.reason)
-        local scene = view.scene
+        assert.is_true(p.got.state.done and p.got.state.ok, p.got.state.reason)
+        local scene = p.view.scene
         assert.is_true(is_there(scene, what))
         assert.near(0.25, scene.time, 0.02) -- both processes came to their ends
         assert.near(0.15, scene:find("hand"):position()[3], 1e-9)
-        local script = got.lines.script
-        assert.is_nil(script:find("remove", 1, true), script)
-        local again = assert(load(script:gsub("run:summary%(%)\n$", "return scene")))()
-        assert.is_nil(saving.difference(saving.all(scene), saving.all(again)))
-        close()
+        assert.is_nil(p.got.lines.script:find("remove", 1, true), p.got.lines.script)
+        same_by_script(p)
+        close(p)
       end)
     end
   end
 
   it("and a state that was kept comes back too, by running again, changes by hand included", function()
-    local view = viewing.nothing{ open = false }
-    local got, ask, hear, close = open(view)
-    put_together(ask, hear, view, true)
-    local stage, kept = "set", nil
-    function talk(scene)
-      if stage == "set" then
-        ask({ ["do"] = "set", object = "", values = { gravity = { 0, 0, -2 } } }, "set")
-        stage = "setting"
-      elseif stage == "setting" then
-        socket.sleep(0.04)
-        if scene:gravity()[3] == -2 then
-          stage = "keeping"
-          ask({ ["do"] = "keep" }, "keep")
-        end
-      elseif stage == "keeping" then
-        socket.sleep(0.04)
-        hear()
-        if got.state and #got.state.snapshots == 2 then stage, kept = "kept", got.state.snapshots[2] end
-      elseif stage == "kept" and scene.time > kept.time + 0.06 then
-        ask({ ["do"] = "back", id = kept.id }, "back")
-        stage = "back"
-      elseif stage == "back" then
-        socket.sleep(0.02)
-        hear()
-        if got.answers.back then stage = "there" end
-      end
-    end
-    ask({ ["do"] = "start", values = { dt = 0.004 } }, "start")
-    view:wait(1)
-    hear()
-    assert.equal("there", stage)
+    local p = open(viewing.nothing{ open = false })
+    put_together(p, true)
+    local kept
+    local ended = between_steps(p, function(reach, answered, set, keep)
+      set(-2)
+      kept = keep(2)
+      reach(after(kept.time + 0.06))
+      p:ask({ ["do"] = "back", id = kept.id }, "back")
+      answered "back"
+    end)
+    start(p, 1)
+    assert.is_true(ended())
     assert.is_true(kept.back)
-    assert(got.answers.back.text:find "^back to t = [%d.]+ s, by running again", got.answers.back.text)
-    assert.is_true(got.state.done and got.state.ok)
-    assert.equal(2, #got.state.snapshots) -- it can be gone back to again
-    assert.is_true(got.state.snapshots[1].back and got.state.snapshots[2].back)
-    local script = got.lines.script
-    assert.truthy(script:find("gravity = { 0, 0, -2 }", 1, true), script)
-    local again = assert(load(script:gsub("run:summary%(%)\n$", "return scene")))()
-    assert.is_nil(saving.difference(saving.all(view.scene), saving.all(again)))
-    close()
+    local text = p.answers.back.text
+    assert(text:find "^back to t = [%d.]+ s, by running again", text)
+    assert.is_true(p.got.state.done and p.got.state.ok)
+    assert.equal(2, #p.got.state.snapshots) -- it can be gone back to again
+    assert.is_true(p.got.state.snapshots[1].back and p.got.state.snapshots[2].back)
+    assert.truthy(p.got.lines.script:find("gravity = { 0, 0, -2 }", 1, true), p.got.lines.script)
+    same_by_script(p)
+    close(p)
   end)
 
   it("stays away where going back is stopped, and the run is as far as it came", function()
-    local view = viewing.nothing{ open = false }
-    local got, ask, hear, close = open(view)
-    put_together(ask, hear, view, true)
-    local stage = "before"
-    function talk(scene)
-      if stage == "before" and scene.time >= 0.15 then
-        ask({ ["do"] = "remove", object = "floor" }, "remove")
-        stage = "going"
-      elseif stage == "going" then
-        socket.sleep(0.04)
-        if not is_there(scene, "floor") then stage = "gone" end
-      elseif stage == "gone" and scene.time >= 0.2 then
-        ask({ ["do"] = "undo" }, "undo")
-        ask({ ["do"] = "undo" }, "second")
-        stage = "coming"
-      elseif stage == "coming" then
-        socket.sleep(0.04)
-        if scene.time < 0.1 then
-          ask({ ["do"] = "stop" }, "stop")
-          stage = "stopping"
-        end
-      elseif stage == "stopping" then
-        socket.sleep(0.04)
-      end
+    local p = open(viewing.nothing{ open = false })
+    put_together(p, true)
+    local stopped
+    between_steps(p, function(reach, _, set)
+      reach(after(0.15))
+      set(-2)
+      p:ask({ ["do"] = "remove", object = "floor" }, "remove")
+      reach(function(scene) return not is_there(scene, "floor") end, true)
+      reach(after(0.2))
+      p:ask({ ["do"] = "undo" }, "undo")
+      p:ask({ ["do"] = "undo" }, "second")
+      reach(function(scene) return scene.time < 0.1 end, true)
+      p:ask({ ["do"] = "stop" }, "stop")
+      stopped = true
+      reach(function() return false end, true)
+    end)
+    start(p, 1)
+    assert.is_true(stopped)
+    assert.is_false(p.answers.undo.ok)
+    assert.equal("going back was stopped", p.answers.undo.text)
+    assert.is_true(p.got.state.done and not p.got.state.running)
+    assert.is_true(p.view.scene.time < 0.15)
+    assert.is_true(is_there(p.view.scene, "floor"))
+    assert.same({}, shown(p))
+    same_by_script(p)
+    close(p)
+  end)
+end)
+
+-- Two states are kept, the later one with gravity changed once more; the first one is gone back to, gravity
+-- is changed to something else, and the second one is gone back to.
+describe("a state of a way that was left", function()
+  for _, busy in ipairs{ false, true } do
+    it("has its own changes again, and can be saved" .. (busy and ", by running again" or ""), function()
+      local p = open(viewing.nothing{ open = false })
+      put_together(p, busy, not busy)
+      local ended = between_steps(p, function(reach, answered, set, keep)
+        set(-2)
+        local first = keep(2)
+        set(-3)
+        local second = keep(3)
+        p:ask({ ["do"] = "back", id = first.id }, "first")
+        answered "first"
+        reach(function(scene) return scene:gravity()[3] == -2 end)
+        set(-4)
+        reach(after(second.time - 0.01))
+        set(-5)
+        p:ask({ ["do"] = "back", id = second.id }, "second")
+        answered "second"
+        reach(function(scene) return scene:gravity()[3] == -3 end)
+      end)
+      start(p, 1.5, not busy and 0.3 or nil)
+      assert.is_true(ended())
+      assert.is_true(p.got.state.done and p.got.state.ok, p.got.state.reason)
+      assert.equal(-3, p.view.scene:gravity()[3])
+      assert.same({ "-2", "-3" }, shown(p))
+      same_by_script(p)
+      close(p)
+    end)
+  end
+
+  it("has its own runs again", function()
+    local p = open(viewing.nothing{ open = false })
+    put_together(p, false, true)
+    start(p, 0.6, 0.1)
+    p:ask({ ["do"] = "keep" }, "keep")
+    p:hear(0.2)
+    p:ask({ ["do"] = "run", duration = 0.06 }, "run")
+    p:hear(0.4)
+    p:ask({ ["do"] = "keep" }, "keep")
+    p:hear(0.2)
+    local kept = p.got.state.snapshots
+    assert.near(0.06, kept[3].time - kept[2].time, 1e-9)
+    for k = 2, 3 do
+      p:ask({ ["do"] = "back", id = kept[k].id }, "back")
+      p:hear(0.2)
+      local scene, again = p.view.scene, p:by_script()
+      assert.near(kept[k].time, scene.time, 1e-12)
+      assert.equal(scene.time, again.time)
+      assert.same((scene:find("other"):positions()), (again:find("other"):positions()))
     end
-    ask({ ["do"] = "start", values = { dt = 0.004 } }, "start")
-    view:wait(1)
-    hear()
-    assert.equal("stopping", stage)
-    assert.is_false(got.answers.undo.ok)
-    assert.equal("going back was stopped", got.answers.undo.text)
-    assert.is_true(got.state.done and not got.state.running)
-    assert.is_true(view.scene.time < 0.15)
-    assert.is_true(is_there(view.scene, "floor"))
-    local again = assert(load(got.lines.script:gsub("run:summary%(%)\n$", "return scene")))()
-    assert.is_nil(saving.difference(saving.all(view.scene), saving.all(again)))
-    close()
+    close(p)
+  end)
+end)
+
+describe("what was taken away at the start of a second run", function()
+  it("comes back by undo in that run, not at the end of the first one", function()
+    local p = open(viewing.nothing{ open = false })
+    put_together(p, true)
+    start(p, 0.6, 0.1)
+    local first, begun = p.view.scene.time, 0
+    p:ask({ ["do"] = "pause" })
+    p:hear(0.1)
+    function p.at_begin() -- of the second run, of the first one again, of the second one again: that is held
+      begun = begun + 1
+      if begun == 1 then p:ask({ ["do"] = "remove", object = "floor" }, "remove") end
+      if begun == 3 then p:ask({ ["do"] = "keep" }) end
+      if begun ~= 2 then p:ask({ ["do"] = "go" }) end
+    end
+    local ended = between_steps(p, function(reach, answered)
+      assert.is_false(is_there(reach(after(first + 0.05)), "floor"))
+      p:ask({ ["do"] = "pause" })
+      p:ask({ ["do"] = "undo" }, "undo")
+      answered "undo"
+    end)
+    p:ask({ ["do"] = "run", duration = 0.1 }, "run")
+    p:hear(1)
+    assert.is_true(ended())
+    assert.is_true(p.answers.undo.ok, p.answers.undo.text)
+    assert.truthy(p.answers.undo.text:find("by running again", 1, true), p.answers.undo.text)
+    assert.is_true(is_there(p.view.scene, "floor"))
+    local kept = p.got.state.snapshots
+    assert.equal(first, kept[#kept].time)
+    assert.near(first + 0.1, p.view.scene.time, 1e-9)
+    same_by_script(p)
+    close(p)
+  end)
+end)
+
+describe("a run that is held at its beginning", function()
+  it("is left for a state of an earlier one, without a word to go on", function()
+    local p = open(viewing.nothing{ open = false })
+    put_together(p, true)
+    start(p, 0.6, 0.1)
+    p:ask{ ["do"] = "pause" }
+    p:hear(0.1)
+    local first = p.got.state.snapshots[1]
+    assert.equal(0, first.time)
+    function p.at_begin() p:ask({ ["do"] = "back", id = first.id }, "back") end
+    p:ask{ ["do"] = "run", duration = 0.1 }
+    p:hear(0.5)
+    assert.is_true(p.answers.back.ok, p.answers.back.text)
+    assert.truthy(p.answers.back.text:find("back to t = 0 s, by running again", 1, true))
+    assert.equal(0, p.view.scene.time)
+    close(p)
   end)
 end)
 
@@ -238,62 +343,47 @@ describe("in the scene of a script", function()
       for _ = 1, busy and 25 or 1 do p:wait(busy and 0.004 or 0.1) end
       ended = p.time
     end)
-    local view = scene:view{ open = false }
-    local got, ask, hear, close = open(view)
-    local stage, at = "before", nil
-    function talk()
-      if stage == "before" and scene.time >= 0.02 then
-        ask({ ["do"] = "remove", object = what }, "remove")
-        stage = "going"
-      elseif stage == "going" then
-        socket.sleep(0.04)
-        if not is_there(scene, what) then stage, at = "gone", scene.time end
-      elseif stage == "gone" and scene.time >= at + 0.012 then
-        socket.sleep(0.04)
-        hear()
-        if got.state then
-          ask({ ["do"] = "undo" }, "undo")
-          stage = "coming"
-        end
-      elseif stage == "coming" then
-        socket.sleep(0.02)
-        hear()
-        if got.answers.undo then stage = "there" end
-      end
-    end
+    local p = open(scene:view{ open = false })
+    local done = between_steps(p, function(reach, answered)
+      reach(after(0.02))
+      p:ask({ ["do"] = "remove", object = what }, "remove")
+      local at = reach(function() return not is_there(scene, what) end, true).time
+      reach(after(at + 0.012))
+      reach(function() return p.got.state end, true)
+      p:ask({ ["do"] = "undo" }, "undo")
+      answered "undo"
+    end)
     local run = scene:run{ dt = 0.001 }
-    talk = nil
-    view:wait(0.1)
-    hear()
+    p:hear(0.1)
     assert.is_true(run.ok, run.reason)
-    assert.equal("there", stage)
-    work(scene, got, ended)
-    close()
+    assert.is_true(done())
+    work(scene, p, ended)
+    close(p)
   end
 
   it("undo goes back where the process has only waited, and it goes on", function()
     for _, what in ipairs{ "cord", "floor", "fixed" } do
-      scripted(false, what, function(scene, got, ended)
-        assert.is_true(got.answers.undo.ok, got.answers.undo.text)
-        assert(got.answers.undo.text:find("^back to t = .* s, before '" .. what .. "' was removed$"))
+      scripted(false, what, function(scene, p, ended)
+        assert.is_true(p.answers.undo.ok, p.answers.undo.text)
+        assert(p.answers.undo.text:find("^back to t = .* s, before '" .. what .. "' was removed$"))
         assert.is_true(is_there(scene, what))
         assert.near(0.1, ended, 1e-9)
-        assert.is_nil(got.lines.script:find("remove", 1, true))
+        assert.is_nil(p.got.lines.script:find("remove", 1, true))
       end)
     end
   end)
 
   it("what has a line is made anew where it has gone on, and a wire is not, which is told", function()
-    scripted(true, "floor", function(scene, got, ended)
-      assert.is_true(got.answers.undo.ok, got.answers.undo.text)
-      assert(got.answers.undo.text:find("'floor' is made anew, as it was, and the run goes on", 1, true))
+    scripted(true, "floor", function(scene, p, ended)
+      assert.is_true(p.answers.undo.ok, p.answers.undo.text)
+      assert(p.answers.undo.text:find("'floor' is made anew, as it was, and the run goes on", 1, true))
       assert.is_true(is_there(scene, "floor (2)"))
       assert.near(0.1, ended, 1e-9)
     end)
-    scripted(true, "cord", function(scene, got, ended)
-      assert.is_false(got.answers.undo.ok)
+    scripted(true, "cord", function(scene, p, ended)
+      assert.is_false(p.answers.undo.ok)
       assert.equal("'cord' was removed: a process has gone on since, and a Lua function has no way back",
-        got.answers.undo.text)
+        p.answers.undo.text)
       assert.is_false(is_there(scene, "cord"))
       assert.near(0.1, ended, 1e-9)
     end)

@@ -70,10 +70,14 @@ end
 
 local EDGE = 8e-4 -- radius of the edges of zones, of the size of what is seen [-]
 
--- Zones by their edges, for they are seen through.
+-- Zones by their edges, for they are seen through; found once, for they stay.
 local function add_zones(drawing, run, look)
   for _, z in ipairs(run.zones or {}) do
-    local ends, colour = solid.place(solid.edges(z), z), povscene.colours[z.temperature and "heat" or "zone"]
+    local ends, colour = look.shapes[z], povscene.colours[z.temperature and "heat" or "zone"]
+    if not ends then
+      ends = solid.place(solid.edges(z), z)
+      look.shapes[z] = ends
+    end
     if look.technique == "wireframe" then
       drawing:lines(ends, colour)
     else

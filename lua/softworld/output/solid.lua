@@ -129,16 +129,22 @@ function solid.check(obstacle)
   if not obstacle.vertices then shape_of(obstacle, kind):close() end
 end
 
-local function triangles_of(shape, around)
+--- A shape of the core as triangles.
+-- @tparam userdata shape
+-- @tparam ?integer around points around a round shape, a multiple of 4
+-- @treturn table solid
+function solid.of_shape(shape, around)
   local vertices, indices = shape:triangles(around)
   for i, corner in ipairs(indices) do indices[i] = corner - 1 end
-  return vertices, indices
+  return { vertices = vertices, indices = indices }
 end
 
 --- Let the entry of an obstacle keep the triangles of a shape that is made from a list or a file,
 -- which would take long again.
 function solid.keep(entry, shape)
-  if kinds[entry.shape].listed then entry.vertices, entry.indices = triangles_of(shape) end
+  if not kinds[entry.shape].listed then return end
+  local own = solid.of_shape(shape)
+  entry.vertices, entry.indices = own.vertices, own.indices
 end
 
 --- An obstacle as triangles in its own axes.
@@ -149,9 +155,9 @@ function solid.triangles(obstacle, around)
   solid.check(obstacle)
   if obstacle.vertices then return obstacle end
   local shape = shape_of(obstacle, kinds[obstacle.shape])
-  local vertices, indices = triangles_of(shape, around or 32)
+  local own = solid.of_shape(shape, around or 32)
   shape:close()
-  return { vertices = vertices, indices = indices }
+  return own
 end
 
 --- A square piece of a plane, in the world's axes.

@@ -7,7 +7,6 @@ local checks = require "softworld.checks"
 local meshfile = require "softworld.meshfile"
 local rows = require "softworld.rows"
 local solid = require "softworld.output.solid"
-local vec = require "softworld.vec"
 
 rows.calls{
   { "scene:zone", "{ shape =, at =, temperature = }", "a part of space that nothing touches: wires are to "
@@ -18,30 +17,18 @@ rows.calls{
 local AROUND = 24     -- points around a round zone that is drawn
 local PIECE = 0.5     -- half of the square that is drawn of a half space [m]
 
-local NOT_OF_SHAPE = { name = true, at = true, rotation = true, temperature = true }
-
 -- What is drawn of a zone: its surface in its own axes, and where it is.
-local function look_of(args, name)
-  local shape, q = {}, args.rotation or { 1, 0, 0, 0 }
-  for key, value in pairs(args) do
-    if not NOT_OF_SHAPE[key] then shape[key] = value end
-  end
-  if q.axis then q = vec.turn(vec.unit(q.axis), q.angle) end
-  q = { q[1] or q.w, q[2] or q.x, q[3] or q.y, q[4] or q.z }
-  local entry = { name = name, shape = "mesh", kind = shape.shape, temperature = args.temperature }
-  local at = args.at or { 0, 0, 0 }
-  entry.position, entry.rotation = { at[1] or at.x, at[2] or at.y, at[3] or at.z }, q
-  local surface = entry
-  if solid.flat(shape) then
-    surface = solid.plane_piece({ normal = shape.normal }, nil, { 0, 0, 0 }, PIECE)
-  elseif shape.data then
-    local mesh <close> = core.shape(shape)
-    solid.keep(entry, mesh)
+local function look_of(args, name, shape, position, rotation)
+  local surface
+  if solid.flat(args) then
+    local normal = checks.vector("zone: normal", args.normal or { 0, 0, 1 }, "-", 0)
+    surface = solid.plane_piece({ normal = normal }, nil, { 0, 0, 0 }, PIECE)
   else
-    surface = solid.triangles(shape, AROUND)
+    surface = solid.of_shape(shape, AROUND)
   end
-  entry.vertices, entry.indices = surface.vertices, surface.indices
-  return entry
+  shape:close()
+  return { name = name, shape = "mesh", kind = args.shape, temperature = args.temperature,
+    position = position, rotation = rotation, vertices = surface.vertices, indices = surface.indices }
 end
 
 local function make(scene, args)
@@ -54,12 +41,12 @@ local function make(scene, args)
     local mesh = meshfile.read(own.file)
     own.data, own.format, own.file = mesh.data, own.format or mesh.format, nil
   end
-  local fine, result = pcall(core.zone, scene, own)
-  if not fine then error((build.plain(result):gsub("^obstacle", "zone", 1)), 0) end
+  local fine, name, shape, position, rotation = pcall(core.zone, scene, own)
+  if not fine then error((build.plain(name):gsub("^obstacle", "zone", 1)), 0) end
   local data = build.data(scene)
   data.zones = data.zones or {}
-  data.zones[#data.zones + 1] = look_of(own, result)
-  return result
+  data.zones[#data.zones + 1] = look_of(own, name, shape, position, rotation)
+  return name
 end
 
 --- A part of space that nothing touches: run:check tells how near wires came to it.

@@ -43,7 +43,9 @@ end
 
 -- --- the script ------------------------------------------------------------------------------------
 
-local taken_words = checks.set "scene sw p run require math"
+-- Not of objects: what the script and functions that are typed in speak of.
+local taken_words = checks.set "scene sw p run require _ENV"
+for word in pairs(functions.names()) do taken_words[word] = true end
 
 -- Words of the objects that others speak of: { [name] = word }, and which of them are locals.
 local function words_of(items)

@@ -107,6 +107,7 @@ end
 --- Before it goes: the line that makes it anew as it is, for where a process that is under way bars the way
 -- back; nil where only the state before has it. serial: of a new force.
 function leaving.again(scene, m, serial)
+  if m.made ~= nil then return nil end -- who made it has its line
   local object = m.force and force_of(scene, m.force) or m.object and scene:find(m.object)
   local call = object and call_of(scene, object)
   local fine, line = pcall(function()

@@ -4,8 +4,9 @@
 -- that forms put together is built anew and run again up to there, which gives the same bits; the scene of a
 -- script cannot be.
 --
--- A state: { time =, snapshot = or nil, lines =, runs = how many there were, inside = a run is under way,
--- processes = how far they were, what = what was taken away just after, shown = the last line then }.
+-- A state: { time =, snapshot = or nil, inside = a run is under way, processes = how far they were,
+-- what = what was taken away just after, lines =, runs =, shown = those that held then }. The lists are its
+-- own: when it is gone back to, others may have come in their place.
 -- @module softworld.view.returning
 local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
@@ -18,10 +19,15 @@ local MOST_WAYS_BACK = 20 -- states from before something was taken away
 
 -- --- states ------------------------------------------------------------------------------------------
 
+local function copy_of(list) return table.move(list, 1, #list, 1, {}) end
+
 local function state_of(own, what)
   local fine, snapshot = pcall(own.scene.snapshot, own.scene)
-  return { time = own.scene.time, snapshot = fine and snapshot or nil, lines = #own.lines, runs = #own.runs,
-    inside = own.running, processes = process.mark(own.scene), what = what, shown = own.shown[#own.shown] }
+  local shown = {}
+  for _, line in ipairs(own.shown) do shown[#shown + 1] = not line.undone and line or nil end
+  return { time = own.scene.time, snapshot = fine and snapshot or nil, inside = own.running,
+    processes = process.mark(own.scene), what = what, lines = copy_of(own.lines), runs = copy_of(own.runs),
+    shown = shown }
 end
 
 --- Keep the scene as it is, to be gone back to.
@@ -57,11 +63,11 @@ end
 
 -- The runs that a script has to do after it: one that was left early ends there.
 local function back_in_runs(own, state)
-  if own.running and #own.runs ~= state.runs then
-    own.unsaved = "an earlier run was gone back to while a later one was under way"
+  local count = #own.runs
+  if own.running and (count ~= #state.runs or own.runs[count] ~= state.runs[count]) then
+    own.unsaved = "another run was gone back to while one was under way"
   elseif not own.running then
-    own.ended = nil
-    for k = #own.runs, state.runs + 1, -1 do own.runs[k] = nil end
+    own.ended, own.runs = nil, copy_of(state.runs)
     if state.inside then own.lines[#own.lines + 1] = { time = state.time } end
   end
 end
@@ -71,12 +77,12 @@ local function words_of(state)
     state.what and (", before %s was removed"):format(state.what) or "")
 end
 
--- What was done since has not been done any more.
+-- What was done since has not been done any more, and what was undone since has; where going back was given
+-- up early, as far as it came.
 local function tell(own, state, words)
-  for k = #own.shown, 1, -1 do
-    if own.shown[k] == state.shown then break end
-    own.shown[k].undone = true
-  end
+  for _, line in ipairs(own.shown) do line.undone = true end
+  local time = own.scene.time
+  for _, line in ipairs(state.shown) do line.undone = time < state.time and line.time > time or nil end
   own.names.hand, own.hand, own.pulled = nil, nil, nil
   own.shown[#own.shown + 1] = { time = state.time, text = "-- " .. words, ok = true, count = 1 }
   own.changes, own.lines_due, own.forms_due, own.base = own.changes + 1, true, true, nil
@@ -84,9 +90,7 @@ end
 
 local function restore(own, state, how)
   build.back(own.scene, state.snapshot, how == "same")
-  for k = #own.lines, 1, -1 do
-    if own.lines[k].time > state.time or k > state.lines then own.lines[k] = nil end
-  end
+  own.lines = copy_of(state.lines)
   back_in_runs(own, state)
   local words = words_of(state)
   if how == "ended" and next(state.processes) then words = words .. "; processes have ended and stay so" end
@@ -102,14 +106,13 @@ end
 
 -- It is done when no run is under way, see returning.begin. ask: who is told when it is.
 local function want(own, state, ask)
-  local r = { state = state, ask = ask, next = 1, lines = {}, runs = {}, shown = own.shown,
+  local r = { state = state, ask = ask, next = 1, lines = state.lines, runs = {}, shown = own.shown,
     paused = own.paused, snapshots = without_snapshots(own.snapshots), serial = own.serial,
     count = own.count, looked = 0 }
   without_snapshots(own.ways)
-  for k = 1, state.lines do r.lines[k] = own.lines[k] end
-  for k = 1, state.runs do
+  for k, given in ipairs(state.runs) do
     local args = {}
-    for key, value in pairs(own.runs[k]) do args[key] = value end
+    for key, value in pairs(given) do args[key] = value end
     r.runs[k] = args
   end
   own.wants_again = r
@@ -145,7 +148,9 @@ end
 function returning.due(own)
   local r = own.again
   local line = r.lines[r.next]
-  if not line then return r.state.inside and own.scene.time >= r.state.time end
+  if not line then
+    return r.state.inside and #own.runs == #r.state.runs and own.scene.time >= r.state.time
+  end
   if own.scene.time < line.time then return false end
   return line.text and true or "stop"
 end

@@ -234,9 +234,9 @@ function follower.begin(scene, args)
   own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
   fields(own.observer).each = own.paused or nil
   fields(own.observer).soon = true
-  if own.again then returning.lines(own) end
+  if own.again and returning.lines(own) then told_again(own) end
   if own.paused then
-    while hold(own) do work.all(own) end
+    while not own.wants_again and hold(own) do work.all(own) end
   end
 end
 
@@ -271,6 +271,9 @@ local function run_now(own, args)
   return begun or fine, run
 end
 
+-- Without the place of who waits for the view.
+local function plain(message) return (build.plain(message):gsub("^[^\n:]+:%d+: ", "")) end
+
 local function run_on(own)
   local args = { duration = own.wants_run }
   own.wants_run = nil
@@ -281,7 +284,7 @@ local function run_on(own)
   end
   args.progress = nil
   local begun, message = run_now(own, args)
-  if not begun then work.refused(own, tostring(message)) end
+  if not begun then work.refused(own, plain(message)) end
 end
 
 local function run_draft(own)
@@ -292,7 +295,7 @@ local function run_draft(own)
   if fine then fine, message = run_now(own, args) end
   if not fine and draft.is_interrupt(message) then error(message, 0) end
   own.draft_due = true
-  show.answer(own, ask, fine, not fine and build.plain(message):gsub("^[^\n:]+:%d+: ", "") or nil)
+  show.answer(own, ask, fine, not fine and plain(message) or nil)
 end
 
 -- Back by running again from the start, up to the state that was asked for; the last of the runs goes on.
@@ -302,10 +305,10 @@ local function run_again(own)
   for _, args in ipairs(r.runs) do
     local _, result = run_now(own, args)
     if not own.again then return end -- it is there, or was given up
-    if type(result) == "string" then return told_again(own, result) end
+    if type(result) == "string" then return told_again(own, plain(result)) end
   end
   returning.lines(own)
-  told_again(own)
+  told_again(own, r.state.inside and "the run ended before it was there" or nil)
 end
 
 -- Between runs: what pages ask for is done at once.

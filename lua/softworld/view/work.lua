@@ -274,6 +274,9 @@ local function is_good(own, m)
   if own.draft and not own.running and #own.runs == 0 then
     return refuse(own, m, "nothing runs yet: change it where it was made")
   end
+  if word == "remove" and m.made ~= nil and not own.made_text[m.made] then
+    return refuse(own, m, "there is no such force any more")
+  end
   local fine, message = pcall(orders.line, own.scene, m, own.functions)
   if not fine then
     refuse(own, m, message)
