@@ -197,6 +197,22 @@ describe("the choice of section", function()
     assert.equal("rod", w.model)
   end)
 
+  -- Springs do not feel walls that touch: the event `walls`, where their middles are one thickness apart.
+  it("is not met where the walls of a mesh have gone through each other", function()
+    for share, enough in pairs{ [0.6] = true, [0.85] = false } do
+      local scene, w, args = plates(section(0.75), share)
+      args.tolerance = { ["top.force"] = { relative = 0.9 } }
+      local run = scene:run(args)
+      assert.is_true(run.ok, run.reason)
+      assert.equal("tube", w.model)
+      assert.equal(enough, run.met, tostring(run:why()))
+      if not enough then
+        assert.matches("NOT enough: tube 'w' is flat at s = .* do not touch each other", tostring(run:why()))
+        assert.matches("^tube 'w' is flat", run.advice)
+      end
+    end
+  end)
+
   -- Of a wire squeezed by E that nobody told, the force is anyone's guess.
   it("is not met where the stiffness of the section is not known", function()
     local scene, _, args = plates({ EA = 2e3, EI = 5e-4, GJ = 4e-4, mass_per_length = 0.3, radius = R }, 0.1)
