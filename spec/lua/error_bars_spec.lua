@@ -535,6 +535,18 @@ describe("the estimate", function()
     assert.is_true(trust.estimate(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
   end)
 
+  -- Sidewall pressure of a blow in a first pass of levels; on finer ones it went on to 8 and 12.
+  it("leaves a verdict room where three levels tell of changes that grow, or hardly shrink", function()
+    for _, values in ipairs{ { 1.346, 1.476, 1.968 }, { 3.365, 5.241, 7.042 } } do
+      local last = values[3] - values[2]
+      for _, contact in ipairs{ false, true } do
+        assert.is_near(6 * last, trust.estimate({ row = true, plain = true }, values, contact), 1e-12)
+      end
+    end
+    local halved = { 1, 1.5, 1.75 } -- as much again is to come
+    assert.is_near(1.5 * 0.25, trust.estimate({ row = true, plain = true }, halved, true), 1e-12)
+  end)
+
   it("has no bar for a single level, and none of nothing", function()
     assert.are.equal(math.huge, (trust.estimate(smooth, { 1 }, false)))
     assert.is_true(trust.estimate(smooth, { 1, 1, 1 }, false) > 0)
