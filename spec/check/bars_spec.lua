@@ -1,6 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- scene:run{ check = {...} }: rows with error bars, refined until no verdict depends on edges and steps.
+package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
+local capstan = require "spec.check.capstan"
 
 -- A wire clamped at one end, which falls; segments: how many the script gives it.
 local function falling(segments)
@@ -132,23 +134,9 @@ end)
 -- part that it has gone, largest at the end: T exp(mu angle) (1 - exp(-mu way / R)).
 describe("bars of wear", function()
   it("hold the friction work of the capstan, and its sidewall pressure", function()
-    local R, radius, mu, angle, way = 0.05, 0.0015, 0.4, 2 * math.pi / 3, 0.01
-    local Rw = R + radius
-    local scene = sw.scene{ gravity = { 0, 0, 0 } }
-    local function at(a) return { -Rw * math.cos(a), 0, Rw * math.sin(a) } end
-    local from, to, path = at(math.pi / 2 - angle / 2), at(math.pi / 2 + angle / 2), {}
-    local c, s = math.cos(angle / 2), math.sin(angle / 2)
-    for i = 8, 1, -1 do path[#path + 1] = { from[1] - 0.01 * i * c, 0, from[3] - 0.01 * i * s } end
-    for i = 0, 60 do path[#path + 1] = at(math.pi / 2 - angle / 2 + angle * i / 60) end
-    for i = 1, 8 do path[#path + 1] = { to[1] + 0.01 * i * c, 0, to[3] - 0.01 * i * s } end
-    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-9, mass_per_length = 0.1, radius = radius,
-      path = path, model = "string", segments = 100 }
-    scene:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
-      rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
-    scene:force{ kind = "point", on = wire, s = 0, force = { -c, 0, -s } }
-    scene:force{ kind = "damping", mass = 20, on = wire }
-    scene:pin(wire, { s = wire.length }):follow{ points = { { 0, 0, 0 }, { way * c, 0, -way * s } },
-      relative = true, duration = 0.5 }
+    local mu, angle, way, Rw = 0.4, 2 * math.pi / 3, 0.01, capstan.R + capstan.RADIUS
+    local scene, _, pin, along = capstan.scene{ friction = mu, angle = angle, segments = 100 }
+    pin:follow{ points = capstan.draw(along, way), relative = true, duration = 0.5 }
     local width = 1e-3
     local work = math.exp(mu * angle) * (1 - math.exp(-mu * way / Rw)) / width
     local side = math.exp(mu * angle) / Rw

@@ -1,9 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Every check of run:check: its value is that of a formula, within the share said beside it.
+package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
+local capstan = require "spec.check.capstan"
 local registry = require "softworld.check.registry"
 
-local g, R, RADIUS = 9.81, 0.05, 0.0015
+local g, R, RADIUS = 9.81, capstan.R, capstan.RADIUS
 
 local function still(options)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -43,31 +45,22 @@ end
 
 -- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves. duration: of
 -- the last run, at 0.02 m/s.
-local function capstan(duration)
-  local Rw, mu, path = R + RADIUS, 0.3, {}
-  for i = 10, 1, -1 do path[#path + 1] = { -Rw, 0, -0.01 * i } end
-  for i = 0, 100 do
-    local a = math.pi * i / 100
-    path[#path + 1] = { -Rw * math.cos(a), 0, Rw * math.sin(a) }
-  end
-  for i = 1, 10 do path[#path + 1] = { Rw, 0, -0.01 * i } end
-  local scene, wire = still{ path = path, EI = 1e-9, mass_per_length = 0.1, model = "string", segments = 240 }
-  scene:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
-    rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
-  scene:force{ kind = "point", on = wire, s = 0, force = { 0, 0, -1 } }
-  scene:force{ kind = "damping", mass = 20, on = wire }
-  local pin = scene:pin(wire, { s = wire.length })
+local function drawn_over(duration)
+  local mu = 0.3
+  local scene, _, pin, along = capstan.scene{ friction = mu, angle = math.pi, segments = 240, around = 100,
+    lead = 10 }
   scene:run{ duration = 0.2, dt = 0.002 }
-  pin:follow{ points = { { 0, 0, 0 }, { 0, 0, -0.03 } }, relative = true, speed = 0.02, law = "linear" }
+  pin:follow{ points = capstan.draw(along, 0.03), relative = true, speed = 0.02, law = "linear" }
   scene:run{ duration = 0.6, dt = 0.002 }
-  return scene:run{ duration = duration, dt = 0.002, frame = 0.002, wear = true }, math.exp(mu * math.pi) / Rw
+  return scene:run{ duration = duration, dt = 0.002, frame = 0.002, wear = true },
+    math.exp(mu * math.pi) / (R + RADIUS)
 end
 
 -- What comes off the cylinder at the end has gone round a part of it in the run, under T_in exp(mu angle):
 -- normal force T per angle, so that its sum over the way is that of exp(mu angle) [N].
 local drawn
 local function slid()
-  drawn = drawn or capstan(0.4)
+  drawn = drawn or drawn_over(0.4)
   local part, mu = 0.02 * 0.4 / (R + RADIUS), 0.3
   return drawn, (math.exp(mu * math.pi) - math.exp(mu * (math.pi - part))) / mu
 end
@@ -174,7 +167,7 @@ local cases = {
   max_strain = function() return pulled(), {}, 0.01, 1e-3 end,
   max_stress = function() return pulled(), {}, 1e4 * 0.01 / (math.pi * RADIUS ^ 2), 1e-3 end,
   max_sidewall = function()
-    local run, value = capstan(0.2)
+    local run, value = drawn_over(0.2)
     return run, {}, value, 0.01
   end,
   max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,

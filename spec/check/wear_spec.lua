@@ -1,11 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- What runs keep of every step with wear = true, and what run:check makes of it: cycles of tension and
 -- bending against counts by hand, also of what passes between two frames.
+package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
+local capstan = require "spec.check.capstan"
 local rainflow = require "softworld.check.rainflow"
 
-local R, L, RADIUS = 0.05, 0.1, 0.0015
+local R, L, RADIUS = capstan.R, 0.1, capstan.RADIUS
 
 -- Miner's sum of a flat list of range, mean, number by a slope.
 local function damage(flat, slope)
@@ -342,23 +344,9 @@ describe("work of friction", function()
   -- Drawn over a third of a cylinder at a constant speed: T_in (exp(mu angle) - 1) v in all, and none where
   -- nothing touches. Nothing of it is in a frame.
   it("is that of the capstan, all of it at the nodes", function()
-    local scene = sw.scene{ gravity = { 0, 0, 0 } }
-    local Rw, mu, angle, path = R + RADIUS, 0.4, 2 * math.pi / 3, {}
-    local function at(a) return { -Rw * math.cos(a), 0, Rw * math.sin(a) } end
-    local from, to = at(math.pi / 2 - angle / 2), at(math.pi / 2 + angle / 2)
-    local c, s = math.cos(angle / 2), math.sin(angle / 2)
-    for i = 8, 1, -1 do path[#path + 1] = { from[1] - 0.01 * i * c, 0, from[3] - 0.01 * i * s } end
-    for i = 0, 60 do path[#path + 1] = at(math.pi / 2 - angle / 2 + angle * i / 60) end
-    for i = 1, 8 do path[#path + 1] = { to[1] + 0.01 * i * c, 0, to[3] - 0.01 * i * s } end
-    local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-9, mass_per_length = 0.1, radius = RADIUS,
-      path = path, model = "string", segments = 200 }
-    scene:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
-      rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
-    scene:force{ kind = "point", on = wire, s = 0, force = { -c, 0, -s } }
-    scene:force{ kind = "damping", mass = 20, on = wire }
-    local v = 0.02
-    scene:pin(wire, { s = wire.length }):follow{ points = { { 0, 0, 0 }, { 0.03 * c, 0, -0.03 * s } },
-      relative = true, speed = v, law = "linear" }
+    local Rw, mu, angle, v = R + RADIUS, 0.4, 2 * math.pi / 3, 0.02
+    local scene, wire, pin, along = capstan.scene{ friction = mu, angle = angle, segments = 200 }
+    pin:follow{ points = capstan.draw(along, 0.03), relative = true, speed = v, law = "linear" }
     scene:run{ duration = 0.5, dt = 0.002 }
     local run = scene:run{ duration = 0.5, dt = 0.002, wear = true, frame = 1 }
     local sum, places, n = 0, core.worn(wire), wire.segments + 1

@@ -95,6 +95,53 @@ describe("a run before the last one", function()
       assert.equal(0.3, after.time[#after.time])
     end)
   end
+
+  -- A run holds its scene, and nothing but the script holds runs; the list has no hold on what is in it.
+  for what, go_on in pairs{ nothing = function() end, ["another run"] = function(scene)
+    return scene:run{ duration = 0.1 }
+  end, ["a settle"] = function(scene) scene:settle() end,
+    ["error bars"] = function(scene) return scene:run{ duration = 0.1, tolerance = { tip = 1e-2 } } end,
+    ["a process cut short"] = function(scene)
+      scene:process(function(p) p:wait(1) end)
+      return scene:run{ duration = 0.01 }
+    end,
+    ["a run that failed"] = function(scene)
+      scene:force{ on = scene:find "w", kind = function(_, _, _, f) f[#f] = 1e20 end }
+      local run = scene:run{ duration = 0.1 }
+      assert.is_false(run.ok)
+      return run
+    end } do
+    it("is collected with its scene when the script lets go of them, after " .. what, function()
+      local function made()
+        local scene = hanging()
+        local run = scene:run{ duration = 0.1 }
+        run:document()
+        local last = go_on(scene) or run
+        return setmetatable({ scene, run, last, scene:find "w" }, { __mode = "v" })
+      end
+      collectgarbage()
+      collectgarbage()
+      local before = sw.core.allocated()
+      local left = made()
+      assert.truthy(next(left))
+      assert.is_true(sw.core.allocated() > before)
+      collectgarbage()
+      collectgarbage()
+      assert.is_nil(next(left))
+      assert.equal(before, (sw.core.allocated()))
+    end)
+  end
+
+  it("keeps its scene as long as the script has it", function()
+    local function made() return (hanging():run{ duration = 0.1 }) end
+    local run = made()
+    local rows = run:document().summary
+    collectgarbage()
+    collectgarbage()
+    assert.same(rows, run:document().summary)
+    run.scene:run{ duration = 0.1 }
+    assert.same(rows, run:document().summary)
+  end)
 end)
 
 describe("frames of a run that failed", function()

@@ -234,6 +234,41 @@ describe("a run with error bars", function()
     assert.are.same(before, state(scene, wire))
   end)
 
+  -- Over a peg with 4 times as much on one side, held by a friction that bears exp(0.2 pi) = 1.9 times: long
+  -- edges catch on the peg, and shorter ones find no equilibrium.
+  it("is a run that failed where its levels have no equilibrium to begin with", function()
+    local scene = sw.scene{ name = "slides" }
+    scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.01, length = 0.2, friction = 0.2,
+      at = { 0, 0, -0.011 }, rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+    local wire = scene:wire{ EA = 100, EI = 1e-6, mass_per_length = 0.01, radius = 0.001, segments = 5,
+      from = { -0.1, 0, 0 }, to = { 0.4, 0, 0 } }
+    t.fine(scene:settle())
+    local before = state(scene, wire)
+    local r = scene:run{ duration = 0.1, tolerance = { tip = 0.01 } }
+    assert.is_false(r.ok)
+    assert.is_false(r.met)
+    assert.matches("^at t = 0 s: no equilibrium to begin with: not at rest after ", r.reason)
+    assert.matches("^level 4, 40 segments: at t = 0 s: no equilibrium", r.where)
+    assert.matches("^run of 'slides': FAILED %(at t = 0 s: no equilibrium to begin with", tostring(r))
+    assert.same({ 0, 0, 0 }, { r.steps, r.start, r.time })
+    for _, read in ipairs{ "error_bars", "series" } do
+      local fine, why = pcall(r[read], r)
+      assert.is_false(fine)
+      assert.matches("no equilibrium to begin with", why)
+    end
+    assert.matches("there are no numbers: at t = 0 s: no equilibrium",
+      select(2, pcall(function() return r.quantities.tip end)))
+    assert.same({}, r:frames())
+    assert.same(before, state(scene, wire))
+    r = scene:run{ duration = 0.1, tolerance = { tip = 0.01 }, model = "auto", integrator = "sdirk2" }
+    assert.is_false(r.ok)
+    assert.matches("no equilibrium to begin with", r.reason)
+    r = scene:run{ duration = 0.1, check = { trial = true, limits = { max_tension = 5 } } }
+    assert.is_false(r.ok)
+    assert.equal("FAIL", r:check().verdict)
+    assert.same(before, state(scene, wire))
+  end)
+
   it("shows its bars in the summary and the document", function()
     local scene = make(24)
     local earlier = t.fine(scene:run{ duration = 0.05 })
@@ -498,6 +533,18 @@ describe("the estimate", function()
     assert.is_true(trust.estimate(plain, values, true) >= 0.5)
     assert.is_true(trust.estimate(smooth, { 1, 1.2, 1.1 }, false) >= 0.1)
     assert.is_true(trust.estimate(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
+  end)
+
+  -- Sidewall pressure of a blow in a first pass of levels; on finer ones it went on to 8 and 12.
+  it("leaves a verdict room where three levels tell of changes that grow, or hardly shrink", function()
+    for _, values in ipairs{ { 1.346, 1.476, 1.968 }, { 3.365, 5.241, 7.042 } } do
+      local last = values[3] - values[2]
+      for _, contact in ipairs{ false, true } do
+        assert.is_near(6 * last, trust.estimate({ row = true, plain = true }, values, contact), 1e-12)
+      end
+    end
+    local halved = { 1, 1.5, 1.75 } -- as much again is to come
+    assert.is_near(1.5 * 0.25, trust.estimate({ row = true, plain = true }, halved, true), 1e-12)
   end)
 
   it("has no bar for a single level, and none of nothing", function()

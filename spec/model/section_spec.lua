@@ -2,6 +2,7 @@
 -- The choice of section: what its free checks stand on, and squeezed wires whose force is known.
 local sw = require "softworld"
 local flat = require "softworld.model.flat"
+local mesh = require "softworld.model.mesh"
 
 local R, E = 0.01, 1e6
 
@@ -89,6 +90,16 @@ describe("flattening", function()
     assert.is_near(0.05, flat.share(b, K * 0.05 * 2 * R), 1e-6)
     assert.is_near(flat.stiffness(b, 0.1), flat.stiffness(b, 0.5), 1e-9 * K) -- no more than a tenth
   end)
+end)
+
+-- EA and EI tell the inner radius but for rounding, which must not ask for more cubes across.
+it("a tube whose wall is a quarter of its radius has elements, of 16 cubes across", function()
+  for _, inner in ipairs{ 0.75, 0.7500000001, 0.7499999999 } do
+    local b = body(section(inner))
+    assert.is_near(0.25 * R, b.wall, 1e-9 * R)
+    local time = mesh.time({ body = b, share = 0.1, length = 0.1 }, mesh.elements, 1)
+    assert.is_true(time > 0 and time < math.huge, tostring(time))
+  end
 end)
 
 describe("the choice of section", function()
@@ -182,7 +193,24 @@ describe("the choice of section", function()
     assert.equal("round", run.model.section)
     assert.truthy(tostring(run.model):find("NOT known: whether this model suffices", 1, true))
     assert.truthy(tostring(run.model):find("outside of radius", 1, true), tostring(run.model))
+    assert.is_nil(tostring(run.model):find("at t = ", 1, true), tostring(run.model))
     assert.equal("rod", w.model)
+  end)
+
+  -- Springs do not feel walls that touch: the event `walls`, where their middles are one thickness apart.
+  it("is not met where the walls of a mesh have gone through each other", function()
+    for share, enough in pairs{ [0.6] = true, [0.85] = false } do
+      local scene, w, args = plates(section(0.75), share)
+      args.tolerance = { ["top.force"] = { relative = 0.9 } }
+      local run = scene:run(args)
+      assert.is_true(run.ok, run.reason)
+      assert.equal("tube", w.model)
+      assert.equal(enough, run.met, tostring(run:why()))
+      if not enough then
+        assert.matches("NOT enough: tube 'w' is flat at s = .* do not touch each other", tostring(run:why()))
+        assert.matches("^tube 'w' is flat", run.advice)
+      end
+    end
   end)
 
   -- Of a wire squeezed by E that nobody told, the force is anyone's guess.

@@ -46,7 +46,7 @@ local function hollow(body, rung, k)
     return { model = "tube", core = false, particles = n, spacing = spacing,
       wall_bending = flat.wall_bending(body) }, n, spacing
   end
-  local across = 2 * math.ceil(VOXELS * 2 ^ ((k - 1) / 2) * body.radius / body.wall)
+  local across = 2 * math.ceil(VOXELS * 2 ^ ((k - 1) / 2) * body.radius / body.wall - 1e-6)
   local size = 2 * body.radius / across
   local area = math.pi * (body.radius ^ 2 - body.inner ^ 2)
   return { model = "cubic", section = "annulus", inner = body.inner, body = "solid", across = across },

@@ -9,7 +9,6 @@ local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
-local sealed = require "softworld.sealed"
 local trust = require "softworld.run.trust"
 
 local probe = {}
@@ -85,7 +84,7 @@ local function compute(context, rungs, k, factors)
   local steps = probe.arrange(context, rungs, factors)
   core.remesh(scene, trust.counts(job, k))
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
-  if sealed.fields(run).unmade then return { ok = false, unmade = true, reason = run.reason } end
+  if job.unmade then return { ok = false, unmade = true, reason = job.unmade } end
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
   if not run.ok then
     result.facts = facts_of_failed(context, run)

@@ -109,8 +109,16 @@ local function look_at_line(context, worst, w, i)
   end
 end
 
-local function look_at_mesh(worst, p, i)
+-- What the run told of walls that went through each other, which springs do not feel; nil: nothing.
+local function passed(p, run)
+  for _, e in ipairs(run.events) do
+    if e.kind == "walls" and e.object == p.name then return e.text end
+  end
+end
+
+local function look_at_mesh(worst, p, i, run)
   if is_line(p.object) then return end
+  worst.passed = worst.passed or passed(p, run)
   local flattened = pressed.mesh(p.object, p.body)
   worst.flat = math.max(worst.flat or 0, flattened)
   worst.wall = math.max(worst.wall or 0, p.body.inner and p.body.wall / (p.body.radius - p.body.wall / 2)
@@ -121,12 +129,12 @@ local function look_at_mesh(worst, p, i)
   if share > (worst.beside or 0) then worst.beside, worst.load, worst.wire = share, q, p.name end
 end
 
-function section.look(context)
+function section.look(context, run)
   local worst = { q = 0, share = 0 }
   for i, w in ipairs(context.data.wires) do
     if core.exists(w.object) then
       if is_line(w.object) then look_at_line(context, worst, w, i)
-      elseif context.pressed[w.name] then look_at_mesh(worst, context.pressed[w.name], i) end
+      elseif context.pressed[w.name] then look_at_mesh(worst, context.pressed[w.name], i, run) end
     end
   end
   return worst
@@ -182,6 +190,7 @@ function section.short(_, f, share, state)
       .. "'models'")
       :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
   end
+  if f.passed then return f.passed end
   if f.blind then
     return ("how stiff the section of '%s' is against what presses on it, is not known: give E"):format(
       f.blind)

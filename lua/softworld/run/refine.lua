@@ -120,25 +120,27 @@ function refine.look(job)
   job.restore()
 end
 
---- job.shape(k), if there is one, makes other models of wires; it returns why it cannot, or nil.
--- compute(k, name): the run of level k, of the scene as it has been restored and meshed. total: wall and
--- cpu are summed up in it.
+-- Why there is no equilibrium to begin with, or nil.
+local function unsettled(scene)
+  local settled = scene:settle()
+  return not settled.ok and "no equilibrium to begin with: " .. settled.reason or nil
+end
+
+--- job.shape(k), if there is one, makes other models of wires; it returns why it cannot, or nil, which then
+-- is job.unmade too.
+-- compute(k, name): the run of level k, of the scene as it has been restored and meshed; where it cannot
+-- begin, a run that failed. total: wall and cpu are summed up in it.
 function refine.computer(job, steps, run_once, total)
   local scene = job.scene
   return function(k, name)
     local options = steps(k)
-    local why = job.shape and job.shape(k)
-    if why then return { ok = false, unmade = true, reason = why, iterations = 0, wall = 0, cpu = 0 } end
+    job.unmade = job.shape and job.shape(k)
     process.renew(scene, {}) -- settling is not for them
-    if job.rests and not options.quasistatic then
-      local settled = scene:settle()
-      if not settled.ok then
-        return { ok = false, reason = "no equilibrium to begin with: " .. settled.reason }
-      end
-    end
+    local rests = job.rests and not options.quasistatic and not job.unmade
+    local hindrance = job.unmade or rests and unsettled(scene) or nil
     job.begin_processes()
     sample(job)
-    local r = run_once(scene, options, name)
+    local r = run_once(scene, options, name, hindrance)
     total.wall, total.cpu = total.wall + r.wall, total.cpu + r.cpu
     return r
   end

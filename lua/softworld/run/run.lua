@@ -120,8 +120,8 @@ local function hide_failure(run)
   return run
 end
 
--- One run; level names it where it is one of several.
-local function run_once(scene, args, level)
+-- One run; level names it where it is one of several, and hindrance tells why it cannot even begin.
+local function run_once(scene, args, level, hindrance)
   local data = build.data(scene)
   local total = data.going or { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0,
     smallest_dt = math.huge, ok = true, reason = "", time = scene.time, start = scene.time,
@@ -142,7 +142,11 @@ local function run_once(scene, args, level)
       total.wall, total.cpu = core.clock() - wall, os.clock() - cpu
       save.write(scene, args.save, total)
     end
-    fine, reason, cut = pcall(drive, scene, args, total, bar)
+    if hindrance then
+      fine, reason, total.ok = true, ("at t = %.6g s: %s"):format(scene.time, hindrance), false
+    else
+      fine, reason, cut = pcall(drive, scene, args, total, bar)
+    end
     data.running, data.saving = nil, nil
     if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
     observe.finish(scene, fine and total.ok, reason)

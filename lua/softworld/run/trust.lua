@@ -73,6 +73,10 @@ function trust.estimate(q, values, contact)
   else -- a small last change may be chance, where the one before was large
     off = math.max(last / (rate - 1), before / (second_order * (second_order - 1)))
   end
+  if q.row and n == 3 and not turns then -- a verdict must not go by two changes that hardly shrink, or grow
+    local to_come = before > last and last / (before / last - 1) or math.huge
+    off = math.max(off, math.min(to_come, second_order * last))
+  end
   return safety * off + floor, math.max(rate, 1)
 end
 
