@@ -4,8 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "contact/contact.h"
-#include "contact/touch.h"
+#include "contact/round.h"
 
 /* A wire at rest sinks in by this much when a single touch carries its whole
  * weight [m]. */
@@ -60,13 +59,17 @@ static double reach_of(const sw_contact *c, const sw_system *s, size_t node, siz
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
-/* Does the wire meet edges of obstacle o with its smooth curve? */
-static int is_smooth(const sw_contact *c, const sw_plan *p, int o) {
-  return c->sharp[o] && !p->web && !p->beam.rolls;
+/* Does the wire meet the candidate's obstacle with its smooth curve? */
+static void find_smooth(const sw_contact *c, const sw_system *s, sw_candidate *k) {
+  const sw_plan *p = s->bodies[k->body].plan;
+  if (p->web || p->beam.rolls) return;
+  sw_contact_find_round(c, s, k);
+  k->smooth = c->sharp[k->obstacle] || k->round;
 }
 
-static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, size_t node,
+static sw_status add_candidate(sw_contact *c, const sw_system *s, size_t body, size_t node,
                                size_t other, int o, int segment) {
+  const sw_body *b = &s->bodies[body];
   const double *masses = b->plan->lumped;
   SW_TRY(sw_grow((void **)&c->candidates, &c->candidate_capacity, c->candidate_count + 1,
                  sizeof *c->candidates));
@@ -79,8 +82,8 @@ static sw_status add_candidate(sw_contact *c, const sw_body *b, size_t body, siz
                      .body = body,
                      .radius = b->plan->beam.radius,
                      .skin = sw_plan_skin(b->plan, node - b->first_node),
-                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node]),
-                     .smooth = is_smooth(c, b->plan, o)};
+                     .mass = 0.5 * (masses[node - b->first_node] + masses[other - b->first_node])};
+  find_smooth(c, s, &c->candidates[c->candidate_count - 1]);
   return SW_OK;
 }
 
@@ -119,10 +122,10 @@ static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t bo
     const double wide = larger(reach, reach_of(c, s, other, o));
     const sw_vec w = sw_v(wide, wide, wide);
     if (outside(&c->bounds[o], sw_sub(low_of(x, y), w), sw_add(high_of(x, y), w))) continue;
-    SW_TRY(add_candidate(c, b, body, node, other, (int)o, k));
+    SW_TRY(add_candidate(c, s, body, node, other, (int)o, k));
     sw_candidate *own = &c->candidates[c->candidate_count - 1];
     own->samples = samples_of(b->plan, i, c->spaced[o]);
-    own->smooth &= !own->samples;
+    if (own->samples) own->smooth = own->round = 0;
   }
   return SW_OK;
 }
@@ -176,7 +179,7 @@ static sw_status obstacle_candidates(sw_contact *c, const sw_system *s, size_t b
   const sw_vec r = sw_v(reach, reach, reach);
   if (!(c->spaced[o] > 0) && !outside(&c->bounds[o], sw_sub(at->x, r), sw_add(at->x, r)) &&
       sw_shape_point(c->obstacles[o].shape, sw_pose_local(c->start[o].pose, at->x), reach, &near))
-    SW_TRY(add_candidate(c, b, body, node, node, (int)o, 0));
+    SW_TRY(add_candidate(c, s, body, node, node, (int)o, 0));
   if (c->flat[o] || c->dense[o]) return SW_OK;
   return segment_candidates(c, s, body, i, o, reach);
 }

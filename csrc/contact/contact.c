@@ -19,7 +19,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
   c->flat = sw_alloc(7 * count, sizeof *c->flat);
-  c->spaced = sw_alloc(count, sizeof *c->spaced);
+  c->spaced = sw_alloc(2 * count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
   if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
       sw_broad_new(&c->broad, count) != SW_OK) {
@@ -29,11 +29,15 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
   c->pressing = c->pads + count, c->straight = c->pressing + count;
   c->sharp = c->straight + count;
+  c->round = c->spaced + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++) {
     c->flat[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_FLAT);
     c->straight[o] = sw_shape_is(obstacles[o].shape, SW_SHAPE_SQUARE);
     c->sharp[o] = sw_shape_has_edges(obstacles[o].shape);
+    sw_vec q, along;
+    if (!(obstacles[o].grips > 0))
+      c->round[o] = sw_shape_middle(obstacles[o].shape, sw_v(0, 0, 0), &q, &along);
   }
   for (size_t o = 0; o < count; o++)
     if (obstacles[o].grips > 0) c->pads[c->pad_count++] = (int)o;
@@ -163,7 +167,7 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
 static const double MEAN_STEPS = 8.0;
 
 static double steady_force(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  if (t->sharp) return sw_contact_steady_force(s, t, c->h);
+  if (t->sharp && t->sharp != SW_SHARP_ROUND) return sw_contact_steady_force(s, t, c->h);
   return t->steady + (t->press.normal_force - t->steady) / MEAN_STEPS;
 }
 

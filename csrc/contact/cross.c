@@ -154,12 +154,16 @@ static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidat
          way.max.y < box.min.y || way.min.z > box.max.z || way.max.z < box.min.z;
 }
 
-/* Of the two halves of the smooth curve's piece, what crosses first counts: a barrier holds it. */
+/* Of the two halves of the smooth curve's piece, what crosses first counts: a barrier holds it.
+ * What goes round a peg would cut into that by such halves, and not by its edges. */
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
   crossing one, two;
   if ((k->smooth || c->broad.moves[k->obstacle]) && stays_away(c, s, k, x1)) return 0;
-  if (!k->smooth)
-    return cross_part(c, s, k, x1, 0.0, 1.0, &one) && raise_barrier(c, s, k, &one.hit, h);
+  if (!k->smooth || k->round) {
+    sw_candidate edge = *k;
+    edge.smooth = 0;
+    return cross_part(c, s, &edge, x1, 0.0, 1.0, &one) && raise_barrier(c, s, &edge, &one.hit, h);
+  }
   const int first = cross_part(c, s, k, x1, 0.0, 0.5, &one);
   const int second = cross_part(c, s, k, x1, 0.5, 1.0, &two);
   if (!first && !second) return 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The smooth curve of a wire, its feet over edges and corners, and how a touch there pushes. */
-#include "contact/curve.h"
-
 #include <math.h>
+
+#include "contact/round.h"
 
 static const double QUARTER = 0.25;
 /* Lines closer to parallel than this have no foot, and nodes meet edges up to that, for they know
@@ -52,6 +52,7 @@ int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate
   for (size_t j = 0; j < 4; j++)
     out->p[j] = sw_pose_local(at[k->obstacle].pose, node_at(c, b, i, j, x));
   if (sw_shape_over_face(shape, out->p, 4)) return 0;
+  out->shape = shape, out->firm = k->firm;
   out->starts = i == 0, out->ends = i + 2 >= b->plan->nodes;
   const double one = out->starts ? 0 : off_middle(out->p[0], out->p[1], out->p[2]);
   const double two = out->ends ? 0 : off_middle(out->p[1], out->p[2], out->p[3]);
@@ -96,6 +97,11 @@ static int find_foot(const sw_piece *c, sw_place *place, double low, double high
   return 1;
 }
 
+int sw_contact_goes_across(sw_vec along, sw_vec edge) {
+  const double share = sw_dot(along, edge);
+  return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
+}
+
 /* Nodes meet faces, edges that the wire lies along and, at its ends, all. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near) {
@@ -103,12 +109,13 @@ int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_can
   const size_t i = k->node - b->first_node;
   sw_vec edge = {0, 0, 0};
   if (i == 0 || i + 1 == b->plan->nodes) return 0;
-  if (sw_shape_sharp(c->obstacles[k->obstacle].shape, near->feature, &edge) == SW_SHARP_NOT)
+  if (k->round
+          ? !sw_contact_over_round(c, k, near, &edge)
+          : sw_shape_sharp(c->obstacles[k->obstacle].shape, near->feature, &edge) == SW_SHARP_NOT)
     return 0;
   const sw_vec world = sw_sub(node_at(c, b, i, 2, x), node_at(c, b, i, 0, x));
   const sw_vec along = sw_unrotate(at[k->obstacle].pose.q, world);
-  const double share = sw_dot(along, edge);
-  return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
+  return sw_contact_goes_across(along, edge);
 }
 
 /* How much the tension keeps an edge from bending, and the most that a touch leans [-]. */
@@ -170,6 +177,7 @@ sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_cand
   const sw_quat q = c->now[k->obstacle].pose.q;
   const sw_vec normal = sw_rotate(q, place->near.normal);
   if (!place->sharp || !(steady > 0)) return normal;
-  const double lean = lean_of(s, k, place->near.at, steady);
+  const double lone = place->sharp == SW_SHARP_ROUND ? k->lone : 1.0;
+  const double lean = lone * lean_of(s, k, place->near.at, steady);
   return sw_unit_or(sw_madd(normal, sw_rotate(q, place->along), lean), normal);
 }

@@ -11,6 +11,8 @@ typedef struct sw_piece {
   sw_vec p[4];      /* [m] */
   int starts, ends; /* 1: the wire does so at p[1] or p[2] */
   double bulge;     /* the curve stands off the nodes by so much, at most [m] */
+  const sw_shape *shape;
+  double firm; /* as the candidate's [-] */
 } sw_piece;
 
 /* Where a wire is near an obstacle. */
@@ -41,6 +43,8 @@ int sw_contact_follow(const sw_piece *piece, sw_place *place);
 /* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near);
+/* Is a wire's direction across an edge's, not nearly along it? */
+int sw_contact_goes_across(sw_vec along, sw_vec edge);
 /* The place of a touch. */
 sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
 /* A place's normal in the world, that of a touch that has had this normal force for a while [N].

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/curve.h"
+#include "contact/round.h"
 #include "contact/same.h"
 
 static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_t *looks) {
@@ -351,7 +351,8 @@ static double depth_of_curve(const sw_contact *c, const sw_system *s, const sw_c
 /* The same with positions x, where it is deepest. */
 static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                        const sw_contact_at *at, const double *x) {
-  if (k->smooth && k->segment) return depth_of_curve(c, s, k, at, x);
+  double deepest = k->smooth && k->segment ? depth_of_curve(c, s, k, at, x) : 0.0;
+  if (k->smooth && k->segment && !k->round) return deepest;
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   const sw_pose *pose = &at[k->obstacle].pose;
   const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
@@ -363,7 +364,6 @@ static double depth_at(const sw_contact *c, const sw_system *s, const sw_candida
     return depth_of(c, k, pose, &near[0]);
   }
   const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
-  double deepest = 0;
   for (int i = 0; i < k->samples; i++) {
     near[0].at = sw_sample_at(k, i);
     if (sw_shape_point(shape, sw_lerp(a, b, near[0].at), k->skin, &near[0]))
@@ -371,7 +371,9 @@ static double depth_at(const sw_contact *c, const sw_system *s, const sw_candida
   }
   if (k->samples) return deepest;
   const int n = sw_shape_segment(shape, a, b, k->skin, near);
-  for (int i = 0; i < n; i++) deepest = fmax(deepest, depth_of(c, k, pose, &near[i]));
+  for (int i = 0; i < n; i++)
+    if (!k->round || !sw_contact_is_rounds(c, k, a, b, near[i].at))
+      deepest = fmax(deepest, depth_of(c, k, pose, &near[i]));
   return deepest;
 }
 

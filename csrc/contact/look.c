@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "contact/curve.h"
+#include "contact/round.h"
 #include "contact/same.h"
 
 /* When the wire's axis is inside the obstacle the nearest face may be the wrong
@@ -56,7 +56,7 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
   const sw_pose *pose = &c->now[k->obstacle].pose;
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_touch *last = &c->last[i];
-    if (!(last->press.normal_force > 0)) continue;
+    if (last->sharp || !(last->press.normal_force > 0)) continue;
     int found = 0;
     for (size_t j = first; j < c->touch_count; j++)
       found |= fabs(c->touches[j].at - last->at) < SW_SAME_TOUCH;
@@ -95,7 +95,10 @@ static sw_status query_segment(sw_contact *c, const sw_system *s, const sw_candi
   const size_t first = c->touch_count;
   sw_closest near[SW_CLOSEST_MAX];
   const int n = sw_shape_segment(c->obstacles[k->obstacle].shape, a, b, reach, near);
-  for (int i = 0; i < n; i++) SW_TRY(add_near(c, s, k, y, &near[i], sw_lerp(a, b, near[i].at)));
+  for (int i = 0; i < n; i++) {
+    if (k->round && sw_contact_is_rounds(c, k, a, b, near[i].at)) continue;
+    SW_TRY(add_near(c, s, k, y, &near[i], sw_lerp(a, b, near[i].at)));
+  }
   return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
 }
 
@@ -175,7 +178,8 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
     return sw_contact_add_touch(c, s, k, y, &place);
   if (k->samples) return query_samples(c, s, k, y, reach);
   if (!k->segment) return query_node(c, s, k, y, reach);
-  return k->smooth ? query_curve(c, s, k, y, reach) : query_segment(c, s, k, y, reach);
+  if (k->smooth) SW_TRY(query_curve(c, s, k, y, reach));
+  return k->smooth && !k->round ? SW_OK : query_segment(c, s, k, y, reach);
 }
 
 sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {

@@ -6,7 +6,7 @@
  */
 #include <math.h>
 
-#include "contact/curve.h"
+#include "contact/round.h"
 
 /* A wire that stands off its chords by less than this share of its radius is found by the chords
  * [-]. */
@@ -146,6 +146,10 @@ void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piec
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
   search q = {piece, shape, k, reach, list, 0};
   list->count = 0;
+  if (k->round) {
+    sw_contact_round_places(piece, reach, list);
+    return;
+  }
   sw_shape_ridges(shape, piece->p[1], piece->p[2], reach + piece->bulge, try_ridge, &q);
   if (q.doubt) of_segment(piece, shape, k, reach, list);
 }

@@ -25,10 +25,15 @@ typedef struct sw_candidate {
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
   int smooth;                /* 1: the wire is the smooth curve there, not its chords */
+  int round;                 /* 1: that on what is thin and round, chords elsewhere */
+  double firm;               /* then: how firmly it touches in the middle of its edge [-] */
+  double lone;               /* and how much it touches in one place, 0 to 1 [-] */
   int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
 } sw_candidate;
 
-enum { SW_BEHIND_BARRIER = -1 }; /* feature of a touch that a barrier keeps on its side [-] */
+/* Feature of a touch that a barrier keeps on its side, and of one by which a wire's curve meets
+ * what is round [-]. */
+enum { SW_BEHIND_BARRIER = -1, SW_ON_CURVE = -2 };
 
 /* One place where a wire's surface is near an obstacle. */
 typedef struct sw_touch {

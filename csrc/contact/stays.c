@@ -22,8 +22,16 @@ static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch
   const sw_candidate *k = &c->candidates[t->candidate];
   sw_piece piece;
   *out = sw_contact_place_of(c, t);
-  return sw_contact_piece(c, s, k, c->now, y, 2.0 * k->radius, &piece) &&
-         sw_contact_follow(&piece, out);
+  if (!sw_contact_piece(c, s, k, c->now, y, 2.0 * k->radius, &piece)) return 0;
+  if (t->sharp != SW_SHARP_ROUND) return sw_contact_follow(&piece, out);
+  sw_places list;
+  double nearest = SW_SAME_TOUCH;
+  sw_contact_places(c, k, &piece, 2.0 * k->radius, &list);
+  for (size_t i = 0; i < list.count; i++) {
+    const double away = fabs(list.place[i].near.at - t->at);
+    if (away < nearest) *out = list.place[i], nearest = away;
+  }
+  return nearest < SW_SAME_TOUCH;
 }
 
 /* Where the wire is nearest now; 0: nowhere. */

@@ -183,7 +183,9 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_body *b = &s->bodies[t->body];
   const size_t i = k->node - b->first_node;
-  if (!m || !(m->steady > 0) || !k->segment || k->smooth || k->samples || b->plan->web) return mu;
+  if (!m || !(m->steady > 0) || !k->segment || (k->smooth && !k->round) || k->samples ||
+      b->plan->web)
+    return mu;
   const sw_vec zero = sw_v(0, 0, 0);
   double turn = 0;
   for (int by = -1; by <= 1; by += 2) {

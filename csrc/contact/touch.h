@@ -25,6 +25,7 @@ struct sw_contact {
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;    /* (count) 1: it has faces, edges and corners */
+  double *round; /* (count) radius of its round side; 0: it has none [m] */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;

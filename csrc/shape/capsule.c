@@ -94,6 +94,13 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   visit(user, low, high, self->radius);
 }
 
+static double middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
+  const capsule *self = (const capsule *)shape;
+  *q = sw_v(0, 0, sw_limit(p.z, -self->half, self->half));
+  *along = sw_v(0, 0, part_of(p.z, self->half) ? 0 : 1);
+  return self->radius;
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(capsule_args, radius, "distance of the surface from the axis"),
     SW_LENGTH_ROW(capsule_args, length, "distance between the two ball centres, along z"),
@@ -115,4 +122,5 @@ const sw_shape_class sw_shape_class_capsule = {.kind = "capsule",
                                                .support = support,
                                                .segment = segment,
                                                .triangles = triangles,
-                                               .bones = bones};
+                                               .bones = bones,
+                                               .middle = middle};

@@ -95,6 +95,12 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   visit(user, low, high, self->radius);
 }
 
+static double middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
+  const cylinder *self = (const cylinder *)shape;
+  *q = sw_v(0, 0, p.z), *along = sw_v(0, 0, 1);
+  return fabs(p.z) <= self->half ? self->radius : 0.0;
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(cylinder_args, radius, "radius of the round side"),
     SW_LENGTH_ROW(cylinder_args, length, "distance between the flat ends, along z"),
@@ -117,4 +123,5 @@ const sw_shape_class sw_shape_class_cylinder = {
     .support = support,
     .segment = segment,
     .triangles = triangles,
-    .bones = bones};
+    .bones = bones,
+    .middle = middle};

@@ -109,6 +109,10 @@ int sw_shape_has_edges(const sw_shape *shape) {
   return k->sharp && !(k->faceted && k->faceted(shape));
 }
 
+double sw_shape_middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
+  return shape->class->middle ? shape->class->middle(shape, p, q, along) : 0.0;
+}
+
 int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count) {
   return shape->class->over_face && shape->class->over_face(shape, p, count);
 }

@@ -127,7 +127,12 @@ int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_ve
 
 /* What a feature is. Of an edge: its unit direction. Places found inside of a solid may name a face
  * where they lie on an edge. */
-typedef enum sw_sharp { SW_SHARP_NOT, SW_SHARP_EDGE, SW_SHARP_CORNER } sw_sharp;
+typedef enum sw_sharp {
+  SW_SHARP_NOT,
+  SW_SHARP_EDGE,
+  SW_SHARP_CORNER,
+  SW_SHARP_ROUND /* a thin round side, to a wire of longer edges */
+} sw_sharp;
 sw_sharp sw_shape_sharp(const sw_shape *shape, int feature, sw_vec *along);
 /* A convex edge or corner. */
 typedef struct sw_ridge {
@@ -151,6 +156,10 @@ int sw_shape_over_face(const sw_shape *shape, const sw_vec *p, size_t count);
 /* 1: all that is not flat about it are edges and corners: none that many small faces stand for what
  * is round. */
 int sw_shape_has_edges(const sw_shape *shape);
+/* Of a shape whose surface, or its side, is as far from a middle line everywhere: that distance
+ * [m], the place q of the line nearest to p and the line's direction there, 0 of a ball's middle
+ * [-]. 0: it is none, or p is beside an end where the surface is another one. */
+double sw_shape_middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along);
 
 sw_bounds sw_shape_bounds(const sw_shape *shape);
 const char *sw_shape_kind(const sw_shape *shape); /* "box", "mesh", ... */

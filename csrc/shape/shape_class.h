@@ -57,6 +57,8 @@ struct sw_shape_class {
   void (*ridges)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
                  void *user);
   int (*points_out)(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);
+  /* As sw_shape_middle; NULL = it has none. */
+  double (*middle)(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along);
 };
 
 #define X(name) extern const sw_shape_class sw_shape_class_##name;

@@ -62,6 +62,12 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   visit(user, middle, middle, ((const sphere *)shape)->radius);
 }
 
+static double middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
+  (void)p;
+  *q = *along = sw_v(0, 0, 0);
+  return ((const sphere *)shape)->radius;
+}
+
 static const sw_param rows[] = {
     SW_LENGTH_ROW(sphere_args, radius, "radius of the ball"),
 };
@@ -86,4 +92,5 @@ const sw_shape_class sw_shape_class_sphere = {.kind = "sphere",
                                               .support = support,
                                               .segment = segment,
                                               .triangles = triangles,
-                                              .bones = bones};
+                                              .bones = bones,
+                                              .middle = middle};

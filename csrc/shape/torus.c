@@ -174,6 +174,13 @@ static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   }
 }
 
+static double middle(const sw_shape *shape, sw_vec p, sw_vec *q, sw_vec *along) {
+  const torus *self = (const torus *)shape;
+  *q = on_circle(self, p);
+  *along = sw_v(-q->y / self->radius, q->x / self->radius, 0);
+  return self->tube;
+}
+
 static const sw_shape_wrong wrong[] = {
     {"radius = 0.1, tube = 0.1", "tube = 0.1 m is not allowed; it must be below radius = 0.1 m"},
     {"radius = 0.1", "obstacle torus: tube is required [m]"},
@@ -196,4 +203,5 @@ const sw_shape_class sw_shape_class_torus = {.kind = "torus",
                                              .distance = distance,
                                              .segment = segment,
                                              .triangles = triangles,
-                                             .bones = bones};
+                                             .bones = bones,
+                                             .middle = middle};

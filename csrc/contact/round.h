@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is round and thin beside a wire's edges meets the wire's smooth curve, as edges and corners
+ * do: chords would hold a wire that slides over a peg (spec/contact/pegs_spec). */
+#ifndef SW_CONTACT_ROUND_H
+#define SW_CONTACT_ROUND_H
+
+#include "contact/curve.h"
+
+/* Is the candidate's obstacle round and thin to the wire, and how firmly do they touch in the
+ * middles of its edges? At the step's start. */
+void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);
+
+/* Places of a piece that are less than reach away from it [m]. */
+void sw_contact_round_places(const sw_piece *piece, double reach, sw_places *list);
+
+/* 1: at this place of its chord a-b, in the obstacle's coordinates, a wire is over what is round,
+ * and not along it: that is for its curve. */
+int sw_contact_is_rounds(const sw_contact *c, const sw_candidate *k, sw_vec a, sw_vec b, double at);
+/* 1: a node's nearest place is on the round side, which goes along there. */
+int sw_contact_over_round(const sw_contact *c, const sw_candidate *k, const sw_closest *near,
+                          sw_vec *along);
+
+#endif
