@@ -211,9 +211,9 @@ static size_t size_at(lua_State *L, int index) {
   return x >= 0 && x <= SW_CANVAS_MOST ? (size_t)x : 0;
 }
 
-static sw_window window_at(lua_State *L, int index) {
+static sw_canvas_part window_at(lua_State *L, int index) {
   const size_t x = size_at(L, index), y = size_at(L, index + 1);
-  return (sw_window){x, y, size_at(L, index + 2), size_at(L, index + 3)};
+  return (sw_canvas_part){x, y, size_at(L, index + 2), size_at(L, index + 3)};
 }
 
 /* canvas:show(drawing, camera, technique, x, y, width, height) */
@@ -222,7 +222,7 @@ static int meth_show(lua_State *L) {
   const sw_drawing *d = drawing_at(L, 2);
   const sw_camera camera = camera_at(L, 3);
   const sw_technique technique = technique_at(L, 4);
-  const sw_window window = window_at(L, 5);
+  const sw_canvas_part window = window_at(L, 5);
   must(L, sw_canvas_show(canvas, window, d, &camera, technique, sw_interrupted), "picture");
   return 0;
 }

@@ -22,7 +22,7 @@ void sw_canvas_free(sw_canvas *canvas) {
   canvas->rgb = NULL;
 }
 
-sw_status sw_canvas_show(sw_canvas *canvas, sw_window w, const sw_drawing *d,
+sw_status sw_canvas_show(sw_canvas *canvas, sw_canvas_part w, const sw_drawing *d,
                          const sw_camera *camera, sw_technique technique,
                          int (*interrupted)(void)) {
   if (!w.width || !w.height || w.x > canvas->width || w.y > canvas->height ||
@@ -32,7 +32,7 @@ sw_status sw_canvas_show(sw_canvas *canvas, sw_window w, const sw_drawing *d,
                                         : sw_show_shaded(canvas, w, d, camera, interrupted);
 }
 
-void sw_canvas_fill(sw_canvas *canvas, sw_window w, const float colour[3]) {
+void sw_canvas_fill(sw_canvas *canvas, sw_canvas_part w, const float colour[3]) {
   const size_t right = w.x + w.width < canvas->width ? w.x + w.width : canvas->width;
   const size_t below = w.y + w.height < canvas->height ? w.y + w.height : canvas->height;
   for (size_t y = w.y; y < below; y++)

@@ -65,15 +65,15 @@ enum { SW_CANVAS_MOST = 16384 }; /* [px] */
 sw_status sw_canvas_new(size_t width, size_t height, sw_canvas *out);
 void sw_canvas_free(sw_canvas *canvas);
 
-typedef struct sw_window {
+typedef struct sw_canvas_part {
   size_t x, y, width, height; /* of a canvas, from its upper left corner [px] */
-} sw_window;
+} sw_canvas_part;
 
 /* interrupted (may be NULL) is polled. SW_EINVAL: the window leaves the canvas. SW_EINTR. */
-sw_status sw_canvas_show(sw_canvas *canvas, sw_window window, const sw_drawing *drawing,
+sw_status sw_canvas_show(sw_canvas *canvas, sw_canvas_part window, const sw_drawing *drawing,
                          const sw_camera *camera, sw_technique technique, int (*interrupted)(void));
 /* A rectangle of one colour; what leaves the canvas is cut. */
-void sw_canvas_fill(sw_canvas *canvas, sw_window window, const float colour[3]);
+void sw_canvas_fill(sw_canvas *canvas, sw_canvas_part window, const float colour[3]);
 /* Letters, size high [px], from x on the line y [px]; what leaves the canvas is cut. Returns how
  * far it goes [px]. canvas NULL: only that. Letters that the font lacks become question marks. */
 double sw_canvas_text(sw_canvas *canvas, const char *utf8, size_t bytes, double x, double y,

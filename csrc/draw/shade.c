@@ -203,7 +203,7 @@ INSIDE void shade_dot(const stage *g, size_t x, size_t y, float out[3]) {
   }
 }
 
-SW_HOT static sw_status shade_all(const stage *g, sw_canvas *canvas, sw_window w,
+SW_HOT static sw_status shade_all(const stage *g, sw_canvas *canvas, sw_canvas_part w,
                                   int (*interrupted)(void)) {
   for (size_t y = 0; y < w.height; y++) {
     uint8_t *to = canvas->rgb + 3 * (canvas->width * (w.y + y) + w.x);
@@ -218,7 +218,7 @@ SW_HOT static sw_status shade_all(const stage *g, sw_canvas *canvas, sw_window w
   return SW_OK;
 }
 
-sw_status sw_show_shaded(sw_canvas *canvas, sw_window w, const sw_drawing *d,
+sw_status sw_show_shaded(sw_canvas *canvas, sw_canvas_part w, const sw_drawing *d,
                          const sw_camera *camera, int (*interrupted)(void)) {
   stage g = {.d = d};
   g.view = sw_view_of(camera, (double)(SS * w.width), (double)(SS * w.height), d);

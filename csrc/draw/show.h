@@ -5,9 +5,9 @@
 
 #include "draw/drawing.h"
 
-sw_status sw_show_shaded(sw_canvas *canvas, sw_window window, const sw_drawing *drawing,
+sw_status sw_show_shaded(sw_canvas *canvas, sw_canvas_part window, const sw_drawing *drawing,
                          const sw_camera *camera, int (*interrupted)(void));
-sw_status sw_show_wireframe(sw_canvas *canvas, sw_window window, const sw_drawing *drawing,
+sw_status sw_show_wireframe(sw_canvas *canvas, sw_canvas_part window, const sw_drawing *drawing,
                             const sw_camera *camera, int (*interrupted)(void));
 
 #endif

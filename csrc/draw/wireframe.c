@@ -66,7 +66,7 @@ static sw_status draw_lines(sheet *g, const sw_line *lines, size_t count, int hi
   return SW_OK;
 }
 
-static void shrink(const sheet *g, sw_canvas *canvas, sw_window w) {
+static void shrink(const sheet *g, sw_canvas *canvas, sw_canvas_part w) {
   for (size_t y = 0; y < w.height; y++) {
     uint8_t *to = canvas->rgb + 3 * (canvas->width * (w.y + y) + w.x);
     for (size_t x = 0; x < 3 * w.width; x++) {
@@ -78,7 +78,7 @@ static void shrink(const sheet *g, sw_canvas *canvas, sw_window w) {
   }
 }
 
-sw_status sw_show_wireframe(sw_canvas *canvas, sw_window w, const sw_drawing *d,
+sw_status sw_show_wireframe(sw_canvas *canvas, sw_canvas_part w, const sw_drawing *d,
                             const sw_camera *camera, int (*interrupted)(void)) {
   sheet g = {.width = SS * w.width, .height = SS * w.height};
   const sw_view view = sw_view_of(camera, (double)g.width, (double)g.height, d);

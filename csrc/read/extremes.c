@@ -170,9 +170,7 @@ static double watched_place(const sw_body *b, size_t e) {
   return 0.5 * (web->s[web->first[e]] + web->s[web->first[e + 1]]);
 }
 
-/* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
- * are. */
-static int is_averaged(const sw_scene *s) {
+int sw_scene_is_averaged(const sw_scene *s) {
   return s->course.span > 0 &&
          s->course.span < (1 - 1e-9) * s->course.window; /* times are rounded */
 }
@@ -222,15 +220,15 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
   sw_extreme step = now->tension;
   if (T) largest_tension(b, T, &step), step.time = s->time;
   if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = s->course.span;
-  if (!is_averaged(s)) keep_largest(&kept->tension, &step);
-  if (!is_averaged(s) && !wire->window.marks) return;
+  if (!sw_scene_is_averaged(s)) keep_largest(&kept->tension, &step);
+  if (!sw_scene_is_averaged(s) && !wire->window.marks) return;
   if (!(s->course.span > 0)) {
     sw_window_forget(&wire->window);
     return;
   }
   if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->course.span,
                     s->course.window) &&
-      is_averaged(s))
+      sw_scene_is_averaged(s))
     keep_mean(s, w, &kept->tension);
 }
 
@@ -244,7 +242,7 @@ void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *n
   const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
   if (!fits && (missing || !counted))
     keep_largest(&run->tension, &now->tension);
-  else if (fits && (missing || (sw_window_waits(window) && is_averaged(s) &&
+  else if (fits && (missing || (sw_window_waits(window) && sw_scene_is_averaged(s) &&
                                 sw_window_full(window, s->course.window))))
     keep_mean(s, w, &run->tension);
 }
@@ -259,7 +257,7 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
 
 sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, sw_error *err) {
   double *tension = NULL;
-  if ((is_averaged(s) || s->wires[w].window.marks) && fit_window(s, w) != SW_OK)
+  if ((sw_scene_is_averaged(s) || s->wires[w].window.marks) && fit_window(s, w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'", s->wires[w].name);
   if (s->wires[w].strand.web && s->wires[w].window.edges == watched_edges(&s->system.bodies[w]))
     tension = sw_window_values(&s->wires[w].window);

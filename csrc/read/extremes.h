@@ -17,7 +17,10 @@ void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extr
 /* Keep the larger ones, but for the tension. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 void sw_scene_reset_extremes(sw_scene *scene);
-/* Axial forces of the edges of a line in the step that led here (edges) [N]. */
+/* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
+ * are. */
+int sw_scene_is_averaged(const sw_scene *scene);
+/* Axial forces of the edges of a line in that step (edges) [N]. */
 const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
 /* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
 sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);

@@ -9,6 +9,7 @@ void sw_wear_free(sw_wear *w) {
   sw_free(w->places);
   sw_free(w->cycles);
   sw_free(w->across);
+  sw_window_free(&w->pressed);
   *w = (sw_wear){0};
 }
 
@@ -38,7 +39,7 @@ static void tape_place(sw_tape *t, sw_wear_place *x) {
 
 void sw_tape_wear(sw_tape *t, sw_wear *w) {
   size_t count = w->count, nodes = w->nodes;
-  SW_TAPE_STRUCT(t, sw_wear, 80); /* across is room for work */
+  SW_TAPE_STRUCT(t, sw_wear, 272); /* across is room for work */
   sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
   sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
   if (!sw_tape_good(t)) return;
@@ -59,6 +60,7 @@ void sw_tape_wear(sw_tape *t, sw_wear *w) {
   sw_tape_raw(t, &w->holds, sizeof w->holds), sw_tape_int(t, &w->partial);
   sw_tape_double(t, &w->sidewall.value), sw_tape_double(t, &w->sidewall.s);
   sw_tape_double(t, &w->sidewall.time);
+  sw_tape_window(t, &w->pressed);
   for (size_t k = 0; k < w->count && sw_tape_good(t); k++) tape_place(t, &w->places[k]);
   for (size_t k = 0; k < SW_WEAR_SIGNALS * w->count && sw_tape_good(t); k++)
     tape_cycles(t, &w->cycles[k]);

@@ -9,6 +9,7 @@
 #include "base/tape.h"
 #include "base/vec.h"
 #include "record/cycles.h"
+#include "record/window.h"
 
 /* What is counted at each place: the tension, then the bend in so many directions [-]. */
 enum { SW_WORN_TENSION, SW_WORN_BEND, SW_WORN_WAYS = 12, SW_WORN_SIGNALS = 1 + SW_WORN_WAYS };
@@ -33,7 +34,8 @@ typedef struct sw_wear {
   sw_cycles *cycles;     /* (count x SW_WEAR_SIGNALS) */
   sw_vec *across;        /* (count) room for a step's work; NULL until the first */
   uint64_t holds;        /* a number for what holds its direction where */
-  sw_extreme sidewall;   /* largest pressure T/R where it touches [N/m] */
+  sw_extreme sidewall;   /* largest pressure T/R where it touches, a mean as peaks are [N/m] */
+  sw_window pressed;     /* of the pressure at its nodes [N/m] */
   int partial;           /* 1: it was a mesh of particles for a while, of which nothing is kept */
 } sw_wear;
 

@@ -68,6 +68,7 @@ static size_t size_of(const sw_scene *s) {
     const size_t each = wire->mesh.rest ? 17 : 7; /* doubles for a node */
     size += sizeof *wire + (each * wire->mesh.n + records) * sizeof(double);
     size += wire->wear.count * (sizeof(sw_wear_place) + SW_WEAR_SIGNALS * sizeof(double));
+    size += (2 + wire->wear.pressed.marks) * wire->wear.pressed.edges * sizeof(double);
   }
   return size + s->hold_count * sizeof *s->holds + s->obstacle_count * sizeof *s->obstacles +
          s->tool_count * sizeof *s->tools + s->force_count * sizeof *s->forces +

@@ -79,6 +79,7 @@ static sw_status fit(sw_wear *w, const sw_plan *p) {
     }
     new.places[k].s = s, new.places[k].side = side;
   }
+  new.pressed = w->pressed, w->pressed = (sw_window){0};
   new.sidewall = w->sidewall, new.partial = w->partial; /* holds 0: directions are found anew */
   sw_wear_free(w);
   *w = new;
@@ -253,15 +254,50 @@ static double pressure_at(const sw_wear *w, size_t i) {
 }
 
 /* Beside a clamp its node has what the clamp has. */
-static void press_sides(const sw_plan *p, double time, sw_wear *w) {
+static void press_sides(const sw_plan *p, sw_wear *w) {
   for (size_t c = 0; c < p->clamp_count; c++) {
     sw_wear_place *node = &w->places[p->clamps[c].node];
     node->load = fmax(node->load, w->places[p->nodes + c].load);
   }
-  for (size_t i = 0; i < w->nodes; i++) {
-    const double now = pressure_at(w, i);
-    if (now > w->sidewall.value) w->sidewall = (sw_extreme){now, p->s[i], time};
+}
+
+static void keep(sw_extreme *kept, double value, double place, double time) {
+  if (value > kept->value) *kept = (sw_extreme){value, place, time};
+}
+
+sw_extreme sw_wear_sidewall(const sw_scene *s, const sw_wear *w) {
+  const sw_window *window = &w->pressed;
+  sw_extreme most = w->sidewall;
+  double mean;
+  if (!window->marks || window->edges != w->nodes) return most;
+  const int due = sw_window_waits(window) && sw_scene_is_averaged(s) &&
+                  sw_window_full(window, s->course.window);
+  if (most.value > 0 && !due) return most; /* else a record shorter than the window */
+  const size_t i = sw_window_largest(window, s->course.window, &mean);
+  keep(&most, mean, w->places[i].s, window->now);
+  return most;
+}
+
+/* Single steps of a blow say nothing of how long it lasts: means count, as of other peaks. */
+static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
+  const int averaged = sw_scene_is_averaged(s);
+  double mean;
+  press_sides(p, w);
+  for (size_t i = 0; i < w->nodes && !averaged; i++)
+    keep(&w->sidewall, pressure_at(w, i), p->s[i], s->time);
+  if (!averaged && !w->pressed.marks) return SW_OK;
+  if (w->pressed.edges != w->nodes) SW_TRY(sw_window_fit(&w->pressed, w->nodes, p->s));
+  if (!(s->course.span > 0)) {
+    sw_window_forget(&w->pressed);
+    return SW_OK;
   }
+  double *values = sw_window_values(&w->pressed);
+  for (size_t i = 0; i < w->nodes; i++) values[i] = pressure_at(w, i);
+  if (!sw_window_add(&w->pressed, values, s->time, s->course.span, s->course.window) || !averaged)
+    return SW_OK;
+  const size_t i = sw_window_largest(&w->pressed, s->course.window, &mean);
+  keep(&w->sidewall, mean, p->s[i], s->time);
+  return SW_OK;
 }
 
 sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
@@ -275,11 +311,11 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   sw_status status = fit(wear, b->plan);
   const double *T = rubs ? sw_scene_step_tension(s, b) : sw_system_pull(&s->system, b);
   if (status == SW_OK) status = count_all(s, w, T);
+  if (status == SW_OK && rubs) {
+    rub_obstacles(s, b, wear), rub_bodies(s, b, wear);
+    status = press(s, b->plan, wear);
+  }
   if (status != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'", s->wires[w].name);
-  if (rubs) {
-    rub_obstacles(s, b, wear), rub_bodies(s, b, wear);
-    press_sides(b->plan, s->time, wear);
-  }
   return SW_OK;
 }

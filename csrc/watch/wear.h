@@ -11,12 +11,16 @@
 
 #include "base/tape.h"
 #include "base/vec.h"
+#include "record/wear.h"
 #include "scene/scene.h"
 #include "system/system.h"
 
 /* The state of wire w is one of the run; rubs: reached by a step, in which touches slid. SW_ENOMEM.
  */
 sw_status sw_wear_note(sw_scene *scene, size_t w, int rubs, sw_error *err);
+
+/* The largest pressure T/R up to now, with what the last step is part of [N/m]. */
+sw_extreme sw_wear_sidewall(const sw_scene *scene, const sw_wear *wear);
 
 /* The wire's directions across its edges (edges), carried from what holds it; first: that of its
  * first edge where nothing does [-]. */

@@ -18,7 +18,7 @@ sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, int *par
 
 sw_extreme sw_scene_worn_sidewall(const sw_scene *s, sw_handle h) {
   const sw_scene_wire *w = &s->wires[h.slot];
-  sw_extreme x = w->wear.sidewall;
+  sw_extreme x = sw_wear_sidewall(s, &w->wear);
   x.s -= w->mesh.s[0];
   return x;
 }

@@ -340,6 +340,25 @@ describe("what a run keeps of wear", function()
   end)
 end)
 
+describe("sidewall pressure", function()
+  -- Single steps of a blow on a peg grow with every finer step; a mean over the window is there to converge.
+  it("of a blow is a mean over the window, as other peaks are", function()
+    local function dropped(dt, window)
+      local scene = sw.scene{}
+      scene:obstacle{ shape = "cylinder", radius = 0.02, length = 0.1, friction = 0.2,
+        rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
+      scene:wire{ cable = "GXL 1.5", from = { -0.2, 0, 0.06 }, to = { 0.2, 0, 0.06 }, segments = 60 }
+      scene:force{ kind = "damping", mass = 2 }
+      local run = scene:run{ duration = 0.2, dt = dt, wear = true, window = window, frame = 1 }
+      return run:check{ limits = { max_sidewall = 1e3 } }:row "max_sidewall".value
+    end
+    local coarse, fine, raw = dropped(0.002), dropped(0.0005), dropped(0.0005, 0)
+    print(("measured: %.3f, %.3f N/m; of single steps %.3f N/m"):format(coarse, fine, raw))
+    assert.is_near(coarse, fine, 0.15 * coarse)
+    assert.is_true(fine > 0 and raw > 3 * fine, raw .. " and " .. fine)
+  end)
+end)
+
 describe("work of friction", function()
   -- Drawn over a third of a cylinder at a constant speed: T_in (exp(mu angle) - 1) v in all, and none where
   -- nothing touches. Nothing of it is in a frame.
