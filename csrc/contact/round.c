@@ -87,15 +87,21 @@ static double find_place(const sw_piece *c, double low, double high, double at_l
   return last;
 }
 
-/* The place there. 0: the wire goes along what is round, or through its middle. */
+/* So near the middle line, of its radius, a wire goes through it [-]. */
+static const double THROUGH = 1e-9;
+
+/* The place there. 0: the wire goes along what is round. One that goes through its middle is put
+ * out across both, as its chords would be. */
 static int make_place(const sw_piece *c, double u, sw_place *place) {
   sw_vec tangent, q, e;
   const sw_vec x = sw_contact_curve(c, u, &tangent);
   const double radius = sw_shape_middle(c->shape, x, &q, &e);
-  const sw_vec w = sw_sub(x, q), zero = sw_v(0, 0, 0), along = sw_unit_or(tangent, zero);
-  const sw_vec n = sw_unit_or(sw_madd(w, along, -sw_dot(w, along)), zero);
+  const sw_vec w = sw_sub(x, q), along = sw_unit_or(tangent, sw_v(0, 0, 1));
+  const sw_vec out = sw_unit_or(sw_cross(along, e), sw_perpendicular(along));
+  const sw_vec away = sw_madd(w, along, -sw_dot(w, along));
+  const sw_vec n = sw_norm(away) > THROUGH * radius ? sw_unit_or(away, out) : out;
   const double d = sw_dot(n, w);
-  if (!(radius > 0) || !(d > 0) || !sw_contact_goes_across(along, e)) return 0;
+  if (!(radius > 0) || !sw_contact_goes_across(along, e)) return 0;
   *place = (sw_place){.near = {.gap = d - radius,
                                .at = u,
                                .normal = n,

@@ -261,8 +261,11 @@ static void press_sides(const sw_plan *p, sw_wear *w) {
   }
 }
 
+/* Differences of integrals leave rounding where nothing presses; no load is as small [N/m]. */
+static const double ROUNDING = 1e-12;
+
 static void keep(sw_extreme *kept, double value, double place, double time) {
-  if (value > kept->value) *kept = (sw_extreme){value, place, time};
+  if (value > fmax(ROUNDING, kept->value)) *kept = (sw_extreme){value, place, time};
 }
 
 sw_extreme sw_wear_sidewall(const sw_scene *s, const sw_wear *w) {
