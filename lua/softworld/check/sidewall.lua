@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Sidewall pressure of a wire that is drawn round something: tension over the radius of the bend, T/R, where
--- it touches [N/m]. With scene:run{ wear = true } the largest mean over the run's window; else frames give the
--- largest that is stored, and the largest tension and the sharpest bend of each step, which may be at two
+-- it touches [N/m]. With scene:run{ wear = true } the largest mean over the run's window; else frames give
+-- the largest that is stored, and the largest tension and the sharpest bend of each step, which may be at two
 -- places, are a bound for what passes between them.
 -- @module softworld.check.sidewall
 local bendrule = require "softworld.wire.bendrule"
