@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pegs, rings and other wires' clips are often thinner than a wire's edges are long. A wire meets them with
--- its smooth curve: no place along an edge of it holds better than another.
+-- Pegs and rings are often thinner than a wire's edges are long. A wire meets them with its smooth curve: no
+-- place along an edge of it holds better than another.
 local core = require "softworld.core"
 local vec = require "softworld.vec"
 

@@ -277,14 +277,20 @@ describe("a state of a way that was left", function()
   end)
 end)
 
+-- A scene of forms that has run once, and is to wait at the beginning of the next run.
+local function paused_after_a_run()
+  local p = open(viewing.nothing{ open = false })
+  put_together(p, true)
+  start(p, 0.6, 0.1)
+  p:ask{ ["do"] = "pause" }
+  p:hear(0.1)
+  return p
+end
+
 describe("what was taken away at the start of a second run", function()
   it("comes back by undo in that run, not at the end of the first one", function()
-    local p = open(viewing.nothing{ open = false })
-    put_together(p, true)
-    start(p, 0.6, 0.1)
+    local p = paused_after_a_run()
     local first, begun = p.view.scene.time, 0
-    p:ask({ ["do"] = "pause" })
-    p:hear(0.1)
     function p.at_begin() -- of the second run, of the first one again, of the second one again: that is held
       begun = begun + 1
       if begun == 1 then p:ask({ ["do"] = "remove", object = "floor" }, "remove") end
@@ -313,11 +319,7 @@ end)
 
 describe("a run that is held at its beginning", function()
   it("is left for a state of an earlier one, without a word to go on", function()
-    local p = open(viewing.nothing{ open = false })
-    put_together(p, true)
-    start(p, 0.6, 0.1)
-    p:ask{ ["do"] = "pause" }
-    p:hear(0.1)
+    local p = paused_after_a_run()
     local first = p.got.state.snapshots[1]
     assert.equal(0, first.time)
     function p.at_begin() p:ask({ ["do"] = "back", id = first.id }, "back") end
