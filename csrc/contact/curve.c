@@ -2,6 +2,7 @@
 /* The smooth curve of a wire, its feet over edges and corners, and how a touch there pushes. */
 #include <math.h>
 
+#include "contact/lean.h"
 #include "contact/round.h"
 
 static const double QUARTER = 0.25;
@@ -118,31 +119,9 @@ int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_can
   return sw_contact_goes_across(along, edge);
 }
 
-/* How much the tension keeps an edge from bending, and the most that a touch leans [-]. */
-static const double TAUT = 0.27, MOST_LEAN = 0.1;
-/* What bends between nodes follows the force after so many of its own times [-]. */
-static const double SLOWLY = 4.0;
-
-static double lean_of(const sw_system *s, const sw_candidate *k, double at, double force) {
-  const sw_body *b = &s->bodies[k->body];
-  const sw_plan *p = b->plan;
-  const double place = (double)(k->node - b->first_node) + at;
-  if (!(place > 0.5) || !(place < (double)p->edges - 0.5) || !(p->beam.EI > 0)) return 0;
-  const size_t i = (size_t)(place + 0.5), e = b->first_edge + i;
-  const double v = place + 0.5 - (double)i, h = 0.5 * (p->rest[i - 1] + p->rest[i]);
-  const double T = fmax(0.0, 0.5 * (s->tension[e - 1] + s->tension[e])), h2 = h * h / p->beam.EI;
-  const double lean = 0.25 * force * h2 * v * (1.0 - v) * (1.0 - 2.0 * v) / (1.0 + TAUT * T * h2);
-  return fmin(fmax(lean, -MOST_LEAN), MOST_LEAN);
-}
-
 double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h) {
-  const sw_plan *p = s->bodies[t->body].plan;
-  const double N = t->press.normal_force;
-  const size_t i = t->node - s->bodies[t->body].first_node;
-  const double edge = p->rest[i < p->edges ? i : i - 1];
-  const double slow = SLOWLY * edge * edge * sqrt(p->beam.mass / p->beam.EI);
-  if (N <= t->steady || !(h > 0)) return N;
-  return t->steady + (N - t->steady) * h / (h + slow);
+  const sw_body *b = &s->bodies[t->body];
+  return sw_lean_steady(b, t->node - b->first_node, t->steady, t->press.normal_force, h);
 }
 
 sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at) {
@@ -178,6 +157,8 @@ sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_cand
   const sw_vec normal = sw_rotate(q, place->near.normal);
   if (!place->sharp || !(steady > 0)) return normal;
   const double lone = place->sharp == SW_SHARP_ROUND ? k->lone : 1.0;
-  const double lean = lone * lean_of(s, k, place->near.at, steady);
+  const sw_body *b = &s->bodies[k->body];
+  const double along = (double)(k->node - b->first_node) + place->near.at;
+  const double lean = lone * sw_lean_of(s, b, along, steady);
   return sw_unit_or(sw_madd(normal, sw_rotate(q, place->along), lean), normal);
 }

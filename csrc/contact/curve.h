@@ -47,9 +47,8 @@ int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_can
 int sw_contact_goes_across(sw_vec along, sw_vec edge);
 /* The place of a touch. */
 sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
-/* A place's normal in the world, that of a touch that has had this normal force for a while [N].
- * What bends between two nodes under a push is not in the curve: it bends deeper in the middle
- * between them, and would be held there if it did not push a little along the wire. */
+/* A place's normal in the world, that of a touch that has had this normal force for a while [N]: it
+ * leans (contact/lean.h). */
 sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_place *place, double steady);
 /* The normal force that a touch has had for a while, after a step of h [N]. */

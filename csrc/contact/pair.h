@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "contact/bow.h"
 #include "contact/law.h"
 #include "contact/pairs.h"
 #include "contact/spot.h"
@@ -16,6 +17,7 @@ typedef struct sw_near {
   double distance; /* of the axes at the step's start, or less [m] */
   double known;    /* when it was last measured [m] */
   double travel;   /* of the four nodes together until then [m] */
+  double bulge;    /* their smooth curves stand off them by so much together, as known then [m] */
 } sw_near;
 
 enum { SW_NO_PAIR = UINT32_MAX };
@@ -29,6 +31,9 @@ typedef struct sw_pair {
                          before one, one itself, the one after it */
   int parallel;       /* nearly, at the step's start */
   int held;           /* all four nodes are: no force */
+  double smooth;      /* 1: their smooth curves meet, 0: their chords do, or what is between [-] */
+  double firm[2];     /* how firmly a touch then keeps to the middle of each segment [-] */
+  double lone[2];     /* 1: the wire is hardly bent there; 0: it goes round the other one [-] */
   double reach;       /* sum of the radii [m] */
   double usual;       /* stiffness of a new touch [N/m] */
   size_t last, last_end; /* its touches of the iterate before */
@@ -44,6 +49,7 @@ typedef struct sw_pair_touch {
   sw_pair_kind kind;
   size_t stage;    /* in which it was found */
   double at[2];    /* along the segments [-] */
+  sw_bow bow[2];   /* as places of the wires */
   int slides[2];   /* 1: the place along that segment follows the nearest points */
   int far;         /* 1: too far from its last place for its force to be known */
   int barred;      /* kept on its side by a barrier */
@@ -52,6 +58,7 @@ typedef struct sw_pair_touch {
   double aslant;   /* what a barrier's fixed normal takes off the distance [m] */
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
   double let_out;  /* part of the true depth that nothing explains and this step ends [m] */
+  double steady;   /* normal force that it had had for a while at the step's start [N] */
   sw_press press;  /* its normal is towards segment one */
 } sw_pair_touch;
 
@@ -61,6 +68,7 @@ typedef struct sw_pair_memory {
   sw_pair_kind kind;
   double at[2];
   double normal_force, depth, k; /* [N], [m], [N/m] */
+  double steady;                 /* normal force that it has had for a while [N] */
   sw_vec normal;                 /* [-] */
   sw_vec elastic;                /* displacement of the friction spring [m] */
   int sliding, emerges;
@@ -140,6 +148,10 @@ int sw_pair_is_same(const sw_pair *pair, const double at[2], const sw_pair *othe
 /* Nearest points of two segments: places along them, distance returned [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
 
+/* The second derivative of half the squared distance by a place along a wire [m2]: of its slope squared,
+ * its bend along the distance, and how firmly it keeps to the middle of its edge [m2], [m2], [-]. */
+double sw_pair_rise(double along2, double bends, double firm);
+
 /* Say why looking for pairs failed. */
 sw_status sw_pairs_fail(sw_status status, sw_error *err);
 
@@ -147,11 +159,9 @@ static inline const sw_pair_rule *sw_pair_rule_of(const sw_pairs *p, const uint3
   return &p->rules[p->bodies * body[0] + body[1]];
 }
 
-/* The material at a touch: place on segment one minus that on two. */
-static inline sw_vec sw_pair_apart(const double *x, uint32_t one, uint32_t two,
-                                   const double at[2]) {
-  return sw_sub(sw_lerp(sw_vec_at(x, one), sw_vec_at(x, one + 1u), at[0]),
-                sw_lerp(sw_vec_at(x, two), sw_vec_at(x, two + 1u), at[1]));
+/* The material at a touch: place on wire one minus that on two. */
+static inline sw_vec sw_pair_apart(const double *x, const sw_bow bow[2]) {
+  return sw_sub(sw_bow_place(x, &bow[0]), sw_bow_place(x, &bow[1]));
 }
 
 #endif

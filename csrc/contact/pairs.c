@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/lean.h"
 #include "contact/pair.h"
 
 sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) {
@@ -109,8 +110,16 @@ sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
 
 /* --- memory ---------------------------------------------------------------------- */
 
+/* By the slower of both wires. */
+static double steady_force(const sw_system *s, const sw_pair *k, const sw_pair_touch *t, double h) {
+  const sw_body *one = &s->bodies[k->body[0]], *two = &s->bodies[k->body[1]];
+  const double N = t->press.normal_force;
+  if (!(k->smooth > 0)) return N;
+  return fmin(sw_lean_steady(one, k->one - one->first_node, t->steady, N, h),
+              sw_lean_steady(two, k->two - two->first_node, t->steady, N, h));
+}
+
 void sw_pairs_commit(sw_pairs *p, sw_system *s) {
-  (void)s;
   p->next_count = 0;
   for (size_t i = 0; i < p->touch_count; i++) {
     const sw_pair_touch *t = &p->touches[i];
@@ -125,6 +134,7 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
                           .at = {t->at[0], t->at[1]},
                           .normal_force = t->press.normal_force,
                           .depth = t->press.normal_force / t->press.k,
+                          .steady = steady_force(s, k, t, p->h),
                           .k = sw_press_eased(&t->press, k->usual, t->stiffer),
                           .normal = t->press.normal,
                           .sliding = t->press.next_sliding,

@@ -6,16 +6,40 @@
  * between nodes i and j, where w are the weights of the touch (negative on the second
  * segment), Q the second derivatives of |r|^2/2 with respect to the places along the
  * segments, and g its mixed ones. The normal force N adds -N times that. */
+#include <string.h>
+
 #include "contact/pair.h"
 
-enum { OWN = 0, NEXT = 6, ROW = 24 }; /* layout of the system's block rows */
+enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
 static const size_t FULL[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
 static const size_t UPPER[6] = {0, 1, 2, 4, 5, 8};
 
-/* Stiffness between the nodes: segment one's two, segment two's two. */
+enum { MOST = 2 * SW_BOW_MOST };
+
+/* Stiffness between the nodes of a touch: those of wire one, then those of wire two. */
 typedef struct blocks {
-  double k[4][4][9];
+  int n, from[2], count[2];
+  double w[MOST];     /* shares of the distance: negative on wire two [-] */
+  double slope[MOST]; /* of these, by the place along their own wire [-] */
+  double k[MOST * MOST][9];
 } blocks;
+
+static double *block(blocks *b, int i, int j) { return b->k[i * b->n + j]; }
+
+static void begin(blocks *b, const sw_bow bow[2]) {
+  b->n = 0;
+  for (int side = 0; side < 2; side++) {
+    const double sign = side == 0 ? 1.0 : -1.0;
+    b->from[side] = b->n, b->count[side] = (int)bow[side].count;
+    for (int i = 0; i < b->count[side]; i++, b->n++) {
+      b->w[b->n] = sign * bow[side].w[i];
+      b->slope[b->n] = sign * bow[side].slope[i];
+    }
+  }
+  memset(b->k, 0, (size_t)(b->n * b->n) * sizeof *b->k);
+}
+
+static int side_of(const blocks *b, int i) { return i >= b->from[1]; }
 
 static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
   const double x[3] = {f * a.x, f * a.y, f * a.z}, y[3] = {b.x, b.y, b.z};
@@ -24,49 +48,56 @@ static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
 }
 
 /* The touch of a node does nothing to the other node of its segment. */
-static int takes_part(const double w[4], const int slides[2], int i) {
-  return w[i] != 0 || slides[i / 2];
+static int takes_part(const blocks *b, const int slides[2], int i) {
+  return b->w[i] != 0 || slides[side_of(b, i)];
 }
 
-static void add_law(blocks *b, const double w[4], const double K[6]) {
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4 && w[i] != 0; j++)
-      for (int m = 0; m < 9; m++) b->k[i][j][m] += w[i] * w[j] * K[FULL[m]];
+static void add_law(blocks *b, const double K[6]) {
+  for (int i = 0; i < b->n; i++)
+    for (int j = 0; j < b->n && b->w[i] != 0; j++)
+      for (int m = 0; m < 9; m++) block(b, i, j)[m] += b->w[i] * b->w[j] * K[FULL[m]];
 }
 
-/* Inverse of Q for the places that may slide; others' rows are zero. 0 = none or nearly
+/* How places along the wires follow the nearest ones: second derivatives of half the squared
+ * distance. */
+typedef struct places {
+  sw_vec along[2];       /* derivative of the distance by the place [m] */
+  double aa, bb, ab;     /* [m2] */
+  const int *slides;
+} places;
+
+/* Inverse of these for the places that may slide; others' rows are zero. 0 = none or nearly
  * parallel. */
-static int invert_places(sw_vec a, sw_vec b, const int slides[2], double Q[3]) {
-  const double aa = sw_norm2(a), bb = sw_norm2(b), ab = sw_dot(a, b);
+static int invert_places(const places *p, double Q[3]) {
+  const double aa = p->aa, bb = p->bb, ab = p->ab;
   Q[0] = Q[1] = Q[2] = 0;
-  if (slides[0] && slides[1]) {
+  if (p->slides[0] && p->slides[1]) {
     const double det = aa * bb - ab * ab;
     if (!(det > 1e-3 * aa * bb)) return 0;
     Q[0] = bb / det, Q[1] = ab / det, Q[2] = aa / det;
-  } else if (slides[0]) {
+  } else if (p->slides[0]) {
     Q[0] = 1.0 / aa;
-  } else if (slides[1]) {
+  } else if (p->slides[1]) {
     Q[2] = 1.0 / bb;
   }
   return 1;
 }
 
 /* -N times the second derivative of the distance; f = -N/d. */
-static void add_turning(blocks *out, const double w[4], sw_vec a, sw_vec b, sw_vec n, double d,
-                        double f, const int slides[2]) {
-  static const double by_place[2][4] = {{-1, 1, 0, 0}, {0, 0, 1, -1}}; /* of the weights */
-  const sw_vec along[2] = {a, sw_neg(b)};
+static void add_turning(blocks *out, const places *at, sw_vec n, double d, double f) {
   const double P[6] = {1 - n.x * n.x, -n.x * n.y, -n.x * n.z,
                        1 - n.y * n.y, -n.y * n.z, 1 - n.z * n.z};
+  const double *w = out->w;
   double Q[3];
-  sw_vec g[2][4];
-  if (!invert_places(a, b, slides, Q)) return;
+  sw_vec g[2][MOST];
+  if (!invert_places(at, Q)) return;
   for (int q = 0; q < 2; q++)
-    for (int i = 0; i < 4; i++) g[q][i] = sw_madd(sw_scale(along[q], w[i]), n, d * by_place[q][i]);
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4 && takes_part(w, slides, i); j++) {
-      if (!takes_part(w, slides, j)) continue;
-      double *k = out->k[i][j];
+    for (int i = 0; i < out->n; i++)
+      g[q][i] = sw_madd(sw_scale(at->along[q], w[i]), n, side_of(out, i) == q ? d * out->slope[i] : 0);
+  for (int i = 0; i < out->n; i++)
+    for (int j = 0; j < out->n && takes_part(out, at->slides, i); j++) {
+      if (!takes_part(out, at->slides, j)) continue;
+      double *k = block(out, i, j);
       for (int m = 0; m < 9; m++) k[m] += f * w[i] * w[j] * P[FULL[m]];
       add_outer(k, g[0][i], g[0][j], -f * Q[0]);
       add_outer(k, g[1][i], g[1][j], -f * Q[2]);
@@ -75,47 +106,60 @@ static void add_turning(blocks *out, const double w[4], sw_vec a, sw_vec b, sw_v
     }
 }
 
-static void add_to_rows(sw_body *body, size_t i, double k[4][4][9], int first) {
-  double *row = body->field.rows + ROW * i;
-  for (int e = 0; e < 2; e++)
-    for (int m = 0; m < 6; m++) row[ROW * e + OWN + m] += k[first + e][first + e][UPPER[m]];
-  for (int m = 0; m < 9; m++) row[NEXT + m] += k[first][first + 1][m];
+static void add_to_rows(sw_body *body, const sw_bow *bow, blocks *b, int side) {
+  const int from = b->from[side], count = b->count[side];
+  double *row = body->field.rows + ROW * (bow->first - body->first_node);
+  for (int i = from; i < from + count; i++, row += ROW) {
+    for (int m = 0; m < 6; m++) row[OWN + m] += block(b, i, i)[UPPER[m]];
+    for (int m = 0; m < 9 && i + 1 < from + count; m++) row[NEXT + m] += block(b, i, i + 1)[m];
+    for (int m = 0; m < 9 && i + 2 < from + count; m++) row[SECOND + m] += block(b, i, i + 2)[m];
+  }
 }
 
-static void add_force(sw_body *body, size_t i, double at, sw_vec f) {
-  sw_accumulate(body->field.force + 3 * i, sw_scale(f, 1.0 - at));
-  sw_accumulate(body->field.force + 3 * i + 3, sw_scale(f, at));
+static void add_force(sw_body *body, const sw_bow *bow, sw_vec f) {
+  double *force = body->field.force + 3 * (bow->first - body->first_node);
+  for (uint32_t i = 0; i < bow->count; i++) sw_accumulate(force + 3 * i, sw_scale(f, bow->w[i]));
 }
 
-static sw_status link_nodes(sw_system *s, const sw_pair *k, const double w[4], const int slides[2],
-                            double block[4][4][9]) {
-  for (uint32_t i = 0; i < 2; i++)
-    for (uint32_t j = 0; j < 2 && takes_part(w, slides, (int)i); j++)
-      if (takes_part(w, slides, 2 + (int)j))
-        SW_TRY(sw_system_add_bridge(s, k->one + i, k->two + j, block[i][2 + j]));
+static sw_status link_nodes(sw_system *s, const sw_bow bow[2], const int slides[2], blocks *b) {
+  for (int i = 0; i < b->from[1]; i++)
+    for (int j = b->from[1]; j < b->n && takes_part(b, slides, i); j++)
+      if (takes_part(b, slides, j))
+        SW_TRY(sw_system_add_bridge(s, bow[0].first + (uint32_t)i,
+                                    bow[1].first + (uint32_t)(j - b->from[1]), block(b, i, j)));
   return SW_OK;
 }
 
 /* Where axes are nearer than this share of the radii's sum, normals mean little [-]. */
 static const double WELL_APART = 0.5;
 
+static places places_of(const sw_pair *k, const sw_pair_touch *t, const double *y, double d) {
+  const sw_vec a = sw_bow_along(y, &t->bow[0]), b = sw_bow_along(y, &t->bow[1]);
+  const sw_vec n = t->press.normal;
+  const double aa = sw_norm2(a), bb = sw_norm2(b);
+  return (places){
+      .along = {a, sw_neg(b)},
+      .aa = sw_pair_rise(aa, d * sw_dot(n, sw_bow_bend(y, &t->bow[0])), k->firm[0]),
+      .bb = sw_pair_rise(bb, -d * sw_dot(n, sw_bow_bend(y, &t->bow[1])), k->firm[1]),
+      .ab = sw_dot(a, b),
+      .slides = t->slides};
+}
+
 sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, const double *y,
                       sw_vec force, const double *K) {
   sw_body *one = &s->bodies[k->body[0]], *two = &s->bodies[k->body[1]];
-  const size_t i = k->one - one->first_node, j = k->two - two->first_node;
-  const double w[4] = {1.0 - t->at[0], t->at[0], t->at[1] - 1.0, -t->at[1]};
-  blocks b = {0};
-  add_force(one, i, t->at[0], force);
-  add_force(two, j, t->at[1], sw_neg(force));
+  blocks b;
+  add_force(one, &t->bow[0], force);
+  add_force(two, &t->bow[1], sw_neg(force));
   if (!K) return SW_OK;
-  add_law(&b, w, K);
+  begin(&b, t->bow);
+  add_law(&b, K);
   const double d = t->press.gap - t->forgiven + k->reach;
   if (d > WELL_APART * k->reach && !t->barred && !t->far) {
-    const sw_vec a0 = sw_vec_at(y, k->one), b0 = sw_vec_at(y, k->two);
-    add_turning(&b, w, sw_sub(sw_vec_at(y, k->one + 1u), a0), sw_sub(sw_vec_at(y, k->two + 1u), b0),
-                t->press.normal, d, -t->press.lag / d, t->slides);
+    const places at = places_of(k, t, y, d);
+    add_turning(&b, &at, t->press.normal, d, -t->press.lag / d);
   }
-  add_to_rows(one, i, b.k, 0);
-  add_to_rows(two, j, b.k, 2);
-  return link_nodes(s, k, w, t->slides, b.k);
+  add_to_rows(one, &t->bow[0], &b, 0);
+  add_to_rows(two, &t->bow[1], &b, 1);
+  return link_nodes(s, t->bow, t->slides, &b);
 }

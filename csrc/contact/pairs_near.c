@@ -9,7 +9,7 @@
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "contact/cell.h"
-#include "contact/pair.h"
+#include "contact/pairs_curve.h"
 #include "system/join.h"
 
 static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
@@ -121,9 +121,10 @@ static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t 
   sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
   double at[2];
   if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
-  n.known = n.distance =
-      sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
-                          sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
+  n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
+                                   sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
+  n.bulge = sw_pair_bulge(s, &n);
+  n.known = n.distance -= n.bulge;
   if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
   if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * radii(s, n.body))) return SW_OK;
   if (p->near_count == MOST_NEAR) return SW_ELIMIT;
@@ -285,6 +286,21 @@ static double fastest(const sw_system *s) {
  * sum [-]. */
 static const double TO_BRIDGE = .03;
 
+/* Of curves, those of the place at the step's start. */
+static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
+  sw_bow bow[2] = {sw_bow_chord(k->one, 0), sw_bow_chord(k->two, 0)};
+  double at[2];
+  int slides[2];
+  sw_segments_nearest(sw_vec_at(s->x, k->one), sw_vec_at(s->x, k->one + 1u),
+                      sw_vec_at(s->x, k->two), sw_vec_at(s->x, k->two + 1u), at);
+  if (k->smooth > 0 && sw_pair_crossing(s, k, s->x, at, slides))
+    bow[0] = sw_pair_bow(s, k, 0, at[0]), bow[1] = sw_pair_bow(s, k, 1, at[1]);
+  for (uint32_t i = 0; i < bow[0].count; i++)
+    for (uint32_t j = 0; j < bow[1].count; j++)
+      SW_TRY(sw_system_plan_bridge(s, bow[0].first + i, bow[1].first + j));
+  return SW_OK;
+}
+
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
   SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
   sw_pair *k = &p->pairs[p->pair_count++];
@@ -297,10 +313,9 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
                                p->rate2 * lighter_mass(s, n)),
                  .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
-  if (n->distance - sum > TO_BRIDGE * sum + p->h * speed_between(s, n)) return SW_OK;
-  for (uint32_t i = 0; i < 2 && !k->held; i++)
-    for (uint32_t j = 0; j < 2; j++) SW_TRY(sw_system_plan_bridge(s, k->one + i, k->two + j));
-  return SW_OK;
+  sw_pair_find_curves(s, n, k);
+  if (n->distance - sum > TO_BRIDGE * sum + p->h * speed_between(s, n) || k->held) return SW_OK;
+  return plan_bridges(s, k);
 }
 
 sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
@@ -323,6 +338,7 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
     }
     n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
                                       sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
+    n->distance -= n->bulge = sw_pair_bulge(s, n);
     n->known = n->distance, n->travel = travel_of(p, n);
     if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
       SW_TRY(add_pair(p, s, n, sum));

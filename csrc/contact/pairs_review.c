@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "contact/pair.h"
+#include "contact/pairs_sweep.h"
 #include "contact/same.h"
 
 static int is_barred(const sw_pairs *p, const sw_pair *k, const double at[2]) {
@@ -28,10 +28,10 @@ static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_v
 }
 
 /* How fast a touch is passed through in the step, beyond just being reached [m/s]. */
-static double excess(const sw_system *s, const sw_pair *k, const double at[2], sw_vec normal,
+static double excess(const sw_system *s, const sw_pair *k, const sw_bow bow[2], sw_vec normal,
                      double h) {
-  const double gap = sw_dot(normal, sw_pair_apart(s->x, k->one, k->two, at)) - k->reach;
-  const double approach = -sw_dot(sw_pair_apart(s->v, k->one, k->two, at), normal);
+  const double gap = sw_dot(normal, sw_pair_apart(s->x, bow)) - k->reach;
+  const double approach = -sw_dot(sw_pair_apart(s->v, bow), normal);
   return approach - (gap > 0 ? gap : 0.0) / h;
 }
 
@@ -40,7 +40,7 @@ static size_t strikes(const sw_pairs *p, const sw_system *s, double h) {
   size_t count = 0;
   for (size_t i = 0; i < p->pressed_count && !p->impact_count; i++) {
     const sw_pair_touch *t = &p->pressed[i];
-    count += excess(s, &p->pairs[t->pair], t->at, t->press.normal, h) > SW_SLOWEST_IMPACT;
+    count += excess(s, &p->pairs[t->pair], t->bow, t->press.normal, h) > SW_SLOWEST_IMPACT;
   }
   return count;
 }
@@ -67,54 +67,10 @@ int sw_pairs_expect(const sw_pairs *p, const sw_system *s, double h) {
     if (k->held || !(fastest_between(s, k) > SW_SLOWEST_IMPACT)) continue;
     sw_segments_nearest(sw_vec_at(s->x, k->one), sw_vec_at(s->x, k->one + 1u),
                         sw_vec_at(s->x, k->two), sw_vec_at(s->x, k->two + 1u), at);
+    const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
     const sw_vec normal =
-        sw_unit_or(square_to(s, k, sw_pair_apart(s->x, k->one, k->two, at)), sw_v(0, 0, 1));
-    if (excess(s, k, at, normal, h) > SW_SLOWEST_IMPACT) return 1;
-  }
-  return 0;
-}
-
-/* The largest change of the distance between two segments from positions x0 to x1. */
-static double approach_bound(const double *x0, const double *x1, uint32_t one, uint32_t two) {
-  double most = 0;
-  for (uint32_t i = 0; i < 2; i++) {
-    const sw_vec a = sw_sub(sw_vec_at(x1, one + i), sw_vec_at(x0, one + i));
-    for (uint32_t j = 0; j < 2; j++) {
-      const sw_vec b = sw_sub(sw_vec_at(x1, two + j), sw_vec_at(x0, two + j));
-      const double d2 = sw_norm2(sw_sub(a, b));
-      most = most > d2 ? most : d2;
-    }
-  }
-  return sqrt(most);
-}
-
-static sw_vec part_way(const double *x0, const double *x1, uint32_t node, double t) {
-  return sw_lerp(sw_vec_at(x0, node), sw_vec_at(x1, node), t);
-}
-
-/* Axes nearer than this share of the radii's sum are about to pass through each other;
- * contact alone never lets them [-]. */
-static const double TOO_NEAR = 0.25;
-enum { MOST_ADVANCES = 200 };
-
-/* Do the axes come too near on the straight way from x0 to x1? Goes on by what they
- * cannot have approached in the meantime, so that nothing is missed. 1 with the place and
- * the direction from segment two to one just before. */
-static int sweep(const double *x0, const double *x1, const sw_pair *k, double at[2],
-                 sw_vec *normal) {
-  const double speed = approach_bound(x0, x1, k->one, k->two), near = TOO_NEAR * k->reach;
-  double t = 0;
-  for (int i = 0; i < MOST_ADVANCES; i++) {
-    const sw_vec a0 = part_way(x0, x1, k->one, t), a1 = part_way(x0, x1, k->one + 1, t);
-    const sw_vec b0 = part_way(x0, x1, k->two, t), b1 = part_way(x0, x1, k->two + 1, t);
-    const double d = sw_segments_nearest(a0, a1, b0, b1, at);
-    if (i == 0 && d <= near) return 0; /* they start like that */
-    if (d <= 1.01 * near) {
-      *normal = sw_unit_or(sw_sub(sw_lerp(a0, a1, at[0]), sw_lerp(b0, b1, at[1])), sw_v(0, 0, 1));
-      return 1;
-    }
-    t += (d - near) / speed;
-    if (t >= 1) return 0;
+        sw_unit_or(square_to(s, k, sw_pair_apart(s->x, bow)), sw_v(0, 0, 1));
+    if (excess(s, k, bow, normal, h) > SW_SLOWEST_IMPACT) return 1;
   }
   return 0;
 }
@@ -127,8 +83,7 @@ static int review_crossings(sw_pairs *p, const sw_system *s, const double *x1) {
     const sw_pair *k = &p->pairs[i];
     double at[2];
     sw_vec normal;
-    if (k->held || approach_bound(s->x, x1, k->one, k->two) < TOO_NEAR * k->reach) continue;
-    if (!sweep(s->x, x1, k, at, &normal)) continue;
+    if (k->held || !sw_pair_sweep(s, k, s->x, x1, at, &normal)) continue;
     if (is_barred(p, k, at)) return -1;
     changed |= raise_barrier(p, k, at, normal);
   }
@@ -142,12 +97,6 @@ static double largest_move(const double *x0, const double *x1, size_t nodes) {
     most = most > d2 ? most : d2;
   }
   return sqrt(most);
-}
-
-static double distance_at(const double *x, const sw_near *n) {
-  double at[2];
-  return sw_segments_nearest(sw_vec_at(x, n->one), sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->two),
-                             sw_vec_at(x, n->two + 1u), at);
 }
 
 /* Did segments that were not chosen touch or pass each other? Their largest gap at the
@@ -166,11 +115,13 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
     const double radii =
         s->bodies[n->body[0]].plan->beam.radius + s->bodies[n->body[1]].plan->beam.radius;
     if (n->distance - radii <= gap || n->distance - farthest >= radii) continue;
-    if (n->distance - approach_bound(s->x, x1, n->one, n->two) >= radii) continue;
     const sw_pair as = {.one = n->one, .two = n->two, .reach = radii};
     double at[2];
     sw_vec normal;
-    if (distance_at(x1, n) < radii || sweep(s->x, x1, &as, at, &normal)) gap = n->distance - radii;
+    if (n->distance - sw_pair_approach(s, &as, s->x, x1) >= radii) continue;
+    if (sw_pair_distance(s, &as, x1) - n->bulge < radii ||
+        sw_pair_sweep(s, &as, s->x, x1, at, &normal))
+      gap = n->distance - radii;
   }
   return gap;
 }
@@ -198,10 +149,9 @@ static int cuts_deep(const sw_pairs *p, const sw_system *s, const double *x1, do
   for (size_t i = 0; i < p->pair_count; i++) {
     const sw_pair *k = &p->pairs[i];
     const double deeper = fmin(DEEPER, DEEPER_SHARE * k->reach);
-    if (k->held || approach_bound(s->x, x1, k->one, k->two) < deeper) continue;
-    const sw_near n = {.one = k->one, .two = k->two};
-    const double after = distance_at(x1, &n);
-    if (after < k->reach - deeper && after < distance_at(s->x, &n) - deeper) return 1;
+    if (k->held || sw_pair_approach(s, k, s->x, x1) < deeper) continue;
+    const double after = sw_pair_distance(s, k, x1);
+    if (after < k->reach - deeper && after < sw_pair_distance(s, k, s->x) - deeper) return 1;
   }
   return 0;
 }

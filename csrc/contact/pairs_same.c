@@ -81,7 +81,7 @@ static void look_in(const sw_pairs *p, const sw_pair *in, const sw_pair *k, cons
 const sw_pair_touch *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at[2],
                                   sw_pair_kind kind) {
   const sw_pair_touch *best = NULL;
-  double nearest = SW_SAME_TOUCH;
+  double nearest = k->smooth > 0 ? HUGE_VAL : SW_SAME_TOUCH; /* curves touch once */
   look_in(p, k, k, at, kind, &nearest, &best);
   if (best || kind == SW_CROSSING) return best;
   if (kind == SW_NODE_OF_TWO) {

@@ -5,7 +5,8 @@
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
-#include "contact/pair.h"
+#include "contact/lean.h"
+#include "contact/pairs_curve.h"
 
 /* A tangential vector that went with normal from, taken along to normal to. */
 static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
@@ -42,7 +43,7 @@ static void forgive(const sw_pairs *p, const sw_system *s, const sw_pair *k,
   const double always = imposed(s, k, t->at);
   t->forgiven = always;
   if (p->regime != SW_CONTACT_IMPLICIT) return;
-  const sw_vec from = sw_pair_apart(s->x, k->one, k->two, t->at);
+  const sw_vec from = sw_pair_apart(s->x, t->bow);
   const double depth = k->reach - sw_dot(t->press.normal, from) - always;
   const double explained = m ? m->depth : 0.0;
   t->emerges = m ? m->emerges : sw_press_was_put(depth, p->memory_count == 0);
@@ -88,7 +89,6 @@ static double first_force(const sw_pair_touch *t, const sw_pair *k) {
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                            sw_pair_touch t, double gap, sw_vec normal, const sw_pair_memory *m,
                            const sw_pair_touch *last) {
-  const double *at = t.at;
   const double friction = sw_pair_rule_of(p, k->body)->friction;
   t.pair = (uint32_t)(k - p->pairs);
   t.stage = p->stage;
@@ -103,7 +103,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   t.far = is_far(p, k, &t, last, pressed);
   if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
     press->active |= press->gap < STILL_NEAR * k->reach;
-  sw_vec u = sw_sub(sw_pair_apart(y, k->one, k->two, at), sw_pair_apart(s->x, k->one, k->two, at));
+  sw_vec u = sw_sub(sw_pair_apart(y, t.bow), sw_pair_apart(s->x, t.bow));
   if (pressed)
     u = sw_add(u, carry(m->elastic, m->normal, normal));
   else if (!press->active)
@@ -131,7 +131,11 @@ static const double PASSED = 0.5;
  * through each other within the iteration are told by the remembered normal. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                           sw_pair_kind kind, const double at[2], int slides_one, int slides_two) {
-  const sw_vec d = sw_pair_apart(y, k->one, k->two, at);
+  sw_pair_touch t = {.kind = kind,
+                     .at = {at[0], at[1]},
+                     .bow = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])},
+                     .slides = {slides_one, slides_two}};
+  const sw_vec d = sw_pair_apart(y, t.bow);
   double distance = sw_norm(d);
   if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
   const sw_pair_memory *m = sw_pair_recall(p, k, at, kind);
@@ -139,7 +143,6 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
   if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
     normal = sw_neg(normal), distance = -distance;
-  const sw_pair_touch t = {.kind = kind, .at = {at[0], at[1]}, .slides = {slides_one, slides_two}};
   return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
 }
 
@@ -148,15 +151,36 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
   for (size_t i = 0; i < p->barrier_count; i++) {
     const sw_pair_barrier *b = &p->barriers[i];
     if (b->one != k->one || b->two != k->two) continue;
-    const sw_vec d = sw_pair_apart(y, b->one, b->two, b->at);
-    *found = 1;
+    sw_pair_touch t = {.at = {b->at[0], b->at[1]},
+                       .bow = {sw_pair_bow(s, k, 0, b->at[0]), sw_pair_bow(s, k, 1, b->at[1])},
+                       .barred = 1};
+    const sw_vec d = sw_pair_apart(y, t.bow);
     const double gap = sw_dot(b->normal, d) - k->reach;
-    const sw_pair_touch t = {
-        .at = {b->at[0], b->at[1]}, .barred = 1, .aslant = sw_norm(d) - k->reach - gap};
+    *found = 1;
+    t.aslant = sw_norm(d) - k->reach - gap;
     SW_TRY(add_touch(p, s, k, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
                      sw_pair_last(p, k, b->at, SW_CROSSING)));
   }
   return SW_OK;
+}
+
+/* The touch of two smooth curves. */
+static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
+                              const double at[2], const int slides[2]) {
+  sw_pair_touch t = {.kind = SW_CROSSING,
+                     .at = {at[0], at[1]},
+                     .bow = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])},
+                     .slides = {slides[0], slides[1]}};
+  sw_vec normal = sw_pair_normal(y, t.bow, slides);
+  double distance = sw_dot(normal, sw_pair_apart(y, t.bow));
+  if (!(distance < (1.0 + LISTED_GAP) * k->reach)) return SW_OK;
+  const sw_pair_memory *m = sw_pair_recall(p, k, at, SW_CROSSING);
+  const sw_pair_touch *last = sw_pair_last(p, k, at, SW_CROSSING);
+  if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
+    normal = sw_neg(normal), distance = -distance;
+  t.steady = m ? m->steady : 0;
+  normal = sw_pair_leaning(s, k, y, &t, normal, t.steady);
+  return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
 }
 
 static sw_vec edge(const double *y, uint32_t e) {
@@ -185,7 +209,13 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
   double at[2];
   sw_segments_nearest(sw_vec_at(y, k->one), sw_vec_at(y, k->one + 1u), sw_vec_at(y, k->two),
                       sw_vec_at(y, k->two + 1u), at);
-  const sw_vec away = sw_pair_apart(y, k->one, k->two, at);
+  if (k->smooth > 0) {
+    int slides[2];
+    if (!sw_pair_crossing(s, k, y, at, slides)) return SW_OK;
+    return touch_curves(p, s, k, y, at, slides);
+  }
+  const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
+  const sw_vec away = sw_pair_apart(y, bow);
   if (!owns_end(s, k->body[0], k->one, at[0], away, y) ||
       !owns_end(s, k->body[1], k->two, at[1], sw_neg(away), y))
     return SW_OK;
@@ -243,8 +273,10 @@ static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k,
     int found = 0;
     if (!(last->press.normal_force > 0)) continue;
     for (size_t j = first; j < p->touch_count; j++)
-      found |= sw_pair_is_same(k, last->at, k, p->touches[j].at);
-    if (!found) SW_TRY(touch_at(p, s, k, y, last->kind, last->at, 0, 0));
+      found |= k->smooth > 0 || sw_pair_is_same(k, last->at, k, p->touches[j].at);
+    if (found) continue;
+    SW_TRY(k->smooth > 0 ? touch_curves(p, s, k, y, last->at, (int[2]){0, 0})
+                         : touch_at(p, s, k, y, last->kind, last->at, 0, 0));
   }
   return SW_OK;
 }
@@ -310,7 +342,7 @@ static int stiffen(sw_pairs *p, const sw_system *s) {
   for (size_t i = 0; i < p->touch_count; i++) {
     sw_pair_touch *t = &p->touches[i];
     const sw_pair *k = &p->pairs[t->pair];
-    const sw_vec apart = sw_pair_apart(s->x, k->one, k->two, t->at);
+    const sw_vec apart = sw_pair_apart(s->x, t->bow);
     const double before = fmax(0.0, k->reach - sw_dot(t->press.normal, apart));
     t->stiffer = sw_press_stiffer(&t->press, k->usual, t->forgiven, small ? before : -1.0);
     any |= t->stiffer > t->press.k;
@@ -341,7 +373,7 @@ typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
 
 static verdict update(const sw_pairs *p, sw_pair_touch *t, const double *delta, double scale) {
   const sw_pair *k = &p->pairs[t->pair];
-  const sw_vec shift = sw_pair_apart(delta, k->one, k->two, t->at);
+  const sw_vec shift = sw_pair_apart(delta, t->bow);
   const double friction = sw_pair_rule_of(p, k->body)->friction;
   const int agrees = sw_press_update(&t->press, friction, shift, scale);
   for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &p->rubbing[k->body[i]]);
@@ -371,21 +403,25 @@ static int update_all(sw_pairs *p, const double *delta) {
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(p));
 }
 
+static sw_spot spot_of(const sw_pairs *p, sw_pair_touch *t) {
+  const sw_pair *k = &p->pairs[t->pair];
+  sw_spot spot = {.press = &t->press,
+                  .friction = sw_pair_rule_of(p, k->body)->friction,
+                  .scale = scale_of(p, t)};
+  for (int side = 0; side < 2; side++)
+    for (uint32_t i = 0; i < t->bow[side].count; i++, spot.count++) {
+      spot.body[spot.count] = k->body[side];
+      spot.node[spot.count] = t->bow[side].first + i;
+      spot.weight[spot.count] = side ? -t->bow[side].w[i] : t->bow[side].w[i];
+    }
+  return spot;
+}
+
 void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
   p->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &p->spots);
   find_scales(p);
-  for (size_t i = 0; i < p->touch_count; i++) {
-    sw_pair_touch *t = &p->touches[i];
-    const sw_pair *k = &p->pairs[t->pair];
-    sw_spots_add(&p->spots, s, k->body,
-                 (sw_spot){.press = &t->press,
-                           .friction = sw_pair_rule_of(p, k->body)->friction,
-                           .scale = scale_of(p, t),
-                           .node = {k->one, k->one + 1u, k->two, k->two + 1u},
-                           .weight = {1.0 - t->at[0], t->at[0], t->at[1] - 1.0, -t->at[1]},
-                           .count = 4});
-  }
+  for (size_t i = 0; i < p->touch_count; i++) sw_spots_add(&p->spots, s, spot_of(p, &p->touches[i]));
   sw_spots_follow(&p->spots, s);
 }
 

@@ -17,10 +17,10 @@ void sw_spots_free(sw_spots *g) {
   sw_free(g->mixed);
 }
 
-void sw_spots_add(sw_spots *g, const sw_system *s, const uint32_t body[2], sw_spot spot) {
+void sw_spots_add(sw_spots *g, const sw_system *s, sw_spot spot) {
   if (!sw_press_slides(spot.press, spot.friction)) return;
   for (int i = 0; i < spot.count; i++) {
-    const sw_body *b = &s->bodies[body[i / 2]];
+    const sw_body *b = &s->bodies[spot.body[i]];
     spot.held[i] = b->plan->held[spot.node[i] - b->first_node] != SW_FREE;
   }
   if (sw_grow((void **)&g->list, &g->capacity, g->count + 1, sizeof *g->list) == SW_OK)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch as equations see it, whatever touches what: a law, and up to four nodes that share its
- * force. */
+/* A touch as equations see it, whatever touches what: a law, and a few nodes that share its force. */
 #ifndef SW_CONTACT_SPOT_H
 #define SW_CONTACT_SPOT_H
 
@@ -9,13 +8,14 @@
 #include "contact/law.h"
 #include "system/system.h"
 
-enum { SW_SPOT_NODES = 4 };
+enum { SW_SPOT_NODES = 6 };
 
 typedef struct sw_spot {
   sw_press *press;
   double friction;              /* [-] */
   double scale;                 /* forces far below this do not matter [N] */
   size_t node[SW_SPOT_NODES];   /* of the system; count of them */
+  uint32_t body[SW_SPOT_NODES]; /* of each */
   double weight[SW_SPOT_NODES]; /* share of the force; negative on the other wire [-] */
   int count;
   int held[SW_SPOT_NODES]; /* 1: a hold bears the node's share */
@@ -32,9 +32,8 @@ typedef struct sw_spots {
 
 void sw_spots_free(sw_spots *spots);
 
-/* One more, of two bodies' nodes by halves or of one's, if it slides; out of memory it is left
- * out. */
-void sw_spots_add(sw_spots *spots, const sw_system *system, const uint32_t body[2], sw_spot spot);
+/* One more, if it slides; out of memory it is left out. */
+void sw_spots_add(sw_spots *spots, const sw_system *system, sw_spot spot);
 
 /* Friction of what slides follows the normal forces within the linearisation of the bodies that are
  * solved together, by solves with the factor that there is. */

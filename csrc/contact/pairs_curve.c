@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two wires cross. Their smooth curves x(u) and y(v), u and v along their segments, touch where they
+ * are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one is as near
+ * everywhere; as on pegs (contact/round.c) each keeps to the middle of its edge, the more firmly the
+ * more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and so for y. Wires along each other meet
+ * by chords. */
+#include "contact/pairs_curve.h"
+
+#include <math.h>
+
+#include "contact/lean.h"
+
+/* As on pegs: wires with radii together below this share of the longer edge, and how firmly where bent
+ * by less than the first share of the radii, and from the second one on [-]. */
+static const double ROUND = 0.9, LOOSE = 0.1, FIRM = 0.3, BENT = 0.6, GOES_ROUND = 0.9;
+/* Wires meet by chords where they cross at an angle with a sine up to the first, by curves from the
+ * second one on, and by a mean of both in between: strands of a twisted pair lie along each other
+ * [-]. */
+static const double ALONG = 0.3, ACROSS = 0.6;
+/* So many edges are between two segments of one wire whose curves share no node [-]. */
+enum { OWN_CURVES = 4 };
+
+static double ramp(double x, double from, double to) {
+  return fmin(fmax((x - from) / (to - from), 0.0), 1.0);
+}
+
+/* --- at the step's start -------------------------------------------------------------------- */
+
+static sw_vec edge_of(const double *x, size_t node) {
+  return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
+}
+
+static double smooth_of(const sw_system *s, const sw_near *n) {
+  const sw_plan *p = s->bodies[n->body[0]].plan, *q = s->bodies[n->body[1]].plan;
+  const double one = p->rest[n->one - s->bodies[n->body[0]].first_node];
+  const double two = q->rest[n->two - s->bodies[n->body[1]].first_node];
+  const double reach = p->beam.radius + q->beam.radius;
+  if (!(reach < ROUND * fmax(one, two))) return 0;
+  if (n->body[0] == n->body[1] && n->two < n->one + OWN_CURVES) return 0;
+  const sw_vec u = edge_of(s->x, n->one), v = edge_of(s->x, n->two);
+  const double both = sw_norm2(u) * sw_norm2(v);
+  return both > 0 ? ramp(sqrt(sw_norm2(sw_cross(u, v)) / both), ALONG, ACROSS) : 0.0;
+}
+
+/* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and the
+ * curvature that goes with it [1/m]. */
+static double off_middle(const sw_system *s, uint32_t body, uint32_t node, double *curvature) {
+  const sw_body *b = &s->bodies[body];
+  const size_t i = node - b->first_node;
+  double most = 0;
+  for (size_t j = i; j < i + 2; j++) {
+    if (j == 0 || j == b->plan->edges) continue;
+    const sw_vec before = edge_of(s->x, b->first_node + j - 1);
+    most = fmax(most, sw_norm2(sw_sub(edge_of(s->x, b->first_node + j), before)));
+  }
+  const double off = sqrt(most), h = b->plan->rest[i];
+  if (curvature) *curvature = off / (h * h);
+  return off;
+}
+
+void sw_pair_find_curves(const sw_system *s, const sw_near *n, sw_pair *k) {
+  k->smooth = k->parallel ? 0.0 : smooth_of(s, n);
+  for (int side = 0; side < 2 && k->smooth > 0; side++) {
+    double curvature;
+    off_middle(s, n->body[side], side ? n->two : n->one, &curvature);
+    k->lone[side] = 1.0 - ramp(k->reach * curvature, BENT, GOES_ROUND);
+    k->firm[side] = FIRM + (LOOSE - FIRM) * k->lone[side];
+  }
+}
+
+double sw_pair_bulge(const sw_system *s, const sw_near *n) {
+  if (!(smooth_of(s, n) > 0)) return 0;
+  return 0.125 * (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
+}
+
+/* --- places ----------------------------------------------------------------------------------- */
+
+/* On a curve's piece around a node: at the middle between edges v is 0 or 1. */
+static sw_bow around(uint32_t before, double v) {
+  const double a = 0.5 * (1.0 - v) * (1.0 - v), c = 0.5 * v * v;
+  return (sw_bow){before, 3, {a, 1.0 - a - c, c}, {v - 1.0, 1.0 - 2.0 * v, v}, 1.0};
+}
+
+/* A share of the chord from its node number j on to the next one, in place of the curve. */
+static void mix(sw_bow *b, double smooth, uint32_t j, double at) {
+  for (int i = 0; i < SW_BOW_MOST; i++) b->w[i] *= smooth, b->slope[i] *= smooth;
+  b->bend = smooth;
+  b->w[j] += (1.0 - smooth) * (1.0 - at), b->w[j + 1] += (1.0 - smooth) * at;
+  b->slope[j] -= 1.0 - smooth, b->slope[j + 1] += 1.0 - smooth;
+}
+
+/* The curve goes on beside its segment, by half an edge. Its first and last halves of one are
+ * straight. */
+sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
+  const sw_body *b = &s->bodies[k->body[side]];
+  const uint32_t node = side ? k->two : k->one;
+  const size_t i = node - b->first_node;
+  const uint32_t late = at >= 0.5;
+  if (!(k->smooth > 0) || (late ? i + 1 == b->plan->edges : i == 0)) return sw_bow_chord(node, at);
+  sw_bow bow = around(node + late - 1, late ? at - 0.5 : at + 0.5);
+  if (k->smooth < 1) mix(&bow, k->smooth, 1 - late, at);
+  return bow;
+}
+
+/* The second derivative of half the squared distance by a place, firmness added; the curve never
+ * bends so much that a place is none of the nearest [m2]. */
+double sw_pair_rise(double along2, double bends, double firm) {
+  return fmax(along2 * (1.0 + firm) + bends, 0.3 * along2);
+}
+
+/* Both places, and how far they may go. */
+typedef struct search {
+  double at[2], low[2], high[2];
+  double ahead[2]; /* the last step of the search */
+} search;
+
+static search begin(const sw_system *s, const sw_pair *k, const double at[2]) {
+  search f = {.at = {at[0], at[1]}};
+  for (int side = 0; side < 2; side++) {
+    const sw_body *b = &s->bodies[k->body[side]];
+    const size_t i = (side ? k->two : k->one) - b->first_node;
+    f.low[side] = i == 0 ? 0.0 : -0.5;
+    f.high[side] = i + 1 == b->plan->edges ? 1.0 : 1.5;
+  }
+  return f;
+}
+
+/* Newton's step; rest: of the two equations; rise, both: their derivatives. One that is at its end
+ * stays there. */
+static void step(search *f, const double rest[2], const double rise[2], double both) {
+  const double det = rise[0] * rise[1] - both * both;
+  double ahead[2] = {-(rise[1] * rest[0] + both * rest[1]) / det,
+                     -(both * rest[0] + rise[0] * rest[1]) / det};
+  for (int i = 0; i < 2; i++) {
+    const double to = fmin(fmax(f->at[i] + ahead[i], f->low[i]), f->high[i]);
+    if (to == f->at[i] + ahead[i]) continue;
+    ahead[i] = to - f->at[i];
+    ahead[1 - i] = (both * ahead[i] - rest[1 - i]) / rise[1 - i];
+  }
+  for (int i = 0; i < 2; i++) {
+    const double to = fmin(fmax(f->at[i] + ahead[i], f->low[i]), f->high[i]);
+    f->ahead[i] = to - f->at[i];
+    f->at[i] = to;
+  }
+}
+
+enum { MOST_TURNS = 40 };             /* of the search [-] */
+static const double SHARP = 1e-13;    /* of an edge [-] */
+
+int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, double at[2],
+                     int slides[2]) {
+  search f = begin(s, k, at);
+  for (int turn = 0; turn < MOST_TURNS; turn++) {
+    const sw_bow bow[2] = {sw_pair_bow(s, k, 0, f.at[0]), sw_pair_bow(s, k, 1, f.at[1])};
+    const sw_vec d = sw_pair_apart(y, bow);
+    const sw_vec a = sw_bow_along(y, &bow[0]), b = sw_bow_along(y, &bow[1]);
+    const double aa = sw_norm2(a), bb = sw_norm2(b);
+    const double rest[2] = {sw_dot(a, d) + k->firm[0] * aa * (f.at[0] - 0.5),
+                            -sw_dot(b, d) + k->firm[1] * bb * (f.at[1] - 0.5)};
+    const double rise[2] = {sw_pair_rise(aa, sw_dot(d, sw_bow_bend(y, &bow[0])), k->firm[0]),
+                            sw_pair_rise(bb, -sw_dot(d, sw_bow_bend(y, &bow[1])), k->firm[1])};
+    step(&f, rest, rise, sw_dot(a, b));
+    if (fabs(f.ahead[0]) < SHARP && fabs(f.ahead[1]) < SHARP) break;
+  }
+  for (int i = 0; i < 2; i++) {
+    if (!(f.at[i] >= 0 && f.at[i] <= 1)) return 0;
+    at[i] = f.at[i];
+    slides[i] = at[i] > f.low[i] && at[i] < f.high[i];
+  }
+  return 1;
+}
+
+static sw_vec square_to(sw_vec v, sw_vec along) {
+  return sw_madd(v, along, -sw_dot(v, along) / fmax(sw_norm2(along), 1e-300));
+}
+
+sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2]) {
+  const sw_vec d = sw_pair_apart(y, bow);
+  const sw_vec a = sw_bow_along(y, &bow[0]), b = sw_bow_along(y, &bow[1]);
+  const sw_vec across = sw_cross(a, b), up = sw_v(0, 0, 1);
+  if (slides[0] && slides[1])
+    return sw_unit_or(sw_dot(across, d) < 0 ? sw_neg(across) : across, up);
+  if (!slides[0] && !slides[1]) return sw_unit_or(d, up);
+  return sw_unit_or(square_to(d, slides[0] ? a : b), up);
+}
+
+sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y,
+                       const sw_pair_touch *t, sw_vec normal, double steady) {
+  sw_vec out = normal;
+  if (!(k->smooth > 0) || !(steady > 0)) return normal;
+  for (int side = 0; side < 2; side++) {
+    const sw_body *b = &s->bodies[k->body[side]];
+    const double place = (double)((side ? k->two : k->one) - b->first_node) + t->at[side];
+    const double lean = k->smooth * k->lone[side] * sw_lean_of(s, b, place, steady);
+    const sw_vec along = sw_unit_or(sw_bow_along(y, &t->bow[side]), sw_v(0, 0, 0));
+    out = sw_madd(out, along, side ? -lean : lean);
+  }
+  return sw_unit_or(out, normal);
+}
