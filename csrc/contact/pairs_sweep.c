@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Segments are straight; of a smooth curve both halves are taken as if they were. */
+#include "contact/pairs_sweep.h"
+
+#include <math.h>
+
+#include "contact/pairs_curve.h"
+
+/* Axes nearer than this share of the radii's sum are about to pass through each other;
+ * contact alone never lets them [-]. */
+static const double TOO_NEAR = 0.25;
+enum { MOST_ADVANCES = 200 };
+
+/* Ends of two straight parts. */
+typedef struct rods {
+  sw_vec a[2], b[2];
+} rods;
+
+static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, const double *x) {
+  const sw_bow bow = sw_pair_bow(s, k, side, at);
+  return sw_bow_place(x, &bow);
+}
+
+/* Part number `part` of the pair, of one or of four. */
+static rods rods_of(const sw_system *s, const sw_pair *k, int part, const double *x) {
+  if (!(k->smooth > 0))
+    return (rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
+                  {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
+  const double u = 0.5 * (part % 2), v = 0.5 * (part / 2);
+  return (rods){{end_of(s, k, 0, u, x), end_of(s, k, 0, u + 0.5, x)},
+                {end_of(s, k, 1, v, x), end_of(s, k, 1, v + 0.5, x)}};
+}
+
+static int parts_of(const sw_pair *k) { return k->smooth > 0 ? 4 : 1; }
+
+static double approach(const rods *from, const rods *to) {
+  double most = 0;
+  for (int i = 0; i < 2; i++) {
+    const sw_vec a = sw_sub(to->a[i], from->a[i]);
+    for (int j = 0; j < 2; j++) {
+      const double d2 = sw_norm2(sw_sub(a, sw_sub(to->b[j], from->b[j])));
+      most = most > d2 ? most : d2;
+    }
+  }
+  return sqrt(most);
+}
+
+double sw_pair_approach(const sw_system *s, const sw_pair *k, const double *x0, const double *x1) {
+  double most = 0;
+  for (int part = 0; part < parts_of(k); part++) {
+    const rods from = rods_of(s, k, part, x0), to = rods_of(s, k, part, x1);
+    most = fmax(most, approach(&from, &to));
+  }
+  return most;
+}
+
+static rods part_way(const rods *from, const rods *to, double t) {
+  rods r;
+  for (int i = 0; i < 2; i++)
+    r.a[i] = sw_lerp(from->a[i], to->a[i], t), r.b[i] = sw_lerp(from->b[i], to->b[i], t);
+  return r;
+}
+
+/* Goes on by what they cannot have approached in the meantime, so that nothing is missed. */
+static int sweep(const rods *from, const rods *to, double near, double at[2], sw_vec *normal,
+                 double *when) {
+  const double speed = approach(from, to);
+  double t = 0;
+  if (speed < near) return 0; /* those that start too near are not looked for */
+  for (int i = 0; i < MOST_ADVANCES; i++) {
+    const rods r = part_way(from, to, t);
+    const double d = sw_segments_nearest(r.a[0], r.a[1], r.b[0], r.b[1], at);
+    if (i == 0 && d <= near) return 0; /* they start like that */
+    if (d <= 1.01 * near) {
+      const sw_vec apart = sw_sub(sw_lerp(r.a[0], r.a[1], at[0]), sw_lerp(r.b[0], r.b[1], at[1]));
+      *normal = sw_unit_or(apart, sw_v(0, 0, 1)), *when = t;
+      return 1;
+    }
+    t += (d - near) / speed;
+    if (t >= 1) return 0;
+  }
+  return 0;
+}
+
+int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const double *x1,
+                  double at[2], sw_vec *normal) {
+  double first = HUGE_VAL;
+  for (int part = 0; part < parts_of(k); part++) {
+    const rods from = rods_of(s, k, part, x0), to = rods_of(s, k, part, x1);
+    double here[2], when;
+    sw_vec n;
+    if (!sweep(&from, &to, TOO_NEAR * k->reach, here, &n, &when) || !(when < first)) continue;
+    first = when, *normal = n;
+    at[0] = here[0], at[1] = here[1];
+    if (k->smooth > 0) at[0] = 0.5 * (here[0] + part % 2), at[1] = 0.5 * (here[1] + part / 2);
+  }
+  return first < HUGE_VAL;
+}
+
+double sw_pair_distance(const sw_system *s, const sw_pair *k, const double *x) {
+  double at[2];
+  const double chords = sw_segments_nearest(sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u),
+                                            sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u), at);
+  if (!(k->smooth > 0)) return chords;
+  int slides[2];
+  if (!sw_pair_crossing(s, k, x, at, slides)) return HUGE_VAL;
+  const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};
+  return sw_dot(sw_pair_normal(x, bow, slides), sw_pair_apart(x, bow));
+}

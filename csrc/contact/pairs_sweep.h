@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How two segments come near each other on the way of a step. */
+#ifndef SW_CONTACT_PAIRS_SWEEP_H
+#define SW_CONTACT_PAIRS_SWEEP_H
+
+#include "contact/pair.h"
+
+/* Distance of the axes with the nodes at x; HUGE_VAL: their curves cross elsewhere [m]. */
+double sw_pair_distance(const sw_system *s, const sw_pair *k, const double *x);
+/* Its largest change from positions x0 to x1 [m]. */
+double sw_pair_approach(const sw_system *s, const sw_pair *k, const double *x0, const double *x1);
+/* Do axes that were further apart come too near on the straight way from x0 to x1? 1 with the place
+ * and the direction from segment two to one just before. */
+int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const double *x1,
+                  double at[2], sw_vec *normal);
+
+#endif
