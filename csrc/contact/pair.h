@@ -30,8 +30,9 @@ typedef struct sw_pair {
   uint32_t memory[3]; /* where memory of two, or of the segment before it, begins: with the segment
                          before one, one itself, the one after it */
   int parallel;       /* nearly, at the step's start */
+  int bridged;        /* they may touch in the step: in the matrix from its start */
   int held;           /* all four nodes are: no force */
-  double smooth;      /* 1: their smooth curves meet, 0: their chords do, or what is between [-] */
+  int smooth;         /* 1: they cross, and their smooth curves meet; 0: their chords do */
   double firm[2];     /* how firmly a touch then keeps to the middle of each segment [-] */
   double lone[2];     /* 1: the wire is hardly bent there; 0: it goes round the other one [-] */
   double reach;       /* sum of the radii [m] */
@@ -59,6 +60,7 @@ typedef struct sw_pair_touch {
   double forgiven; /* part of the true depth left out of the gap in this step [m] */
   double let_out;  /* part of the true depth that nothing explains and this step ends [m] */
   double steady;   /* normal force that it had had for a while at the step's start [N] */
+  sw_vec square;   /* its normal, were it not leaning [-] */
   sw_press press;  /* its normal is towards segment one */
 } sw_pair_touch;
 
@@ -72,6 +74,7 @@ typedef struct sw_pair_memory {
   sw_vec normal;                 /* [-] */
   sw_vec elastic;                /* displacement of the friction spring [m] */
   int sliding, emerges;
+  int smooth; /* as the pair was */
 } sw_pair_memory;
 
 /* Segments kept on one side of each other for the rest of the step. */
@@ -141,6 +144,10 @@ const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair,
 /* The same touch in the iterate before, or NULL. */
 const sw_pair_touch *sw_pair_last(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
                                   sw_pair_kind kind);
+/* How far places along segments of pairs are from each other, along both wires together, in edges
+ * [-]. */
+double sw_pair_between(const sw_pair *pair, const double at[2], const sw_pair *other,
+                       const double there[2]);
 /* Two places along segments of pairs are one. */
 int sw_pair_is_same(const sw_pair *pair, const double at[2], const sw_pair *other,
                     const double there[2]);

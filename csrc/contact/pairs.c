@@ -114,7 +114,7 @@ sw_status sw_pairs_begin_look(sw_pairs *p, sw_system *s, sw_error *err) {
 static double steady_force(const sw_system *s, const sw_pair *k, const sw_pair_touch *t, double h) {
   const sw_body *one = &s->bodies[k->body[0]], *two = &s->bodies[k->body[1]];
   const double N = t->press.normal_force;
-  if (!(k->smooth > 0)) return N;
+  if (!k->smooth) return N;
   return fmin(sw_lean_steady(one, k->one - one->first_node, t->steady, N, h),
               sw_lean_steady(two, k->two - two->first_node, t->steady, N, h));
 }
@@ -138,6 +138,7 @@ void sw_pairs_commit(sw_pairs *p, sw_system *s) {
                           .k = sw_press_eased(&t->press, k->usual, t->stiffer),
                           .normal = t->press.normal,
                           .sliding = t->press.next_sliding,
+                          .smooth = k->smooth,
                           .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
     if (m->normal_force > 0) m->elastic = sw_scale(t->press.tangential, -1.0 / t->press.k);
   }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two wires cross. Their smooth curves x(u) and y(v), u and v along their segments, touch where they
  * are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one is as near
- * everywhere; as on pegs (contact/round.c) each keeps to the middle of its edge, the more firmly the
+ * everywhere: as on pegs (contact/round.c) it keeps to the middle of its edge, the more firmly the
  * more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and so for y. Wires along each other meet
  * by chords. */
 #include "contact/pairs_curve.h"
@@ -10,13 +10,13 @@
 
 #include "contact/lean.h"
 
-/* As on pegs: wires with radii together below this share of the longer edge, and how firmly where bent
- * by less than the first share of the radii, and from the second one on [-]. */
-static const double ROUND = 0.9, LOOSE = 0.1, FIRM = 0.3, BENT = 0.6, GOES_ROUND = 0.9;
-/* Wires meet by chords where they cross at an angle with a sine up to the first, by curves from the
- * second one on, and by a mean of both in between: strands of a twisted pair lie along each other
- * [-]. */
-static const double ALONG = 0.3, ACROSS = 0.6;
+/* Wires whose radii together are below this share of the longer edge meet by curves, as on pegs; and
+ * how firmly they keep to the middles at most: bent by less than the first share of the radii not at
+ * all, from the second one on by so much [-]. */
+static const double ROUND = 0.9, FIRM = 0.3, BENT = 0.6, GOES_ROUND = 0.9;
+/* Wires begin to cross where the sine of the angle between them is above the second one, and go on
+ * until it is below the first: strands of a twisted pair lie along each other [-]. */
+static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
 /* So many edges are between two segments of one wire whose curves share no node [-]. */
 enum { OWN_CURVES = 4 };
 
@@ -30,16 +30,13 @@ static sw_vec edge_of(const double *x, size_t node) {
   return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
 }
 
-static double smooth_of(const sw_system *s, const sw_near *n) {
+/* Are the segments short of what curves need? */
+static int is_fine(const sw_system *s, const sw_near *n) {
   const sw_plan *p = s->bodies[n->body[0]].plan, *q = s->bodies[n->body[1]].plan;
   const double one = p->rest[n->one - s->bodies[n->body[0]].first_node];
   const double two = q->rest[n->two - s->bodies[n->body[1]].first_node];
-  const double reach = p->beam.radius + q->beam.radius;
-  if (!(reach < ROUND * fmax(one, two))) return 0;
-  if (n->body[0] == n->body[1] && n->two < n->one + OWN_CURVES) return 0;
-  const sw_vec u = edge_of(s->x, n->one), v = edge_of(s->x, n->two);
-  const double both = sw_norm2(u) * sw_norm2(v);
-  return both > 0 ? ramp(sqrt(sw_norm2(sw_cross(u, v)) / both), ALONG, ACROSS) : 0.0;
+  if (n->body[0] == n->body[1] && n->two < n->one + OWN_CURVES) return 1;
+  return !(p->beam.radius + q->beam.radius < ROUND * fmax(one, two));
 }
 
 /* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and the
@@ -58,18 +55,8 @@ static double off_middle(const sw_system *s, uint32_t body, uint32_t node, doubl
   return off;
 }
 
-void sw_pair_find_curves(const sw_system *s, const sw_near *n, sw_pair *k) {
-  k->smooth = k->parallel ? 0.0 : smooth_of(s, n);
-  for (int side = 0; side < 2 && k->smooth > 0; side++) {
-    double curvature;
-    off_middle(s, n->body[side], side ? n->two : n->one, &curvature);
-    k->lone[side] = 1.0 - ramp(k->reach * curvature, BENT, GOES_ROUND);
-    k->firm[side] = FIRM + (LOOSE - FIRM) * k->lone[side];
-  }
-}
-
 double sw_pair_bulge(const sw_system *s, const sw_near *n) {
-  if (!(smooth_of(s, n) > 0)) return 0;
+  if (is_fine(s, n)) return 0;
   return 0.125 * (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
 }
 
@@ -78,15 +65,7 @@ double sw_pair_bulge(const sw_system *s, const sw_near *n) {
 /* On a curve's piece around a node: at the middle between edges v is 0 or 1. */
 static sw_bow around(uint32_t before, double v) {
   const double a = 0.5 * (1.0 - v) * (1.0 - v), c = 0.5 * v * v;
-  return (sw_bow){before, 3, {a, 1.0 - a - c, c}, {v - 1.0, 1.0 - 2.0 * v, v}, 1.0};
-}
-
-/* A share of the chord from its node number j on to the next one, in place of the curve. */
-static void mix(sw_bow *b, double smooth, uint32_t j, double at) {
-  for (int i = 0; i < SW_BOW_MOST; i++) b->w[i] *= smooth, b->slope[i] *= smooth;
-  b->bend = smooth;
-  b->w[j] += (1.0 - smooth) * (1.0 - at), b->w[j + 1] += (1.0 - smooth) * at;
-  b->slope[j] -= 1.0 - smooth, b->slope[j + 1] += 1.0 - smooth;
+  return (sw_bow){before, 3, {a, 1.0 - a - c, c}, {v - 1.0, 1.0 - 2.0 * v, v}};
 }
 
 /* The curve goes on beside its segment, by half an edge. Its first and last halves of one are
@@ -96,10 +75,8 @@ sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
   const uint32_t node = side ? k->two : k->one;
   const size_t i = node - b->first_node;
   const uint32_t late = at >= 0.5;
-  if (!(k->smooth > 0) || (late ? i + 1 == b->plan->edges : i == 0)) return sw_bow_chord(node, at);
-  sw_bow bow = around(node + late - 1, late ? at - 0.5 : at + 0.5);
-  if (k->smooth < 1) mix(&bow, k->smooth, 1 - late, at);
-  return bow;
+  if (!k->smooth || (late ? i + 1 == b->plan->edges : i == 0)) return sw_bow_chord(node, at);
+  return around(node + late - 1, late ? at - 0.5 : at + 0.5);
 }
 
 /* The second derivative of half the squared distance by a place, firmness added; the curve never
@@ -125,10 +102,14 @@ static search begin(const sw_system *s, const sw_pair *k, const double at[2]) {
   return f;
 }
 
+/* Wires along each other have no place; the search shall end all the same [-]. */
+static const double NEARLY = 1e-3;
+
 /* Newton's step; rest: of the two equations; rise, both: their derivatives. One that is at its end
  * stays there. */
 static void step(search *f, const double rest[2], const double rise[2], double both) {
-  const double det = rise[0] * rise[1] - both * both;
+  const double least = NEARLY * rise[0] * rise[1];
+  const double det = fmax(rise[0] * rise[1] - both * both, least);
   double ahead[2] = {-(rise[1] * rest[0] + both * rest[1]) / det,
                      -(both * rest[0] + rise[0] * rest[1]) / det};
   for (int i = 0; i < 2; i++) {
@@ -146,9 +127,9 @@ static void step(search *f, const double rest[2], const double rise[2], double b
 
 enum { MOST_TURNS = 40 };             /* of the search [-] */
 static const double SHARP = 1e-13;    /* of an edge [-] */
+static const double ROUNDING = 1e-9;  /* of an edge: a place at a joint is on both segments [-] */
 
-int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, double at[2],
-                     int slides[2]) {
+static search find(const sw_system *s, const sw_pair *k, const double *y, const double at[2]) {
   search f = begin(s, k, at);
   for (int turn = 0; turn < MOST_TURNS; turn++) {
     const sw_bow bow[2] = {sw_pair_bow(s, k, 0, f.at[0]), sw_pair_bow(s, k, 1, f.at[1])};
@@ -162,12 +143,35 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
     step(&f, rest, rise, sw_dot(a, b));
     if (fabs(f.ahead[0]) < SHARP && fabs(f.ahead[1]) < SHARP) break;
   }
+  return f;
+}
+
+int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, double at[2],
+                     int slides[2]) {
+  const search f = find(s, k, y, at);
   for (int i = 0; i < 2; i++) {
-    if (!(f.at[i] >= 0 && f.at[i] <= 1)) return 0;
-    at[i] = f.at[i];
-    slides[i] = at[i] > f.low[i] && at[i] < f.high[i];
+    if (!(f.at[i] > -ROUNDING && f.at[i] < 1 + ROUNDING)) return 0;
+    slides[i] = f.at[i] > f.low[i] && f.at[i] < f.high[i];
+    at[i] = fmin(fmax(f.at[i], 0), 1);
   }
   return 1;
+}
+
+/* Segments beside each other find one place and so say the same of it. */
+void sw_pair_find_curves(const sw_system *s, const sw_near *n, int before, sw_pair *k) {
+  const double middle[2] = {0.5, 0.5}, sine = before ? STILL_ACROSS : ACROSS;
+  k->smooth = !k->parallel && !is_fine(s, n);
+  if (!k->smooth) return;
+  const search f = find(s, k, s->x, middle);
+  const sw_bow bow[2] = {sw_pair_bow(s, k, 0, f.at[0]), sw_pair_bow(s, k, 1, f.at[1])};
+  const sw_vec a = sw_bow_along(s->x, &bow[0]), b = sw_bow_along(s->x, &bow[1]);
+  k->smooth = sw_norm2(sw_cross(a, b)) > sine * sine * sw_norm2(a) * sw_norm2(b);
+  for (int side = 0; side < 2 && k->smooth; side++) {
+    double curvature;
+    off_middle(s, n->body[side], side ? n->two : n->one, &curvature);
+    k->lone[side] = 1.0 - ramp(k->reach * curvature, BENT, GOES_ROUND);
+    k->firm[side] = FIRM * (1.0 - k->lone[side]);
+  }
 }
 
 static sw_vec square_to(sw_vec v, sw_vec along) {
@@ -187,11 +191,11 @@ sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2])
 sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y,
                        const sw_pair_touch *t, sw_vec normal, double steady) {
   sw_vec out = normal;
-  if (!(k->smooth > 0) || !(steady > 0)) return normal;
+  if (!k->smooth || !(steady > 0)) return normal;
   for (int side = 0; side < 2; side++) {
     const sw_body *b = &s->bodies[k->body[side]];
     const double place = (double)((side ? k->two : k->one) - b->first_node) + t->at[side];
-    const double lean = k->smooth * k->lone[side] * sw_lean_of(s, b, place, steady);
+    const double lean = k->lone[side] * sw_lean_of(s, b, place, steady);
     const sw_vec along = sw_unit_or(sw_bow_along(y, &t->bow[side]), sw_v(0, 0, 0));
     out = sw_madd(out, along, side ? -lean : lean);
   }

@@ -293,7 +293,7 @@ static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
   int slides[2];
   sw_segments_nearest(sw_vec_at(s->x, k->one), sw_vec_at(s->x, k->one + 1u),
                       sw_vec_at(s->x, k->two), sw_vec_at(s->x, k->two + 1u), at);
-  if (k->smooth > 0 && sw_pair_crossing(s, k, s->x, at, slides))
+  if (k->smooth && sw_pair_crossing(s, k, s->x, at, slides))
     bow[0] = sw_pair_bow(s, k, 0, at[0]), bow[1] = sw_pair_bow(s, k, 1, at[1]);
   for (uint32_t i = 0; i < bow[0].count; i++)
     for (uint32_t j = 0; j < bow[1].count; j++)
@@ -313,9 +313,21 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
                                p->rate2 * lighter_mass(s, n)),
                  .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
-  sw_pair_find_curves(s, n, k);
-  if (n->distance - sum > TO_BRIDGE * sum + p->h * speed_between(s, n) || k->held) return SW_OK;
-  return plan_bridges(s, k);
+  k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->h * speed_between(s, n);
+  return SW_OK;
+}
+
+/* Which of them cross; with that, the matrix' pattern. */
+static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
+  for (size_t i = 0; i < p->pair_count; i++) {
+    sw_pair *k = &p->pairs[i];
+    const sw_near n = {.one = k->one, .two = k->two, .body = {k->body[0], k->body[1]}};
+    const double middle[2] = {0.5, 0.5};
+    const sw_pair_memory *m = sw_pair_recall(p, k, middle, SW_CROSSING);
+    sw_pair_find_curves(s, &n, m && m->smooth, k);
+    if (k->bridged) SW_TRY(plan_bridges(s, k));
+  }
+  return SW_OK;
 }
 
 sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
@@ -346,5 +358,5 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
       p->least_left = larger(p->least_left, sum - n->distance);
   }
   sw_pairs_match(p);
-  return SW_OK;
+  return look_at_curves(p, s);
 }

@@ -58,31 +58,50 @@ const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const 
 
 /* --- of the iterate before ---------------------------------------------------------- */
 
-static double between(const sw_pair *k, const double at[2], const sw_pair *other,
-                      const double there[2]) {
+double sw_pair_between(const sw_pair *k, const double at[2], const sw_pair *other,
+                       const double there[2]) {
   return fabs((double)k->one - other->one + at[0] - there[0]) +
          fabs((double)k->two - other->two + at[1] - there[1]);
 }
 
 int sw_pair_is_same(const sw_pair *k, const double at[2], const sw_pair *other,
                     const double there[2]) {
-  return between(k, at, other, there) < SW_SAME_TOUCH;
+  return sw_pair_between(k, at, other, there) < SW_SAME_TOUCH;
 }
 
 static void look_in(const sw_pairs *p, const sw_pair *in, const sw_pair *k, const double at[2],
                     sw_pair_kind kind, double *nearest, const sw_pair_touch **best) {
   for (size_t i = in->last; i < in->last_end; i++) {
     const sw_pair_touch *t = &p->last[i];
-    const double d = between(k, at, in, t->at);
+    const double d = sw_pair_between(k, at, in, t->at);
     if (t->kind == kind && d < *nearest) *best = t, *nearest = d;
   }
+}
+
+/* Places on curves go from one segment to the next. */
+static const sw_pair_touch *last_around(const sw_pairs *p, const sw_pair *k, const double at[2],
+                                        const sw_pair_touch *best, double nearest) {
+  const sw_pair *end = p->pairs + p->pair_count, *row[3] = {k, NULL, NULL};
+  if (k->before != SW_NO_PAIR) row[1] = &p->pairs[k->before];
+  if (k->after != SW_NO_PAIR) row[2] = &p->pairs[k->after];
+  for (int i = 0; i < 3; i++) {
+    const sw_pair *m = row[i];
+    if (!m) continue;
+    if (i > 0) look_in(p, m, k, at, SW_CROSSING, &nearest, &best);
+    if (m > p->pairs && m[-1].one == m->one && m[-1].two + 1 == m->two)
+      look_in(p, m - 1, k, at, SW_CROSSING, &nearest, &best);
+    if (m + 1 < end && m[1].one == m->one && m[1].two == m->two + 1)
+      look_in(p, m + 1, k, at, SW_CROSSING, &nearest, &best);
+  }
+  return best;
 }
 
 const sw_pair_touch *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at[2],
                                   sw_pair_kind kind) {
   const sw_pair_touch *best = NULL;
-  double nearest = k->smooth > 0 ? HUGE_VAL : SW_SAME_TOUCH; /* curves touch once */
+  double nearest = SW_SAME_TOUCH;
   look_in(p, k, k, at, kind, &nearest, &best);
+  if (k->smooth) return last_around(p, k, at, best, nearest);
   if (best || kind == SW_CROSSING) return best;
   if (kind == SW_NODE_OF_TWO) {
     if (k->before != SW_NO_PAIR) look_in(p, &p->pairs[k->before], k, at, kind, &nearest, &best);

@@ -23,7 +23,7 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
 
 /* Part number `part` of the pair, of one or of four. */
 static rods rods_of(const sw_system *s, const sw_pair *k, int part, const double *x) {
-  if (!(k->smooth > 0))
+  if (!k->smooth)
     return (rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
                   {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
   const double u = 0.5 * (part % 2), v = 0.5 * (part / 2);
@@ -31,7 +31,7 @@ static rods rods_of(const sw_system *s, const sw_pair *k, int part, const double
                 {end_of(s, k, 1, v, x), end_of(s, k, 1, v + 0.5, x)}};
 }
 
-static int parts_of(const sw_pair *k) { return k->smooth > 0 ? 4 : 1; }
+static int parts_of(const sw_pair *k) { return k->smooth ? 4 : 1; }
 
 static double approach(const rods *from, const rods *to) {
   double most = 0;
@@ -92,7 +92,7 @@ int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const 
     if (!sweep(&from, &to, TOO_NEAR * k->reach, here, &n, &when) || !(when < first)) continue;
     first = when, *normal = n;
     at[0] = here[0], at[1] = here[1];
-    if (k->smooth > 0) at[0] = 0.5 * (here[0] + part % 2), at[1] = 0.5 * (here[1] + part / 2);
+    if (k->smooth) at[0] = 0.5 * (here[0] + part % 2), at[1] = 0.5 * (here[1] + part / 2);
   }
   return first < HUGE_VAL;
 }
@@ -101,7 +101,7 @@ double sw_pair_distance(const sw_system *s, const sw_pair *k, const double *x) {
   double at[2];
   const double chords = sw_segments_nearest(sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u),
                                             sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u), at);
-  if (!(k->smooth > 0)) return chords;
+  if (!k->smooth) return chords;
   int slides[2];
   if (!sw_pair_crossing(s, k, x, at, slides)) return HUGE_VAL;
   const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};

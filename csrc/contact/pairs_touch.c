@@ -44,7 +44,7 @@ static void forgive(const sw_pairs *p, const sw_system *s, const sw_pair *k,
   t->forgiven = always;
   if (p->regime != SW_CONTACT_IMPLICIT) return;
   const sw_vec from = sw_pair_apart(s->x, t->bow);
-  const double depth = k->reach - sw_dot(t->press.normal, from) - always;
+  const double depth = k->reach - sw_dot(t->square, from) - always;
   const double explained = m ? m->depth : 0.0;
   t->emerges = m ? m->emerges : sw_press_was_put(depth, p->memory_count == 0);
   const double left = sw_press_forgiven(depth, explained, p->h, t->emerges);
@@ -94,6 +94,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   t.stage = p->stage;
   sw_press *press = &t.press;
   press->gap = gap, press->normal = normal;
+  if (!(sw_norm2(t.square) > 0)) t.square = normal;
   press->k = t.stiffer = stiffness_of(p, k, m, last);
   forgive(p, s, k, m, &t);
   press->gap += t.forgiven;
@@ -164,6 +165,18 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
+/* A place at a joint is on two segments: the earlier one has it. Of an edge [-]. */
+static const double ONE_PLACE = 1e-6;
+
+static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
+  for (size_t i = p->touch_count; i-- > 0;) {
+    const sw_pair *other = &p->pairs[p->touches[i].pair];
+    if (other->one + 1 < k->one) return 0;
+    if (other->smooth && sw_pair_between(k, at, other, p->touches[i].at) < ONE_PLACE) return 1;
+  }
+  return 0;
+}
+
 /* The touch of two smooth curves. */
 static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                               const double at[2], const int slides[2]) {
@@ -178,7 +191,9 @@ static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k,
   const sw_pair_touch *last = sw_pair_last(p, k, at, SW_CROSSING);
   if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
     normal = sw_neg(normal), distance = -distance;
+  if (is_had(p, k, at)) return SW_OK;
   t.steady = m ? m->steady : 0;
+  t.square = normal;
   normal = sw_pair_leaning(s, k, y, &t, normal, t.steady);
   return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
 }
@@ -209,7 +224,7 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
   double at[2];
   sw_segments_nearest(sw_vec_at(y, k->one), sw_vec_at(y, k->one + 1u), sw_vec_at(y, k->two),
                       sw_vec_at(y, k->two + 1u), at);
-  if (k->smooth > 0) {
+  if (k->smooth) {
     int slides[2];
     if (!sw_pair_crossing(s, k, y, at, slides)) return SW_OK;
     return touch_curves(p, s, k, y, at, slides);
@@ -273,10 +288,8 @@ static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k,
     int found = 0;
     if (!(last->press.normal_force > 0)) continue;
     for (size_t j = first; j < p->touch_count; j++)
-      found |= k->smooth > 0 || sw_pair_is_same(k, last->at, k, p->touches[j].at);
-    if (found) continue;
-    SW_TRY(k->smooth > 0 ? touch_curves(p, s, k, y, last->at, (int[2]){0, 0})
-                         : touch_at(p, s, k, y, last->kind, last->at, 0, 0));
+      found |= sw_pair_is_same(k, last->at, k, p->touches[j].at);
+    if (!found) SW_TRY(touch_at(p, s, k, y, last->kind, last->at, 0, 0));
   }
   return SW_OK;
 }
@@ -305,7 +318,8 @@ static sw_status find_touches(sw_pairs *p, const sw_system *s, const double *y) 
     if (found) continue;
     const size_t first = p->touch_count;
     SW_TRY((k->parallel ? touch_parallel : touch_crossing)(p, s, k, y));
-    if (!k->parallel && p->regime != SW_CONTACT_EXPLICIT) SW_TRY(keep_pushing(p, s, k, y, first));
+    if (!k->parallel && !k->smooth && p->regime != SW_CONTACT_EXPLICIT)
+      SW_TRY(keep_pushing(p, s, k, y, first));
   }
   return SW_OK;
 }
@@ -343,7 +357,7 @@ static int stiffen(sw_pairs *p, const sw_system *s) {
     sw_pair_touch *t = &p->touches[i];
     const sw_pair *k = &p->pairs[t->pair];
     const sw_vec apart = sw_pair_apart(s->x, t->bow);
-    const double before = fmax(0.0, k->reach - sw_dot(t->press.normal, apart));
+    const double before = fmax(0.0, k->reach - sw_dot(t->square, apart));
     t->stiffer = sw_press_stiffer(&t->press, k->usual, t->forgiven, small ? before : -1.0);
     any |= t->stiffer > t->press.k;
   }
