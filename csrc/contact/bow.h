@@ -24,9 +24,9 @@ static inline sw_bow sw_bow_chord(uint32_t node, double at) {
 /* The same mean of what nodes have (n x 3). */
 static inline sw_vec sw_bow_place(const double *x, const sw_bow *b) {
   if (b->count == 2) return sw_lerp(sw_vec_at(x, b->first), sw_vec_at(x, b->first + 1u), b->w[1]);
-  return sw_madd(sw_madd(sw_scale(sw_vec_at(x, b->first), b->w[0]), sw_vec_at(x, b->first + 1u),
-                         b->w[1]),
-                 sw_vec_at(x, b->first + 2u), b->w[2]);
+  return sw_madd(
+      sw_madd(sw_scale(sw_vec_at(x, b->first), b->w[0]), sw_vec_at(x, b->first + 1u), b->w[1]),
+      sw_vec_at(x, b->first + 2u), b->w[2]);
 }
 
 /* Derivative of the place by itself, in edges [m]. */

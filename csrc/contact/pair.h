@@ -155,8 +155,9 @@ int sw_pair_is_same(const sw_pair *pair, const double at[2], const sw_pair *othe
 /* Nearest points of two segments: places along them, distance returned [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
 
-/* The second derivative of half the squared distance by a place along a wire [m2]: of its slope squared,
- * its bend along the distance, and how firmly it keeps to the middle of its edge [m2], [m2], [-]. */
+/* The second derivative of half the squared distance by a place along a wire [m2]: of its slope
+ * squared, its bend along the distance, and how firmly it keeps to the middle of its edge [m2],
+ * [m2], [-]. */
 double sw_pair_rise(double along2, double bends, double firm);
 
 /* Say why looking for pairs failed. */

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two wires cross. Their smooth curves x(u) and y(v), u and v along their segments, touch where they
- * are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one is as near
- * everywhere: as on pegs (contact/round.c) it keeps to the middle of its edge, the more firmly the
- * more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and so for y. Wires along each other meet
- * by chords. */
+/* Two wires cross. Their smooth curves x(u) and y(v), u and v along their segments, touch where
+ * they are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one is as
+ * near everywhere: as on pegs (contact/round.c) it keeps to the middle of its edge, the more firmly
+ * the more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and so for y. Wires along each other
+ * meet by chords. */
 #include "contact/pairs_curve.h"
 
 #include <math.h>
 
 #include "contact/lean.h"
 
-/* Wires whose radii together are below this share of the longer edge meet by curves, as on pegs; and
- * how firmly they keep to the middles at most: bent by less than the first share of the radii not at
- * all, from the second one on by so much [-]. */
+/* Wires whose radii together are below this share of the longer edge meet by curves, as on pegs;
+ * and how firmly they keep to the middles at most: bent by less than the first share of the radii
+ * not at all, from the second one on by so much [-]. */
 static const double ROUND = 0.9, FIRM = 0.3, BENT = 0.6, GOES_ROUND = 0.9;
 /* Wires begin to cross where the sine of the angle between them is above the second one, and go on
  * until it is below the first: strands of a twisted pair lie along each other [-]. */
@@ -39,8 +39,8 @@ static int is_fine(const sw_system *s, const sw_near *n) {
   return !(p->beam.radius + q->beam.radius < ROUND * fmax(one, two));
 }
 
-/* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and the
- * curvature that goes with it [1/m]. */
+/* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and
+ * the curvature that goes with it [1/m]. */
 static double off_middle(const sw_system *s, uint32_t body, uint32_t node, double *curvature) {
   const sw_body *b = &s->bodies[body];
   const size_t i = node - b->first_node;
@@ -57,7 +57,8 @@ static double off_middle(const sw_system *s, uint32_t body, uint32_t node, doubl
 
 double sw_pair_bulge(const sw_system *s, const sw_near *n) {
   if (is_fine(s, n)) return 0;
-  return 0.125 * (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
+  return 0.125 *
+         (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
 }
 
 /* --- places ----------------------------------------------------------------------------------- */
@@ -125,9 +126,9 @@ static void step(search *f, const double rest[2], const double rise[2], double b
   }
 }
 
-enum { MOST_TURNS = 40 };             /* of the search [-] */
-static const double SHARP = 1e-13;    /* of an edge [-] */
-static const double ROUNDING = 1e-9;  /* of an edge: a place at a joint is on both segments [-] */
+enum { MOST_TURNS = 40 };            /* of the search [-] */
+static const double SHARP = 1e-13;   /* of an edge [-] */
+static const double ROUNDING = 1e-9; /* of an edge: a place at a joint is on both segments [-] */
 
 static search find(const sw_system *s, const sw_pair *k, const double *y, const double at[2]) {
   search f = begin(s, k, at);

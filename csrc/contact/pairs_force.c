@@ -61,8 +61,8 @@ static void add_law(blocks *b, const double K[6]) {
 /* How places along the wires follow the nearest ones: second derivatives of half the squared
  * distance. */
 typedef struct places {
-  sw_vec along[2];       /* derivative of the distance by the place [m] */
-  double aa, bb, ab;     /* [m2] */
+  sw_vec along[2];   /* derivative of the distance by the place [m] */
+  double aa, bb, ab; /* [m2] */
   const int *slides;
 } places;
 
@@ -93,7 +93,8 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
   if (!invert_places(at, Q)) return;
   for (int q = 0; q < 2; q++)
     for (int i = 0; i < out->n; i++)
-      g[q][i] = sw_madd(sw_scale(at->along[q], w[i]), n, side_of(out, i) == q ? d * out->slope[i] : 0);
+      g[q][i] =
+          sw_madd(sw_scale(at->along[q], w[i]), n, side_of(out, i) == q ? d * out->slope[i] : 0);
   for (int i = 0; i < out->n; i++)
     for (int j = 0; j < out->n && takes_part(out, at->slides, i); j++) {
       if (!takes_part(out, at->slides, j)) continue;
@@ -137,12 +138,11 @@ static places places_of(const sw_pair *k, const sw_pair_touch *t, const double *
   const sw_vec a = sw_bow_along(y, &t->bow[0]), b = sw_bow_along(y, &t->bow[1]);
   const sw_vec n = t->press.normal;
   const double aa = sw_norm2(a), bb = sw_norm2(b);
-  return (places){
-      .along = {a, sw_neg(b)},
-      .aa = sw_pair_rise(aa, d * sw_dot(n, sw_bow_bend(y, &t->bow[0])), k->firm[0]),
-      .bb = sw_pair_rise(bb, -d * sw_dot(n, sw_bow_bend(y, &t->bow[1])), k->firm[1]),
-      .ab = sw_dot(a, b),
-      .slides = t->slides};
+  return (places){.along = {a, sw_neg(b)},
+                  .aa = sw_pair_rise(aa, d * sw_dot(n, sw_bow_bend(y, &t->bow[0])), k->firm[0]),
+                  .bb = sw_pair_rise(bb, -d * sw_dot(n, sw_bow_bend(y, &t->bow[1])), k->firm[1]),
+                  .ab = sw_dot(a, b),
+                  .slides = t->slides};
 }
 
 sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, const double *y,

@@ -68,8 +68,7 @@ int sw_pairs_expect(const sw_pairs *p, const sw_system *s, double h) {
     sw_segments_nearest(sw_vec_at(s->x, k->one), sw_vec_at(s->x, k->one + 1u),
                         sw_vec_at(s->x, k->two), sw_vec_at(s->x, k->two + 1u), at);
     const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
-    const sw_vec normal =
-        sw_unit_or(square_to(s, k, sw_pair_apart(s->x, bow)), sw_v(0, 0, 1));
+    const sw_vec normal = sw_unit_or(square_to(s, k, sw_pair_apart(s->x, bow)), sw_v(0, 0, 1));
     if (excess(s, k, bow, normal, h) > SW_SLOWEST_IMPACT) return 1;
   }
   return 0;

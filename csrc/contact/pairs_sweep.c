@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Segments are straight; of a smooth curve both halves are taken as if they were. */
+/* Segments are straight. A smooth curve is taken in parts that are as good as straight. */
 #include "contact/pairs_sweep.h"
 
 #include <math.h>
@@ -21,17 +21,45 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
   return sw_bow_place(x, &bow);
 }
 
-/* Part number `part` of the pair, of one or of four. */
-static rods rods_of(const sw_system *s, const sw_pair *k, int part, const double *x) {
+/* Parts of a half edge are so many that none stands off its curve by more than this share of the
+ * radii's sum, where that does not take more of them than this [-]. */
+static const double STRAIGHT = 0.1;
+enum { MOST_PARTS = 8 };
+
+/* Second difference of the nodes around one [m]. */
+static double off_middle(const sw_body *b, size_t i, const double *x) {
+  if (i == 0 || i >= b->plan->edges) return 0;
+  const size_t n = b->first_node + i;
+  const sw_vec before = sw_sub(sw_vec_at(x, n), sw_vec_at(x, n - 1));
+  return sw_dist(sw_sub(sw_vec_at(x, n + 1), sw_vec_at(x, n)), before);
+}
+
+/* Of an edge, for positions from x0 to x1. */
+static int parts_of(const sw_system *s, const sw_pair *k, int side, const double *x0,
+                    const double *x1) {
+  if (!k->smooth) return 1;
+  const sw_body *b = &s->bodies[k->body[side]];
+  const size_t i = (side ? k->two : k->one) - b->first_node;
+  double most = 0;
+  for (size_t j = i; j < i + 2; j++)
+    most = fmax(most, fmax(off_middle(b, j, x0), off_middle(b, j, x1)));
+  const double needed = ceil(sqrt(most / (32.0 * STRAIGHT * k->reach)));
+  return 2 * (int)fmin(fmax(needed, 1), MOST_PARTS);
+}
+
+/* Part i of n of segment one, part j of m of segment two. */
+static rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], const int of[2],
+                    const double *x) {
   if (!k->smooth)
     return (rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
                   {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
-  const double u = 0.5 * (part % 2), v = 0.5 * (part / 2);
-  return (rods){{end_of(s, k, 0, u, x), end_of(s, k, 0, u + 0.5, x)},
-                {end_of(s, k, 1, v, x), end_of(s, k, 1, v + 0.5, x)}};
+  rods r;
+  for (int i = 0; i < 2; i++) {
+    r.a[i] = end_of(s, k, 0, (double)(part[0] + i) / of[0], x);
+    r.b[i] = end_of(s, k, 1, (double)(part[1] + i) / of[1], x);
+  }
+  return r;
 }
-
-static int parts_of(const sw_pair *k) { return k->smooth ? 4 : 1; }
 
 static double approach(const rods *from, const rods *to) {
   double most = 0;
@@ -47,10 +75,13 @@ static double approach(const rods *from, const rods *to) {
 
 double sw_pair_approach(const sw_system *s, const sw_pair *k, const double *x0, const double *x1) {
   double most = 0;
-  for (int part = 0; part < parts_of(k); part++) {
-    const rods from = rods_of(s, k, part, x0), to = rods_of(s, k, part, x1);
-    most = fmax(most, approach(&from, &to));
-  }
+  const int of[2] = {k->smooth ? 2 : 1, k->smooth ? 2 : 1};
+  for (int i = 0; i < of[0]; i++)
+    for (int j = 0; j < of[1]; j++) {
+      const rods from = rods_of(s, k, (int[2]){i, j}, of, x0),
+                 to = rods_of(s, k, (int[2]){i, j}, of, x1);
+      most = fmax(most, approach(&from, &to));
+    }
   return most;
 }
 
@@ -85,14 +116,17 @@ static int sweep(const rods *from, const rods *to, double near, double at[2], sw
 int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const double *x1,
                   double at[2], sw_vec *normal) {
   double first = HUGE_VAL;
-  for (int part = 0; part < parts_of(k); part++) {
-    const rods from = rods_of(s, k, part, x0), to = rods_of(s, k, part, x1);
+  if (sw_pair_approach(s, k, x0, x1) < TOO_NEAR * k->reach) return 0;
+  const int of[2] = {parts_of(s, k, 0, x0, x1), parts_of(s, k, 1, x0, x1)};
+  for (int i = 0; i < of[0] * of[1]; i++) {
+    const int part[2] = {i % of[0], i / of[0]};
+    const rods from = rods_of(s, k, part, of, x0), to = rods_of(s, k, part, of, x1);
     double here[2], when;
     sw_vec n;
     if (!sweep(&from, &to, TOO_NEAR * k->reach, here, &n, &when) || !(when < first)) continue;
     first = when, *normal = n;
-    at[0] = here[0], at[1] = here[1];
-    if (k->smooth) at[0] = 0.5 * (here[0] + part % 2), at[1] = 0.5 * (here[1] + part / 2);
+    for (int side = 0; side < 2; side++)
+      at[side] = of[side] > 1 ? (here[side] + part[side]) / of[side] : here[side];
   }
   return first < HUGE_VAL;
 }

@@ -435,7 +435,8 @@ void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
   p->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &p->spots);
   find_scales(p);
-  for (size_t i = 0; i < p->touch_count; i++) sw_spots_add(&p->spots, s, spot_of(p, &p->touches[i]));
+  for (size_t i = 0; i < p->touch_count; i++)
+    sw_spots_add(&p->spots, s, spot_of(p, &p->touches[i]));
   sw_spots_follow(&p->spots, s);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch as equations see it, whatever touches what: a law, and a few nodes that share its force. */
+/* A touch as equations see it, whatever touches what: a law, and a few nodes that share its force.
+ */
 #ifndef SW_CONTACT_SPOT_H
 #define SW_CONTACT_SPOT_H
 
