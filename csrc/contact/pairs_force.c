@@ -6,8 +6,6 @@
  * between nodes i and j, where w are the weights of the touch (negative on the second
  * segment), Q the second derivatives of |r|^2/2 with respect to the places along the
  * segments, and g its mixed ones. The normal force N adds -N times that. */
-#include <string.h>
-
 #include "contact/pair.h"
 
 enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
@@ -16,7 +14,9 @@ static const size_t UPPER[6] = {0, 1, 2, 4, 5, 8};
 
 enum { MOST = 2 * SW_BOW_MOST };
 
-/* Stiffness between the nodes of a touch: those of wire one, then those of wire two. */
+/* Stiffness between the nodes of a touch: those of wire one, then those of wire two; its upper
+ * half.
+ */
 typedef struct blocks {
   int n, from[2], count[2];
   double w[MOST];     /* shares of the distance: negative on wire two [-] */
@@ -36,7 +36,6 @@ static void begin(blocks *b, const sw_bow bow[2]) {
       b->slope[b->n] = sign * bow[side].slope[i];
     }
   }
-  memset(b->k, 0, (size_t)(b->n * b->n) * sizeof *b->k);
 }
 
 static int side_of(const blocks *b, int i) { return i >= b->from[1]; }
@@ -52,10 +51,12 @@ static int takes_part(const blocks *b, const int slides[2], int i) {
   return b->w[i] != 0 || slides[side_of(b, i)];
 }
 
-static void add_law(blocks *b, const double K[6]) {
+static void take_law(blocks *b, const double K[6]) {
+  double full[9];
+  for (int m = 0; m < 9; m++) full[m] = K[FULL[m]];
   for (int i = 0; i < b->n; i++)
-    for (int j = 0; j < b->n && b->w[i] != 0; j++)
-      for (int m = 0; m < 9; m++) block(b, i, j)[m] += b->w[i] * b->w[j] * K[FULL[m]];
+    for (int j = i; j < b->n; j++)
+      for (int m = 0; m < 9; m++) block(b, i, j)[m] = b->w[i] * b->w[j] * full[m];
 }
 
 /* How places along the wires follow the nearest ones: second derivatives of half the squared
@@ -96,7 +97,7 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
       g[q][i] =
           sw_madd(sw_scale(at->along[q], w[i]), n, side_of(out, i) == q ? d * out->slope[i] : 0);
   for (int i = 0; i < out->n; i++)
-    for (int j = 0; j < out->n && takes_part(out, at->slides, i); j++) {
+    for (int j = i; j < out->n && takes_part(out, at->slides, i); j++) {
       if (!takes_part(out, at->slides, j)) continue;
       double *k = block(out, i, j);
       for (int m = 0; m < 9; m++) k[m] += f * w[i] * w[j] * P[FULL[m]];
@@ -153,7 +154,7 @@ sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, co
   add_force(two, &t->bow[1], sw_neg(force));
   if (!K) return SW_OK;
   begin(&b, t->bow);
-  add_law(&b, K);
+  take_law(&b, K);
   const double d = t->press.gap - t->forgiven + k->reach;
   if (d > WELL_APART * k->reach && !t->barred && !t->far) {
     const places at = places_of(k, t, y, d);
