@@ -158,18 +158,34 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
   return 1;
 }
 
+/* Segments that are short, or nearly parallel, are looked at by their chords first [-]. */
+static const double ALONG = 0.2;
+
+static int runs_along(const double *x, const sw_pair *k) {
+  const sw_vec u = edge_of(x, k->one), v = edge_of(x, k->two);
+  return sw_norm2(sw_cross(u, v)) < ALONG * ALONG * sw_norm2(u) * sw_norm2(v);
+}
+
 /* Segments beside each other find one place and so say the same of it. */
-void sw_pair_find_curves(const sw_system *s, const sw_near *n, int before, sw_pair *k) {
-  const double middle[2] = {0.5, 0.5}, sine = before ? STILL_ACROSS : ACROSS;
-  k->smooth = !k->parallel && !is_fine(s, n);
-  if (!k->smooth) return;
+static int crosses(const sw_system *s, const sw_pair *k, double sine) {
+  const double middle[2] = {0.5, 0.5};
   const search f = find(s, k, s->x, middle);
   const sw_bow bow[2] = {sw_pair_bow(s, k, 0, f.at[0]), sw_pair_bow(s, k, 1, f.at[1])};
   const sw_vec a = sw_bow_along(s->x, &bow[0]), b = sw_bow_along(s->x, &bow[1]);
-  k->smooth = sw_norm2(sw_cross(a, b)) > sine * sine * sw_norm2(a) * sw_norm2(b);
+  return sw_norm2(sw_cross(a, b)) > sine * sine * sw_norm2(a) * sw_norm2(b);
+}
+
+void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
+  const sw_near n = {.one = k->one, .two = k->two, .body = {k->body[0], k->body[1]}};
+  const double middle[2] = {0.5, 0.5};
+  if (is_fine(s, &n) || (k->parallel && runs_along(s->x, k))) return;
+  const sw_pair_memory *m = sw_pair_recall(p, k, middle, SW_CROSSING);
+  k->smooth = 1; /* to find the curves' place */
+  k->smooth = crosses(s, k, m && m->smooth ? STILL_ACROSS : ACROSS);
+  k->parallel &= !k->smooth;
   for (int side = 0; side < 2 && k->smooth; side++) {
     double curvature;
-    off_middle(s, n->body[side], side ? n->two : n->one, &curvature);
+    off_middle(s, k->body[side], side ? k->two : k->one, &curvature);
     k->lone[side] = 1.0 - ramp(k->reach * curvature, BENT, GOES_ROUND);
     k->firm[side] = FIRM * (1.0 - k->lone[side]);
   }

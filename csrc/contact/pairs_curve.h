@@ -6,8 +6,8 @@
 
 #include "contact/pair.h"
 
-/* How the pair's wires meet, at the step's start; before: 1 where they crossed in the last step. */
-void sw_pair_find_curves(const sw_system *s, const sw_near *n, int before, sw_pair *k);
+/* How the wires of a new pair meet, at the step's start. */
+void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k);
 /* How far the smooth curves of two segments stand off them together, where they may meet by those
  * [m]. */
 double sw_pair_bulge(const sw_system *s, const sw_near *n);

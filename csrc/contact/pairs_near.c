@@ -289,10 +289,8 @@ static const double TO_BRIDGE = .03;
 /* Of curves, those of the place at the step's start. */
 static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
   sw_bow bow[2] = {sw_bow_chord(k->one, 0), sw_bow_chord(k->two, 0)};
-  double at[2];
+  double at[2] = {0.5, 0.5};
   int slides[2];
-  sw_segments_nearest(sw_vec_at(s->x, k->one), sw_vec_at(s->x, k->one + 1u),
-                      sw_vec_at(s->x, k->two), sw_vec_at(s->x, k->two + 1u), at);
   if (k->smooth && sw_pair_crossing(s, k, s->x, at, slides))
     bow[0] = sw_pair_bow(s, k, 0, at[0]), bow[1] = sw_pair_bow(s, k, 1, at[1]);
   for (uint32_t i = 0; i < bow[0].count; i++)
@@ -321,10 +319,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
   for (size_t i = 0; i < p->pair_count; i++) {
     sw_pair *k = &p->pairs[i];
-    const sw_near n = {.one = k->one, .two = k->two, .body = {k->body[0], k->body[1]}};
-    const double middle[2] = {0.5, 0.5};
-    const sw_pair_memory *m = sw_pair_recall(p, k, middle, SW_CROSSING);
-    sw_pair_find_curves(s, &n, m && m->smooth, k);
+    sw_pair_find_curves(p, s, k);
     if (k->bridged) SW_TRY(plan_bridges(s, k));
   }
   return SW_OK;

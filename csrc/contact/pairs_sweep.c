@@ -47,12 +47,15 @@ static int parts_of(const sw_system *s, const sw_pair *k, int side, const double
   return 2 * (int)fmin(fmax(needed, 1), MOST_PARTS);
 }
 
+static inline rods chords_of(const sw_pair *k, const double *x) {
+  return (rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
+                {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
+}
+
 /* Part i of n of segment one, part j of m of segment two. */
 static rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], const int of[2],
                     const double *x) {
-  if (!k->smooth)
-    return (rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
-                  {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
+  if (!k->smooth) return chords_of(k, x);
   rods r;
   for (int i = 0; i < 2; i++) {
     r.a[i] = end_of(s, k, 0, (double)(part[0] + i) / of[0], x);
@@ -61,7 +64,7 @@ static rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], con
   return r;
 }
 
-static double approach(const rods *from, const rods *to) {
+static inline double approach(const rods *from, const rods *to) {
   double most = 0;
   for (int i = 0; i < 2; i++) {
     const sw_vec a = sw_sub(to->a[i], from->a[i]);
@@ -75,7 +78,11 @@ static double approach(const rods *from, const rods *to) {
 
 double sw_pair_approach(const sw_system *s, const sw_pair *k, const double *x0, const double *x1) {
   double most = 0;
-  const int of[2] = {k->smooth ? 2 : 1, k->smooth ? 2 : 1};
+  if (!k->smooth) {
+    const rods from = chords_of(k, x0), to = chords_of(k, x1);
+    return approach(&from, &to);
+  }
+  const int of[2] = {2, 2};
   for (int i = 0; i < of[0]; i++)
     for (int j = 0; j < of[1]; j++) {
       const rods from = rods_of(s, k, (int[2]){i, j}, of, x0),

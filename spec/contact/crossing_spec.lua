@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire is drawn over one that is held. Both are round and thin beside their edges; they meet by their smooth
--- curves, and no place along an edge of either holds better than another.
+-- A wire is drawn over one that is held. Both are round and thin beside their edges; they meet by their
+-- smooth curves, and no place along an edge of either holds better than another.
 local sw = require "softworld"
 local core = require "softworld.core"
 local vec = require "softworld.vec"
@@ -19,8 +19,8 @@ local function bent_path(slope, radius)
   return path
 end
 
--- A straight wire, held at all its nodes, below the middle. o.edge: of it [edges of the other]; o.shift: so many
--- of its own edges aside; o.skew: turned about the vertical [rad].
+-- A straight wire, held all along, below the middle. o.edge: between its holds [edges of the other];
+-- o.shift: so many of these aside; o.skew: turned about the vertical [rad].
 local function hold_other(s, o, see)
   local h, count = (o.edge or 0.7) * H, 8
   local skew, shift = o.skew or 0, (o.shift or 0.3) * h
@@ -86,7 +86,8 @@ describe("a wire drawn over another one without friction", function()
     ["all turned"] = { turn = vec.turn({ 0.6, 0, 0.8 }, 1.1) }, ["the mesh shifted"] = { fine = 41 / 40 },
     ["the other one first"] = { first = true }, ["the other one's ends swapped"] = { ends = true },
     ["the other one's nodes below"] = { shift = 0 }, ["the other one's edges long"] = { edge = 2 },
-    ["the other one's edges short"] = { edge = 0.4, part = 0.3 }, ["the other one askew"] = { skew = math.rad(30), mu = 0 },
+    ["the other one's edges short"] = { edge = 0.4, part = 0.3 },
+    ["the other one askew"] = { skew = math.rad(30) },
   } do
     it("does so with " .. name, function()
       o.taut = 0.5
@@ -95,8 +96,8 @@ describe("a wire drawn over another one without friction", function()
   end
 end)
 
--- In one point, arms at the angles p and A - p to the tangent there, both as long as they like. The moment is one:
--- T1 (1 - cos p) = T2 (1 - cos (A - p)), and so is EI k^2/2; across and along it T2 cos (A - p) - T1 cos p =
+-- Elastica over a point: arms that end at the angles p and A - p to the tangent there. Both have one moment
+-- there, so T1 (1 - cos p) = T2 (1 - cos (A - p)) = EI k^2/2; friction: T2 cos (A - p) - T1 cos p =
 -- mu (T1 sin p + T2 sin (A - p)).
 local function ratio(mu, angle)
   local low, high = angle / 2, angle
@@ -115,7 +116,8 @@ describe("a wire drawn over another one with friction", function()
   for _, mu in ipairs{ 0.1, 0.3 } do
     for _, angle in ipairs{ 60, 90 } do
       it(("holds as a point does: mu %g, %d degrees"):format(mu, angle), function()
-        local least, mean, most = drawn{ taut = 0.5, angle = math.rad(angle), radius = 0.02 * H, mu = mu, fine = 2 }
+        local o = { taut = 0.5, angle = math.rad(angle), radius = 0.02 * H, mu = mu, fine = 2 }
+        local least, mean, most = drawn(o)
         local due = ratio(mu, math.rad(angle))
         local text = ("%.4f to %.4f, mean %.4f for %.4f"):format(least, most, mean, due)
         print("measured: " .. text)
@@ -136,7 +138,9 @@ local function heap(seed, dt)
     local dx, dy = math.cos(a) * half, math.sin(a) * half
     local w = s:wire{ cable = ({ "GXL 1.5", "H07V-K 2.5", "FLRY-B 10" })[math.random(3)],
       segments = math.random(15, 50), from = { x - dx, y - dy, z }, to = { x + dx, y + dy, z + 0.005 } }
-    if math.random() < 0.3 then w:set_velocity{ math.random() - 0.5, math.random() - 0.5, -math.random() } end
+    if math.random() < 0.3 then
+      w:set_velocity{ math.random() - 0.5, math.random() - 0.5, -math.random() }
+    end
     if math.random() < 0.3 then s:clamp(w, { s = 0 }) end
   end
   s:wire_contact{ friction = 0.3 }
