@@ -319,12 +319,14 @@ static sw_status make_room(sw_contact *c) {
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
   c->candidate_count = c->touch_count = c->last_count = 0;
   c->unmarked = 1;
+  memset(c->wound, 0, c->count * sizeof *c->wound);
   sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);
   if (status == SW_OK) status = sw_broad_update(c);
   for (size_t b = 0; b < s->body_count && status == SW_OK; b++) {
     const size_t first = c->candidate_count;
     const sw_web *web = s->bodies[b].plan->web;
     look_at_pads(c, s->bodies[b].plan);
+    sw_contact_find_wound(c, s, b);
     reach_out(c, s, &s->bodies[b]);
     for (size_t i = 0; i < s->bodies[b].plan->nodes && status == SW_OK; i++)
       if (sw_interrupted())

@@ -18,7 +18,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   c->loads = sw_alloc(count, sizeof *c->loads);
   c->start = sw_alloc(count, sizeof *c->start);
   c->now = sw_alloc(count, sizeof *c->now);
-  c->flat = sw_alloc(7 * count, sizeof *c->flat);
+  c->flat = sw_alloc(8 * count, sizeof *c->flat);
   c->spaced = sw_alloc(2 * count, sizeof *c->spaced);
   c->bounds = (sw_bounds *)sw_alloc(count, sizeof *c->bounds);
   if (!c->obstacles || !c->loads || !c->start || !c->now || !c->flat || !c->spaced || !c->bounds ||
@@ -28,7 +28,7 @@ sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_
   }
   c->dense = c->flat + count, c->busy = c->dense + count, c->pads = c->busy + count;
   c->pressing = c->pads + count, c->straight = c->pressing + count;
-  c->sharp = c->straight + count;
+  c->sharp = c->straight + count, c->wound = c->sharp + count;
   c->round = c->spaced + count;
   memcpy(c->obstacles, obstacles, count * sizeof *obstacles);
   for (size_t o = 0; o < count; o++) {
@@ -97,8 +97,7 @@ void sw_contact_free(sw_contact *c) {
 
 /* --- steps ------------------------------------------------------------------- */
 
-/* The obstacle with the owner's number, or count. */
-static size_t index_of(const sw_contact *c, int id) {
+size_t sw_contact_index(const sw_contact *c, int id) {
   size_t low = 0, high = c->count; /* they ascend */
   while (low < high) {
     const size_t o = low + (high - low) / 2;
@@ -114,7 +113,7 @@ static size_t index_of(const sw_contact *c, int id) {
 static void find_pressing(sw_contact *c) {
   for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
   for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
-    const size_t o = index_of(c, c->memory[i].obstacle);
+    const size_t o = sw_contact_index(c, c->memory[i].obstacle);
     if (o < c->count && c->memory[i].normal_force > 0) c->pressing[o] = 1;
   }
 }
@@ -429,7 +428,7 @@ double sw_contact_energy(const sw_contact *c) {
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
-  const size_t o = index_of(c, id);
+  const size_t o = sw_contact_index(c, id);
   if (o == c->count) return 0;
   *from = c->start[o].pose, *to = c->now[o].pose;
   return 1;

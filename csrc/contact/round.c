@@ -10,14 +10,15 @@
 
 #include <math.h>
 
-/* A wire meets what is round, its own radius added, by its curve up to so many of its edges [-].
- * Thicker pegs are met by chords: at one edge a pull of 180 degrees without friction is 2 % off by
- * chords, while a limp wire's curves, at 1.5 here, throw it about by twice the pull. */
-static const double ROUND = 0.9;
-/* How firmly, where the wire is bent less than the first share of what is round, and from the
- * second one on; in between, in proportion. With 0.4 for LOOSE a stiff wire's pull over a peg
- * swings by 6 % instead of 0.4 [-]. */
-static const double LOOSE = 0.1, FIRM = 0.3, BENT = 0.6, GOES_ROUND = 0.9;
+/* A wire meets what is round, its own radius added, by its curve up to so many of its edges, whatever
+ * it does; and up to so many as long as it does not go round it [-]. */
+static const double THIN = 0.9, THICK = 4.0;
+/* It does where its curvature times the radius is above this. Then its chords meet it, until they do
+ * not press any more: a capstan needs them. The chords are outside of the curve, so that the change
+ * lets go of it and makes no energy [-]. */
+static const double WOUND = 0.9;
+/* Above this it begins to; what it is more is the firmness (contact/pairs_curve.c) [-]. */
+static const double GOES_ROUND = 0.5;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
@@ -37,8 +38,37 @@ static double bend_at(const sw_system *s, const sw_body *b, size_t low, size_t h
   return most;
 }
 
-static double ramp(double x, double from, double to) {
-  return fmin(fmax((x - from) / (to - from), 0.0), 1.0);
+/* Of a wire's edges that meet a node, or of one. */
+static double bend_beside(const sw_system *s, const sw_body *b, size_t node, int segment) {
+  const size_t i = node - b->first_node, high = i < b->plan->edges ? i : b->plan->edges - 1;
+  return bend_at(s, b, segment || i == 0 ? high : i - 1, high);
+}
+
+static size_t first_memory(const sw_contact *c, size_t node) {
+  size_t low = 0, high = c->memory_count;
+  while (low < high) {
+    const size_t i = low + (high - low) / 2;
+    if (c->memory[i].node < node)
+      low = i + 1;
+    else
+      high = i;
+  }
+  return low;
+}
+
+void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
+  const sw_body *b = &s->bodies[body];
+  if (b->plan->web) return;
+  for (size_t i = first_memory(c, b->first_node); i < c->memory_count; i++) {
+    const sw_memory *m = &c->memory[i];
+    if (m->node >= b->first_node + b->plan->nodes) return;
+    if (!m->segment || !(m->normal_force > 0)) continue;
+    const size_t o = sw_contact_index(c, m->obstacle);
+    if (o == c->count || !(c->round[o] > 0)) continue;
+    const double radius = c->round[o] + b->plan->beam.radius;
+    if (m->feature != SW_ON_CURVE || radius * bend_beside(s, b, m->node, 1) > WOUND)
+      c->wound[o] = (int)body + 1;
+  }
 }
 
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k) {
@@ -48,10 +78,13 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   const size_t low = k->segment || i == 0 ? high : i - 1;
   const double radius = c->round[k->obstacle] + p->beam.radius;
   const double edge = fmin(p->rest[low], p->rest[high]);
-  k->round = c->round[k->obstacle] > 0 && radius < ROUND * edge;
-  if (!k->round) return;
-  k->lone = 1.0 - ramp(radius * bend_at(s, b, low, high), BENT, GOES_ROUND);
-  k->firm = FIRM + (LOOSE - FIRM) * k->lone;
+  k->round = 0;
+  if (!(c->round[k->obstacle] > 0) || !(radius < THICK * edge)) return;
+  const double round = radius * bend_beside(s, b, k->node, k->segment);
+  const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND;
+  k->round = radius < THIN * edge || !wound;
+  k->firm = fmax(0.0, round - GOES_ROUND);
+  k->lone = fmax(0.0, 1.0 - k->firm / (1.0 - GOES_ROUND));
 }
 
 /* --- places ----------------------------------------------------------------------------------- */

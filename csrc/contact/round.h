@@ -6,6 +6,8 @@
 
 #include "contact/curve.h"
 
+/* Which obstacles does a body go round at the step's start? */
+void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
 /* Is the candidate's obstacle round and thin to the wire, and how firmly do they touch in the
  * middles of its edges? At the step's start. */
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);

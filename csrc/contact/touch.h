@@ -26,6 +26,7 @@ struct sw_contact {
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;    /* (count) 1: it has faces, edges and corners */
   double *round; /* (count) radius of its round side; 0: it has none [m] */
+  int *wound;    /* (count) number + 1 of the last body that went round it in this step */
   int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
   double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
   size_t sunk_capacity;
@@ -123,6 +124,8 @@ sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
  */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
 /* A place along a candidate as a mean of nodes. */
+/* The obstacle with the owner's number, or count. */
+size_t sw_contact_index(const sw_contact *c, int id);
 sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
 struct sw_place;
