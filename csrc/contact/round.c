@@ -10,15 +10,15 @@
 
 #include <math.h>
 
-/* A wire meets what is round, its own radius added, by its curve up to so many of its edges, whatever
- * it does; and up to so many as long as it does not go round it [-]. */
+/* A wire meets what is round, its own radius added, by its curve up to so many of its edges,
+ * whatever it does; and up to so many as long as it does not go round it [-]. */
 static const double THIN = 0.9, THICK = 4.0;
-/* It does where its curvature times the radius is above this. Then its chords meet it, until they do
- * not press any more: a capstan needs them. The chords are outside of the curve, so that the change
- * lets go of it and makes no energy [-]. */
+/* It does where its curvature times the radius is above this. Then its chords meet it, until they
+ * do not press any more: a capstan needs them. The chords are outside of the curve, so that the
+ * change lets go of it and makes no energy [-]. */
 static const double WOUND = 0.9;
 /* Above this it begins to; what it is more is the firmness (contact/pairs_curve.c) [-]. */
-static const double GOES_ROUND = 0.5;
+static const double GOES_ROUND = 0.5, LOOSE = 0.1;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
@@ -71,6 +71,35 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
   }
 }
 
+/* So far beside its edges a wire is taken as straight [-]. */
+static const double BESIDE = 1.0;
+/* Rims are for chords: so many radii and edges from the ends [-]. */
+static const double FROM_RIM = 1.0, EDGES_FROM_RIM = 2.0;
+/* And a wire that runs along what is thick, the sine of the angle between them below this [-]. */
+static const double ACROSS = 0.5;
+
+/* Does the wire, straight on, cross the middle line well between its ends? */
+static int passes_side(const sw_contact *c, const sw_system *s, const sw_candidate *k, size_t low,
+                       size_t high) {
+  const sw_shape *shape = c->obstacles[k->obstacle].shape;
+  const sw_body *b = &s->bodies[k->body];
+  const sw_pose pose = c->start[k->obstacle].pose;
+  const sw_vec a = sw_pose_local(pose, sw_vec_at(s->x, b->first_node + low));
+  const sw_vec d = sw_sub(sw_pose_local(pose, sw_vec_at(s->x, b->first_node + high + 1)), a);
+  const double radius = c->round[k->obstacle] + b->plan->beam.radius;
+  const double aside = FROM_RIM * radius + EDGES_FROM_RIM * b->plan->rest[low];
+  sw_vec q, e;
+  sw_shape_middle(shape, a, &q, &e);
+  const sw_vec across = sw_madd(d, e, -sw_dot(d, e));
+  const double size2 = sw_norm2(across);
+  if (!(size2 > ACROSS * ACROSS * sw_norm2(d))) return 0;
+  const double t = -sw_dot(across, sw_sub(a, q)) / size2;
+  const sw_vec x = sw_madd(a, d, fmin(fmax(t, -BESIDE), 1.0 + BESIDE));
+  if (!(sw_shape_middle(shape, x, &q, &e) > 0)) return 0;
+  return sw_shape_middle(shape, sw_madd(x, e, aside), &q, &e) > 0 &&
+         sw_shape_middle(shape, sw_madd(x, e, -aside), &q, &e) > 0;
+}
+
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const sw_plan *p = b->plan;
@@ -78,13 +107,14 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   const size_t low = k->segment || i == 0 ? high : i - 1;
   const double radius = c->round[k->obstacle] + p->beam.radius;
   const double edge = fmin(p->rest[low], p->rest[high]);
+  const int thin = radius < THIN * edge;
   k->round = 0;
   if (!(c->round[k->obstacle] > 0) || !(radius < THICK * edge)) return;
   const double round = radius * bend_beside(s, b, k->node, k->segment);
   const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND;
-  k->round = radius < THIN * edge || !wound;
-  k->firm = fmax(0.0, round - GOES_ROUND);
-  k->lone = fmax(0.0, 1.0 - k->firm / (1.0 - GOES_ROUND));
+  k->round = thin || (!wound && passes_side(c, s, k, low, high));
+  k->firm = fmax(thin ? LOOSE : 0.0, round - GOES_ROUND);
+  k->lone = fmin(1.0, fmax(0.0, (1.0 - round) / (1.0 - GOES_ROUND)));
 }
 
 /* --- places ----------------------------------------------------------------------------------- */
