@@ -97,18 +97,6 @@ void sw_contact_free(sw_contact *c) {
 
 /* --- steps ------------------------------------------------------------------- */
 
-size_t sw_contact_index(const sw_contact *c, int id) {
-  size_t low = 0, high = c->count; /* they ascend */
-  while (low < high) {
-    const size_t o = low + (high - low) / 2;
-    if (c->obstacles[o].id < id)
-      low = o + 1;
-    else
-      high = o;
-  }
-  return low < c->count && c->obstacles[low].id == id ? low : c->count;
-}
-
 /* Which pads press on anything at the step's start? */
 static void find_pressing(sw_contact *c) {
   for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
