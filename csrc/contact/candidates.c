@@ -34,8 +34,8 @@ static inline sw_vec high_of(sw_vec a, sw_vec b) {
 
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   const double g = sw_norm(sw_load(s->gravity));
-  const double reserve = 1.5, least = 1e-4; /* [-], [m] */
-  return reserve * c->h * (sw_norm(v) + g * c->h) + least;
+  const double reserve = 1.5; /* [-] */
+  return reserve * c->h * (sw_norm(v) + g * c->h) + SW_FLIGHT_LEAST;
 }
 
 /* Widest gap of each node at the step's start that can close within it, with reserve, but for what

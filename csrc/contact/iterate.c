@@ -101,7 +101,7 @@ static void note_pressed(sw_contact *c) {
     if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
                 sizeof *c->pressed) != SW_OK)
       return;
-    c->pressed[c->pressed_count++] = *t;
+    c->pressed[c->pressed_count++] = sw_contact_pressed(t);
   }
 }
 

@@ -41,7 +41,7 @@ struct sw_contact {
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
-  sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
+  sw_pressed *pressed; /* touches with a force at the end of a stage of this trial */
   size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
   sw_turn *turns;                                         /* (pressed_count) of a review */
   size_t turn_capacity;
@@ -82,7 +82,8 @@ struct sw_contact {
  * order of wires: from the first of one to the end, that of the next. */
 double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
-/* How far a node of velocity v may go in the step unnoticed [m]. */
+/* How far a node of velocity v may go in the step unnoticed, and one of any velocity [m]. */
+#define SW_FLIGHT_LEAST 1e-4
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
 /* A wire's weight, or the force that bends it [N]. */
@@ -98,6 +99,7 @@ void sw_contact_expect(sw_contact *c, int obstacle);
 /* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
+sw_pressed sw_contact_pressed(const sw_touch *t);
 /* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
  * when something was changed. */
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
@@ -161,8 +163,13 @@ typedef struct sw_levers {
   sw_vec arm[2];      /* shift per turn [m] */
 } sw_levers;
 
-/* With the tangents of the last evaluation. */
-sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t);
+/* With the tangents of the last evaluation: of a touch at a node or on a segment that begins there.
+ */
+sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
+static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
+  if (!s->bodies[t->body].roll_block) return (sw_levers){0};
+  return sw_levers_at(s, t->body, t->node, t->segment, t->press.normal);
+}
 /* Shift of the surface by turn[edge stride] [m], or its speed by rates. */
 sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
 /* The touch's friction and stiffness (upper half of K) on the turns. */
