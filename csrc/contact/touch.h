@@ -117,9 +117,17 @@ sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
-/* An iterate begins: touches become those of the one before, of candidates from *first to *end.
- * SW_ENOMEM. */
-sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
+/* An iterate looks at its candidates. */
+typedef struct sw_glance {
+  size_t next, end;   /* what is left of them */
+  size_t match, last; /* the first one that has not found its touches of the iterate before, and the
+                         first of these that is left; as far as they are needed */
+} sw_glance;
+
+/* An iterate begins: touches become those of the one before. SW_ENOMEM. */
+sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
+/* Candidates up to the next one, and on the segment beside, find theirs. */
+void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 /* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
  */
@@ -131,8 +139,10 @@ struct sw_place;
 /* SW_ENOMEM. */
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const struct sw_place *place);
-/* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
-sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
+/* Find touches at positions y, of some candidates more. *found: number of touches that are found
+ * and stay where they are in the list. SW_ENOMEM. */
+sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
+                             size_t *found, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
