@@ -314,9 +314,11 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
 }
 
 /* Where wires press on each other, friction on what they lie on finds its direction as theirs does:
- * by its place alone, wires of a bundle that are thrown about turn round in every other iterate. */
+ * by its place alone, wires of a bundle that are thrown about turn round in every other iterate. So
+ * may a wire by itself, for ever, between two iterates; most agree sooner by their place, and what
+ * is left then is found like that too. */
 static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
-  const int apart = s->coupling.part != NULL;
+  const int apart = s->coupling.part != NULL && c->updates < SW_PATIENCE;
   return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
 }
 
