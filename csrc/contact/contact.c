@@ -126,7 +126,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->nominal = nominal;
   c->regime = regime;
   c->pressed_count = 0;
-  c->plastic = 0;
+  c->plastic = c->hasty = c->careful = 0;
   c->parts = (sw_contact_parts){.on = 0};
   c->struck = 0;
   c->widening = 1.0;

@@ -312,6 +312,21 @@ static int any_strikes(sw_contact *c, sw_system *s, double h) {
   return 0;
 }
 
+int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end) {
+  for (size_t i = first; i < end; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->held || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
+      continue;
+    const sw_pressed met = sw_contact_pressed(t);
+    if (is_slow(c, s, &met) || trembles(c, &met) || dealt_with(c, &met, &s->counters.looks))
+      continue;
+    const sw_levers levers = levers_of(s, &met);
+    const encounter e = encounter_of(c, s, &met, &levers);
+    if (e.approach > e.gap / c->h + e.slow) return 1;
+  }
+  return 0;
+}
+
 /* Those that may strike, also once others have: number of them. */
 static size_t find_turns(sw_contact *c, sw_system *s) {
   size_t count = 0;
@@ -492,6 +507,8 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
 sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
                                      const double *v1, double h, int dull) {
   sw_error err;
+  const int hasty = c->hasty;
+  c->hasty = 0;
   if (went_too_far(c, s, x1)) {
     c->pressed_count = 0;
     return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
@@ -503,10 +520,11 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   const int crossed = sw_contact_cross(c, s, x1, h);
   if (dull) leave_dull(c);
   const int struck = review_touches(c, s, h);
+  c->careful |= hasty && !struck;
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
   if (c->soonest < h) return SW_CONTACT_SOONER;
-  if (crossed || struck) return SW_CONTACT_REDO;
+  if (crossed || struck || hasty) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
   const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);
   return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;

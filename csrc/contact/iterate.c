@@ -264,6 +264,18 @@ static int searches(sw_contact *c, const sw_system *s) {
   return ++c->passes > EASY_PASSES || s->rough == SW_MAY_BE_MADE || !sw_contact_wrong(c);
 }
 
+/* A trial that finds something to strike is redone with other speeds: of wires that are solved by
+ * themselves, those that strike in it need not agree on their friction. */
+static int is_hasty(sw_contact *c, sw_system *s) {
+  if (!c->parts.on || c->careful || s->rough || c->regime != SW_CONTACT_IMPLICIT) return 0;
+  for (size_t i = c->parts.touch; i < c->touch_count; i++)
+    if (!c->touches[i].held && !sw_press_apart(&c->touches[i].press)) return 0;
+  if (!sw_contact_will_strike(c, s, c->parts.touch, c->touch_count)) return 0;
+  c->pressed_count = c->pressed_before;
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) note_pressed(c, &c->touches[i]);
+  return c->hasty = 1;
+}
+
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
   int changes;
@@ -272,6 +284,7 @@ int sw_contact_settled(void *contact, sw_system *s, const double *y, const doubl
   const int fine = update_all(c, s, y, delta, &changes) && !c->softer;
   c->made += s->rough < SW_NOT_MADE;
   if (!fine) c->pressed_count = c->pressed_before;
+  if (!fine && is_hasty(c, s)) return 1;
   if (!fine && s->rough == SW_MAY_BE_MADE && !rather_waits(c, s)) {
     c->updates--;
     return 1;

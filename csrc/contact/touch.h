@@ -69,6 +69,8 @@ struct sw_contact {
   double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
+  int hasty;       /* 1: friction of a wire that strikes is not agreed on in this trial */
+  int careful;     /* 1: none of that in this step */
   double soonest;  /* rebound that is not at the step's start, after it [s] */
   double least;    /* rebounds sooner than this after the start are at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
@@ -103,6 +105,10 @@ sw_pressed sw_contact_pressed(const sw_touch *t);
 /* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
  * when something was changed. */
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
+
+/* Will any of the touches from first to end strike, as they press now? Only of what gives nothing
+ * back. */
+int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
 /* Raise barriers where wires cross obstacles on their way to x1. h: of the step, 0 in statics,
  * where there are no speeds to change. Returns 1 when there are new ones. */
