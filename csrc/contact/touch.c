@@ -25,12 +25,19 @@ enum { SPARE_PULLS = 1 };
  * this share of its force on, 1/BESIDE: all at once they would come and go with it [-]. */
 static const double MOST_ARC = 0.8, BESIDE = 10.0;
 
-/* A new touch, all zero, at the end of the list; or NULL: there is no room. */
+enum { LINE = 64 }; /* of the cache [B] */
+
+/* A new touch, all zero, at the end of the list; or NULL: there is no room. The place of the one
+ * after it is fetched while this one is filled: long lists come from memory. */
 static sw_touch *new_touch(sw_contact *c) {
   if (sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches) !=
       SW_OK)
     return NULL;
-  return memset(&c->touches[c->touch_count], 0, sizeof *c->touches);
+  sw_touch *t = &c->touches[c->touch_count];
+  if (c->touch_count + 1 < c->touch_capacity)
+    for (size_t at = 0; at < sizeof *t; at += LINE)
+      __builtin_prefetch((const char *)(t + 1) + at, 1);
+  return memset(t, 0, sizeof *t);
 }
 
 /* It belongs to the list. Touches are in the order of candidates: a segment may find one of the
