@@ -62,13 +62,20 @@ void sw_free(void *p) {
   free(h->raw);
 }
 
-sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size) {
-  if (need <= *capacity) return SW_OK;
-  size_t wanted = *capacity ? *capacity : 8;
+/* Twice the capacity, until it is enough; 0: too much. */
+static size_t doubled(size_t capacity, size_t need) {
+  size_t wanted = capacity ? capacity : 8;
   while (wanted < need) {
-    if (wanted > SIZE_MAX / 4) return SW_ENOMEM;
+    if (wanted > SIZE_MAX / 4) return 0;
     wanted *= 2;
   }
+  return wanted;
+}
+
+sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size) {
+  if (need <= *capacity) return SW_OK;
+  const size_t wanted = doubled(*capacity, need);
+  if (!wanted) return SW_ENOMEM;
   void *bigger = sw_alloc(wanted, size);
   if (!bigger) return SW_ENOMEM;
   if (*p) memcpy(bigger, *p, *capacity * size);
@@ -76,4 +83,13 @@ sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size) {
   *p = bigger;
   *capacity = wanted;
   return SW_OK;
+}
+
+sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size) {
+  if (need <= *capacity) return SW_OK;
+  const size_t wanted = doubled(*capacity, need);
+  sw_free(*p);
+  *p = wanted ? sw_alloc(wanted, size) : NULL;
+  *capacity = *p ? wanted : 0;
+  return *p ? SW_OK : SW_ENOMEM;
 }

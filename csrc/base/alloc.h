@@ -26,6 +26,8 @@ size_t sw_alloc_size(const void *p);
  * doubling; old content is kept, new content is zero. SW_ENOMEM leaves both
  * untouched. */
 sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
+/* The same of what is empty: nothing is kept. SW_ENOMEM leaves it without capacity. */
+sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size);
 
 /* Fail the n-th request from now (1 = the next one); 0 switches this off. */
 void sw_alloc_fail_at(long n);

@@ -34,8 +34,8 @@ static inline sw_vec high_of(sw_vec a, sw_vec b) {
 
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   const double g = sw_norm(sw_load(s->gravity));
-  const double reserve = 1.5, least = 1e-4; /* [-], [m] */
-  return reserve * c->h * (sw_norm(v) + g * c->h) + least;
+  const double reserve = 1.5; /* [-] */
+  return reserve * c->h * (sw_norm(v) + g * c->h) + SW_FLIGHT_LEAST;
 }
 
 /* Widest gap of each node at the step's start that can close within it, with reserve, but for what
@@ -308,16 +308,16 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
 }
 
 /* Many nodes may begin to touch at once: lists that grow one by one would be copied again and
- * again. */
+ * again. They are empty. */
 static sw_status make_room(sw_contact *c) {
   const size_t n = c->candidate_count;
-  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
-  SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
-  return sw_grow((void **)&c->pressed, &c->pressed_capacity, n, sizeof *c->pressed);
+  SW_TRY(sw_grow_empty((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
+  SW_TRY(sw_grow_empty((void **)&c->last, &c->last_capacity, n, sizeof *c->last));
+  return sw_grow_empty((void **)&c->pressed, &c->pressed_capacity, n, sizeof *c->pressed);
 }
 
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err) {
-  c->candidate_count = c->touch_count = c->last_count = 0;
+  c->candidate_count = c->touch_count = c->last_count = c->pressed_count = 0;
   c->unmarked = 1;
   memset(c->wound, 0, c->count * sizeof *c->wound);
   sw_status status = sw_grow((void **)&c->reach, &c->reach_capacity, s->nodes, sizeof *c->reach);

@@ -113,7 +113,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
   c->nominal = nominal;
   c->regime = regime;
   c->pressed_count = 0;
-  c->plastic = 0;
+  c->plastic = c->hasty = c->careful = 0;
   c->parts = (sw_contact_parts){.on = 0};
   c->struck = 0;
   c->widening = 1.0;
@@ -196,6 +196,8 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
   c->next_count = 0;
   c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
   sw_contact_conclude(c);
+  (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
+                      sizeof *c->next_memory);
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
   sw_memory *swap = c->memory;

@@ -11,7 +11,7 @@
 #include "contact/round.h"
 #include "contact/same.h"
 
-static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_t *looks) {
+static int was_struck(const sw_contact *c, const sw_pressed *t, size_t node, size_t *looks) {
   for (uint32_t i = c->impact_at[node]; i; i = c->impacts[i - 1].before) {
     const sw_impact *m = &c->impacts[i - 1];
     const double ahead = node < t->node ? -1.0 : node > t->node ? 1.0 : 0.0;
@@ -24,14 +24,14 @@ static int was_struck(const sw_contact *c, const sw_touch *t, size_t node, size_
 }
 
 /* On the smooth curve, another iterate may find the same touch from the segment beside. */
-static int dealt_with(const sw_contact *c, const sw_touch *t, size_t *looks) {
+static int dealt_with(const sw_contact *c, const sw_pressed *t, size_t *looks) {
   if (was_struck(c, t, t->node, looks)) return 1;
   if (!t->sharp) return 0;
   return (t->node > 0 && was_struck(c, t, t->node - 1, looks)) ||
          (t->node + 1 < c->places && was_struck(c, t, t->node + 1, looks));
 }
 
-static void note_impact(sw_contact *c, const sw_touch *t) {
+static void note_impact(sw_contact *c, const sw_pressed *t) {
   if (sw_grow((void **)&c->impacts, &c->impact_capacity, c->impact_count + 1, sizeof *c->impacts) !=
       SW_OK)
     return;
@@ -57,7 +57,7 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
 }
 
 /* Share of the momentum that each node of a touch takes; held ones take none. */
-static void shares(const sw_system *s, const sw_touch *t, double out[SW_MEAN_MOST]) {
+static void shares(const sw_system *s, const sw_pressed *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
   double sum = 0;
   for (size_t e = 0; e < t->spot.count; e++) {
@@ -84,13 +84,13 @@ static sw_vec mean_velocity(const sw_contact *c, int obstacle, sw_vec p) {
  * step is no impact: the integrator deals with it, and a restart would only disturb it. A gap
  * closes on the way, so there it is the mean speed: struck with that of the start, a wire would
  * be reached early and leave again. */
-static sw_vec striking_velocity(const sw_contact *c, const sw_touch *t, sw_vec p, double gap,
+static sw_vec striking_velocity(const sw_contact *c, const sw_pressed *t, sw_vec p, double gap,
                                 double *slow) {
   const sw_vec start = sw_obstacle_velocity(&c->start[t->obstacle], p);
   const sw_vec mean = mean_velocity(c, t->obstacle, p);
   *slow = SW_SLOWEST_IMPACT;
   if (gap > CLOSED) return mean;
-  *slow += 2.0 * fabs(sw_dot(sw_sub(mean, start), t->press.normal));
+  *slow += 2.0 * fabs(sw_dot(sw_sub(mean, start), t->normal));
   return start;
 }
 
@@ -192,27 +192,27 @@ typedef struct encounter {
   double approach, slow; /* how fast the gap closes, and what is none [m/s] */
 } encounter;
 
-static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_touch *t,
+static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_pressed *t,
                               const sw_levers *levers) {
   encounter e;
   const sw_vec x = sw_mean_place(c, s->x, &t->spot);
   const sw_body *b = &s->bodies[t->body];
   const double radius = sw_plan_skin(b->plan, t->node - b->first_node);
   const sw_vec plane = sw_pose_point(c->start[t->obstacle].pose, t->local);
-  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->press.normal);
-  e.at = levers->count ? sw_madd(x, t->press.normal, -radius) : x;
-  e.gap = fmax(0.0, sw_dot(t->press.normal, sw_sub(x, plane)) + aslant - radius);
+  const double aslant = sw_contact_aslant(c, t->node, t->other, t->at, t->normal);
+  e.at = levers->count ? sw_madd(x, t->normal, -radius) : x;
+  e.gap = fmax(0.0, sw_dot(t->normal, sw_sub(x, plane)) + aslant - radius);
   e.wall = striking_velocity(c, t, e.at, e.gap, &e.slow);
   e.speed = sw_sub(sw_mean_of(s->v, 0, &t->spot), e.wall);
-  e.approach = -sw_dot(e.speed, t->press.normal);
+  e.approach = -sw_dot(e.speed, t->normal);
   return e;
 }
 
 /* How much of its velocity towards the obstacle a touch is to lose; 0: it strikes nothing [m/s]. */
-static double velocity_lost(sw_contact *c, const sw_system *s, const sw_touch *t,
+static double velocity_lost(sw_contact *c, const sw_system *s, const sw_pressed *t,
                             const encounter *meets, double h) {
   const double allowed = meets->gap / h, e = c->obstacles[t->obstacle].restitution;
-  const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->press.normal));
+  const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->normal));
   const meeting m = meet(meets->gap, meets->approach, pull);
   if (e > 0 ? !(m.speed > meets->slow) : !(meets->approach > allowed + meets->slow)) return 0;
   /* a rebound shorter than a step would be none */
@@ -222,23 +222,28 @@ static double velocity_lost(sw_contact *c, const sw_system *s, const sw_touch *t
 }
 
 /* What comes to a pad that holds a wire already only trembles. */
-static int trembles(const sw_contact *c, const sw_touch *t) {
+static int trembles(const sw_contact *c, const sw_pressed *t) {
   return c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle];
 }
 
-int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
+static sw_levers levers_of(const sw_system *s, const sw_pressed *t) {
+  if (!s->bodies[t->body].roll_block) return (sw_levers){0};
+  return sw_levers_at(s, t->body, t->node, t->segment, t->normal);
+}
+
+static int strike(sw_contact *c, sw_system *s, const sw_pressed *t, double h) {
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   if (trembles(c, t)) return 0;
   const sw_body *b = &s->bodies[t->body];
-  const sw_levers levers = sw_touch_levers(s, t);
+  const sw_levers levers = levers_of(s, t);
   const encounter e = encounter_of(c, s, t, &levers);
   const double change = velocity_lost(c, s, t, &e, h);
   if (!(change > 0)) return 0;
   sw_vec v = e.speed;
   if (levers.count) v = sw_add(v, sw_levers_shift(&levers, s->v + 3 * s->nodes + b->first_roll, 1));
-  const sw_vec along = sw_madd(v, t->press.normal, -sw_dot(v, t->press.normal));
+  const sw_vec along = sw_madd(v, t->normal, -sw_dot(v, t->normal));
   const sw_vec brake = sw_levers_brake(&b->plan->beam, &levers, along, o->friction * change);
-  const sw_vec dv = sw_madd(brake, t->press.normal, change);
+  const sw_vec dv = sw_madd(brake, t->normal, change);
   double w[SW_MEAN_MOST], mass = 0, kicked = 0;
   shares(s, t, w);
   for (size_t k = 0; k < t->spot.count; k++) {
@@ -255,6 +260,25 @@ int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) 
   return 1;
 }
 
+sw_pressed sw_contact_pressed(const sw_touch *t) {
+  return (sw_pressed){.node = (uint32_t)t->node,
+                      .other = (uint32_t)t->other,
+                      .body = (uint32_t)t->body,
+                      .obstacle = t->obstacle,
+                      .segment = t->segment,
+                      .sharp = t->sharp,
+                      .at = t->at,
+                      .spot = t->spot,
+                      .local = t->local,
+                      .normal = t->press.normal,
+                      .let_out = t->let_out};
+}
+
+int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h) {
+  const sw_pressed met = sw_contact_pressed(t);
+  return strike(c, s, &met, h);
+}
+
 static int by_meeting(const void *left, const void *right) {
   const sw_turn *p = left, *q = right;
   if (p->meets != q->meets) return p->meets < q->meets ? -1 : 1;
@@ -264,24 +288,60 @@ static int by_meeting(const void *left, const void *right) {
   return (p->touch > q->touch) - (p->touch < q->touch);
 }
 
-/* Does any touch strike, with velocities as they are? Fills their turns. */
+/* A wall that stands and gives nothing back is met as fast as the wire comes; by less than this
+ * share of the slowest impact there is surely none, whatever rounding does [-]. */
+static const double SURELY = 1.0 - 1e-6;
+
+static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t) {
+  if (c->broad.moves[t->obstacle] || c->obstacles[t->obstacle].restitution > 0) return 0;
+  return -sw_dot(sw_mean_of(s->v, 0, &t->spot), t->normal) <= SURELY * SW_SLOWEST_IMPACT;
+}
+
+/* Does any touch strike, with velocities as they are? */
 static int any_strikes(sw_contact *c, sw_system *s, double h) {
   const double soonest = c->soonest;
-  int any = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
-    const sw_touch *t = &c->pressed[i];
-    const sw_levers levers = sw_touch_levers(s, t);
+    const sw_pressed *t = &c->pressed[i];
+    if (is_slow(c, s, t) || trembles(c, t) || dealt_with(c, t, &s->counters.looks)) continue;
+    const sw_levers levers = levers_of(s, t);
     const encounter e = encounter_of(c, s, t, &levers);
-    any |= !trembles(c, t) && !dealt_with(c, t, &s->counters.looks) &&
-           velocity_lost(c, s, t, &e, h) > 0;
-    c->turns[i] = (sw_turn){.meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL,
-                            .closes = e.approach,
-                            .node = t->node,
-                            .obstacle = t->obstacle,
-                            .touch = (uint32_t)i};
+    if (!(velocity_lost(c, s, t, &e, h) > 0)) continue;
+    c->soonest = soonest; /* all are asked again, one after the other */
+    return 1;
   }
-  if (any) c->soonest = soonest; /* all are asked again, one after the other */
-  return any;
+  return 0;
+}
+
+int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end) {
+  for (size_t i = first; i < end; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->held || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
+      continue;
+    const sw_pressed met = sw_contact_pressed(t);
+    if (is_slow(c, s, &met) || trembles(c, &met) || dealt_with(c, &met, &s->counters.looks))
+      continue;
+    const sw_levers levers = levers_of(s, &met);
+    const encounter e = encounter_of(c, s, &met, &levers);
+    if (e.approach > e.gap / c->h + e.slow) return 1;
+  }
+  return 0;
+}
+
+/* Those that may strike, also once others have: number of them. */
+static size_t find_turns(sw_contact *c, sw_system *s) {
+  size_t count = 0;
+  for (size_t i = 0; i < c->pressed_count; i++) {
+    const sw_pressed *t = &c->pressed[i];
+    if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) continue;
+    const sw_levers levers = levers_of(s, t);
+    const encounter e = encounter_of(c, s, t, &levers);
+    c->turns[count++] = (sw_turn){.meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL,
+                                  .closes = e.approach,
+                                  .node = t->node,
+                                  .obstacle = t->obstacle,
+                                  .touch = (uint32_t)i};
+  }
+  return count;
 }
 
 /* In a step that does not bounce only what rebounds strikes: the rest comes to rest by itself. */
@@ -295,15 +355,16 @@ static void leave_dull(sw_contact *c) {
 /* What meets its obstacle first strikes first, and what does so at once, the fastest first,
  * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
 static int review_touches(sw_contact *c, sw_system *s, double h) {
-  const size_t n = c->pressed_count;
   int changed = 0;
-  if (!n || sw_grow((void **)&c->turns, &c->turn_capacity, n, sizeof *c->turns) != SW_OK) return 0;
-  if (!any_strikes(c, s, h)) return 0;
+  if (!c->pressed_count || !any_strikes(c, s, h) ||
+      sw_grow((void **)&c->turns, &c->turn_capacity, c->pressed_count, sizeof *c->turns) != SW_OK)
+    return 0;
+  const size_t n = find_turns(c, s);
   qsort(c->turns, n, sizeof *c->turns, by_meeting);
   for (size_t i = 0; i < n; i++) {
-    const sw_touch *t = &c->pressed[c->turns[i].touch];
+    const sw_pressed *t = &c->pressed[c->turns[i].touch];
     if (dealt_with(c, t, &s->counters.looks)) continue;
-    changed |= sw_contact_strike(c, s, t, h);
+    changed |= strike(c, s, t, h);
   }
   return changed;
 }
@@ -312,9 +373,10 @@ static int review_touches(sw_contact *c, sw_system *s, double h) {
 static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
   double wider = 1.0;
   for (size_t i = 0; i < s->nodes; i++) {
-    const sw_vec v = sw_load(s->v + 3 * i);
+    const sw_vec v = sw_load(s->v + 3 * i), way = sw_sub(sw_vec_at(x1, i), sw_vec_at(s->x, i));
+    if (sw_norm2(way) <= SW_FLIGHT_LEAST * SW_FLIGHT_LEAST) continue;
     const double flight = sw_flight_reserve(c, s, v);
-    const double shift = sw_dist(sw_load(x1 + 3 * i), sw_load(s->x + 3 * i));
+    const double shift = sw_norm(way);
     if (shift > flight * c->widening) wider = fmax(wider, shift / flight);
   }
   if (wider <= 1.0) return 0;
@@ -445,6 +507,8 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
 sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
                                      const double *v1, double h, int dull) {
   sw_error err;
+  const int hasty = c->hasty;
+  c->hasty = 0;
   if (went_too_far(c, s, x1)) {
     c->pressed_count = 0;
     return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
@@ -456,10 +520,11 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   const int crossed = sw_contact_cross(c, s, x1, h);
   if (dull) leave_dull(c);
   const int struck = review_touches(c, s, h);
+  c->careful |= hasty && !struck;
   for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
   c->pressed_count = 0;
   if (c->soonest < h) return SW_CONTACT_SOONER;
-  if (crossed || struck) return SW_CONTACT_REDO;
+  if (crossed || struck || hasty) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
   const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);
   return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;

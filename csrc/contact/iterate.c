@@ -73,12 +73,24 @@ static int is_marked(const sw_touch *t, const sw_mark *m) {
          sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
 }
 
+/* Find the touches of an iterate; want: and add their forces, unless it is 0. */
+static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned want, sw_error *err) {
+  sw_glance at;
+  sw_status status = sw_contact_turn_over(c, &at);
+  if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
+  for (size_t done = c->parts.touch, found; at.next < at.end;) {
+    SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
+    for (; want && done < found; done++) apply(c, s, &c->touches[done], want);
+  }
+  return SW_OK;
+}
+
 sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *out, sw_error *err) {
   sw_contact *c = contact;
   size_t active = 0;
   *out = 0;
   if (c->unmarked || c->regime == SW_CONTACT_EXPLICIT) return SW_OK;
-  SW_TRY(sw_contact_look(c, s, y, err));
+  SW_TRY(look(c, s, y, 0, err));
   c->looked = 1;
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
@@ -93,16 +105,12 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
 static const double NEXT_TO = 1e-6;
 
 /* What presses may have struck. With no room for it, an impact is dealt with in the next step. */
-static void note_pressed(sw_contact *c) {
-  for (size_t i = c->parts.touch; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
-    if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) continue;
-    if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
-                sizeof *c->pressed) != SW_OK)
-      return;
-    c->pressed[c->pressed_count++] = *t;
-  }
+static void note_pressed(sw_contact *c, const sw_touch *t) {
+  const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
+  if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) return;
+  if (sw_grow((void **)&c->pressed, &c->pressed_capacity, c->pressed_count + 1,
+              sizeof *c->pressed) == SW_OK)
+    c->pressed[c->pressed_count++] = sw_contact_pressed(t);
 }
 
 sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar, const double *y,
@@ -113,11 +121,14 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   if (c->regime == SW_CONTACT_EXPLICIT) status = sw_contact_begin_stage(c, time, 0, err);
   if (status != SW_OK) return status;
   if (s->rough < SW_NOT_MADE) c->ahead_count = 0, c->passes = c->softer = 0;
-  if (!c->looked) SW_TRY(sw_contact_look(c, s, y, err));
+  if (c->looked)
+    for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
+  else
+    SW_TRY(look(c, s, y, want, err));
   c->looked = 0;
   if (want & SW_WANT_STIFFNESS) mark(c);
-  for (size_t i = c->parts.touch; i < c->touch_count; i++) apply(c, s, &c->touches[i], want);
-  if (c->regime == SW_CONTACT_EXPLICIT) note_pressed(c);
+  for (size_t i = c->parts.touch; i < c->touch_count && c->regime == SW_CONTACT_EXPLICIT; i++)
+    note_pressed(c, &c->touches[i]);
   return SW_OK;
 }
 
@@ -171,28 +182,45 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return !(changes || first) || sw_contact_stays(c, s, t, y, way, scale);
 }
 
-static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta) {
-  int fine = 1;
-  for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
-    const double scale = sw_contact_scale(c, first, &end);
-    for (size_t i = first; i < end; i++) fine &= update(c, s, &c->touches[i], y, delta, scale);
-  }
-  return fine;
+/* Touches that sink in too deep are made stiffer. Stiffness of one from the next iterate on [N/m].
+ */
+static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const int small = sw_press_is_short(c->regime == SW_CONTACT_STATIC, c->h, c->nominal);
+  if (t->held || c->candidates[t->candidate].given) return t->stiffer;
+  const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
+  return sw_press_stiffer(&t->press, t->usual, t->forgiven, before);
 }
 
-/* Make touches that sink in too deep stiffer; 1 = there were some. */
+/* 1 = there were some. */
 static int stiffen(sw_contact *c, const sw_system *s) {
-  const int small = sw_press_is_short(c->regime == SW_CONTACT_STATIC, c->h, c->nominal);
   int any = 0;
-  if (c->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
-    const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
     if (t->held || c->candidates[t->candidate].given) continue;
-    t->stiffer = sw_press_stiffer(&t->press, t->usual, t->forgiven, before);
+    t->stiffer = stiffer(c, s, t);
     any |= t->stiffer > t->press.k;
   }
   return any;
+}
+
+/* Bring all touches up to the update. If they agree: those that press are noted, and changes tells
+ * whether stiffnesses are to. */
+static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta,
+                      int *changes) {
+  const int may = c->regime != SW_CONTACT_EXPLICIT && !s->rough;
+  int fine = 1;
+  *changes = 0;
+  for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
+    const double scale = sw_contact_scale(c, first, &end);
+    for (size_t i = first; i < end; i++) {
+      sw_touch *t = &c->touches[i];
+      fine &= update(c, s, t, y, delta, scale);
+      if (!fine) continue;
+      note_pressed(c, t);
+      if (may) *changes |= stiffer(c, s, t) != t->stiffer || t->stiffer > t->press.k;
+    }
+  }
+  return fine;
 }
 
 /* So few touches do not lie but stand, on a bent wire that may be about to slip: what they do then
@@ -236,18 +264,33 @@ static int searches(sw_contact *c, const sw_system *s) {
   return ++c->passes > EASY_PASSES || s->rough == SW_MAY_BE_MADE || !sw_contact_wrong(c);
 }
 
+/* A trial that finds something to strike is redone with other speeds: of wires that are solved by
+ * themselves, those that strike in it need not agree on their friction. */
+static int is_hasty(sw_contact *c, sw_system *s) {
+  if (!c->parts.on || c->careful || s->rough || c->regime != SW_CONTACT_IMPLICIT) return 0;
+  for (size_t i = c->parts.touch; i < c->touch_count; i++)
+    if (!c->touches[i].held && !sw_press_apart(&c->touches[i].press)) return 0;
+  if (!sw_contact_will_strike(c, s, c->parts.touch, c->touch_count)) return 0;
+  c->pressed_count = c->pressed_before;
+  for (size_t i = c->parts.touch; i < c->touch_count; i++) note_pressed(c, &c->touches[i]);
+  return c->hasty = 1;
+}
+
 int sw_contact_settled(void *contact, sw_system *s, const double *y, const double *delta) {
   sw_contact *c = contact;
+  int changes;
   c->pressed_count = c->pressed_before;
   c->updates++;
-  const int fine = update_all(c, s, y, delta) && !c->softer;
+  const int fine = update_all(c, s, y, delta, &changes) && !c->softer;
   c->made += s->rough < SW_NOT_MADE;
+  if (!fine) c->pressed_count = c->pressed_before;
+  if (!fine && is_hasty(c, s)) return 1;
   if (!fine && s->rough == SW_MAY_BE_MADE && !rather_waits(c, s)) {
     c->updates--;
     return 1;
   }
   if (!fine && !(searches(c, s) && sw_contact_search(c, s, delta))) sw_contact_peel(c, s);
-  if (fine && stiffen(c, s)) return 0;
-  if (fine) note_pressed(c);
-  return fine;
+  if (!fine || !changes || !stiffen(c, s)) return fine;
+  c->pressed_count = c->pressed_before;
+  return 0;
 }

@@ -182,10 +182,27 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
   return k->smooth && !k->round ? SW_OK : query_segment(c, s, k, y, reach);
 }
 
-sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err) {
-  size_t first, end;
-  sw_status status = sw_contact_turn_over(c, &first, &end);
-  for (size_t i = first; i < end && status == SW_OK; i++)
+/* So many candidates at once: the touches that they find are still at hand when their forces are
+ * added [-]. */
+enum { SOME = 64 };
+
+/* What a later candidate finds may belong to the segment before it. */
+static size_t found_for_good(const sw_contact *c, const sw_glance *at) {
+  size_t i = c->touch_count;
+  if (at->next == at->end) return i;
+  const size_t node = c->candidates[at->next].node;
+  while (i > c->parts.touch && c->touches[i - 1].node + 1 >= node) i--;
+  return i;
+}
+
+sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
+                             size_t *found, sw_error *err) {
+  const size_t first = at->next;
+  sw_status status = SW_OK;
+  at->next = at->end - first > SOME ? first + SOME : at->end;
+  sw_contact_match(c, at);
+  for (size_t i = first; i < at->next && status == SW_OK; i++)
     status = sw_interrupted() ? SW_EINTR : query(c, s, &c->candidates[i], y);
+  *found = found_for_good(c, at);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "contact: %s", sw_status_text(status));
 }

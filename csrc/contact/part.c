@@ -7,18 +7,29 @@
 #include "base/alloc.h"
 #include "contact/touch.h"
 
-/* Candidates from first to end find their touches of the iterate before, from number i on: both
- * are in the same order. Returns the number of the first one that is left. */
+/* A candidate finds its touches of the iterate before, from number i on: both are in the same
+ * order. Returns the number of the first one that is left. */
+static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
+  k->last = i;
+  while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
+         c->last[i].segment == k->segment)
+    i++;
+  return k->last_end = i;
+}
+
+/* The same of candidates from first to end. */
 static size_t match(sw_contact *c, size_t first, size_t end, size_t i) {
-  for (size_t n = first; n < end; n++) {
-    sw_candidate *k = &c->candidates[n];
-    k->last = i;
-    while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
-           c->last[i].segment == k->segment)
-      i++;
-    k->last_end = i;
-  }
+  for (size_t n = first; n < end; n++) i = match_one(c, &c->candidates[n], i);
   return i;
+}
+
+void sw_contact_match(const sw_contact *c, sw_glance *at) {
+  const size_t beside = at->next ? c->candidates[at->next - 1].node + 1 : 0;
+  for (; at->match < at->end; at->match++) {
+    sw_candidate *k = &c->candidates[at->match];
+    if (at->match >= at->next && k->node > beside) return;
+    at->last = match_one(c, k, at->last);
+  }
 }
 
 static void swap_lists(sw_contact *c) {
@@ -59,14 +70,14 @@ static sw_status turn_tail_over(sw_contact *c) {
   return SW_OK;
 }
 
-sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end) {
-  *first = c->parts.on ? c->parts.first : 0;
-  *end = c->parts.on ? c->parts.end : c->candidate_count;
+sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at) {
+  *at = (sw_glance){.end = c->candidate_count};
   if (!c->parts.on) {
     swap_lists(c);
-    (void)match(c, 0, c->candidate_count, 0);
     return SW_OK;
   }
+  at->next = c->parts.first;
+  at->match = at->end = c->parts.end;
   if (c->parts.begun) return turn_tail_over(c);
   c->parts.begun = 1;
   return SW_OK;

@@ -62,6 +62,18 @@ typedef struct sw_touch {
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
 
+/* What pressed at the end of a stage and may have struck: of such a touch, what impacts need. A
+ * touch is large, and a step in which many nodes land has as many of these in each stage. */
+typedef struct sw_pressed {
+  uint32_t node, other, body;
+  int obstacle, segment;
+  sw_sharp sharp;
+  double at;
+  sw_mean spot;
+  sw_vec local, normal;
+  double let_out;
+} sw_pressed;
+
 /* What is kept of a touch between steps; in the obstacle's coordinates. */
 typedef struct sw_memory {
   int obstacle, segment; /* obstacle: the owner's id */

@@ -289,7 +289,20 @@ static int follow_all(refined *r, int *changes) {
   return 1;
 }
 
+/* Does the solution fit as it is? */
+static int fits(const refined *r) {
+  for (size_t i = r->first; i < r->end; i++) {
+    const sw_touch *t = &r->c->touches[i];
+    const sw_vec shift = place(r, t, r->delta);
+    if (sw_press_pulls(&t->press, shift) || (!t->held && sw_press_closes(&t->press, shift)) ||
+        sw_press_lags(&t->press, t->friction, shift, r->scale))
+      return 0;
+  }
+  return 1;
+}
+
 static void refine(refined *r) {
+  if (fits(r)) return;
   int changes = !goes_far(r) && change_all(r), any = r->count > 0;
   if (!changes) forget_changes(r);
   if (lags(r)) {

@@ -13,22 +13,22 @@ static sw_vec arm(const sw_body *b, size_t edge, sw_vec normal, double weight) {
   return sw_scale(sw_cross(normal, along), weight * b->plan->beam.radius);
 }
 
-sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
-  const sw_body *b = &s->bodies[t->body];
+sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal) {
+  const sw_body *b = &s->bodies[body];
   const sw_plan *p = b->plan;
-  const size_t i = t->node - b->first_node;
+  const size_t i = node - b->first_node;
   sw_levers l = {0};
   if (!b->roll_block) return l;
-  if (t->segment || i == 0 || i == p->edges) {
+  if (segment || i == 0 || i == p->edges) {
     l.edge = i < p->edges ? i : i - 1;
-    l.arm[0] = arm(b, l.edge, t->press.normal, 1.0);
+    l.arm[0] = arm(b, l.edge, normal, 1.0);
     l.count = 1;
     return l;
   }
   const double after = p->rest[i] / (p->rest[i - 1] + p->rest[i]);
   l.edge = i - 1;
-  l.arm[0] = arm(b, i - 1, t->press.normal, 1.0 - after);
-  l.arm[1] = arm(b, i, t->press.normal, after);
+  l.arm[0] = arm(b, i - 1, normal, 1.0 - after);
+  l.arm[1] = arm(b, i, normal, after);
   l.count = 2;
   return l;
 }

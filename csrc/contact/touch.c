@@ -25,14 +25,31 @@ enum { SPARE_PULLS = 1 };
  * this share of its force on, 1/BESIDE: all at once they would come and go with it [-]. */
 static const double MOST_ARC = 0.8, BESIDE = 10.0;
 
-/* Touches are in the order of candidates: a segment may find one of the segment beside. */
-static sw_status push(sw_contact *c, const sw_touch *t) {
-  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches));
+enum { LINE = 64 }; /* of the cache [B] */
+
+/* A new touch, all zero, at the end of the list; or NULL: there is no room. The place of the one
+ * after it is fetched while this one is filled: long lists come from memory. */
+static sw_touch *new_touch(sw_contact *c) {
+  if (sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches) !=
+      SW_OK)
+    return NULL;
+  sw_touch *t = &c->touches[c->touch_count];
+  if (c->touch_count + 1 < c->touch_capacity)
+    for (size_t at = 0; at < sizeof *t; at += LINE)
+      __builtin_prefetch((const char *)(t + 1) + at, 1);
+  return memset(t, 0, sizeof *t);
+}
+
+/* It belongs to the list. Touches are in the order of candidates: a segment may find one of the
+ * segment beside. */
+static void take_in(sw_contact *c) {
   size_t i = c->touch_count++;
-  for (; i > c->parts.touch && c->touches[i - 1].candidate > t->candidate; i--)
+  const size_t candidate = c->touches[i].candidate;
+  if (i == c->parts.touch || c->touches[i - 1].candidate <= candidate) return;
+  const sw_touch t = c->touches[i];
+  for (; i > c->parts.touch && c->touches[i - 1].candidate > candidate; i--)
     c->touches[i] = c->touches[i - 1];
-  c->touches[i] = *t;
-  return SW_OK;
+  c->touches[i] = t;
 }
 
 /* How far along the segment a touch may have moved and still be the same one, at most the given
@@ -304,9 +321,11 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
 }
 
 /* Where wires press on each other, friction on what they lie on finds its direction as theirs does:
- * by its place alone, wires of a bundle that are thrown about turn round in every other iterate. */
+ * by its place alone, wires of a bundle that are thrown about turn round in every other iterate. So
+ * may a wire by itself, for ever, between two iterates; most agree sooner by their place, and what
+ * is left then is found like that too. */
 static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
-  const int apart = s->coupling.part != NULL;
+  const int apart = s->coupling.part != NULL && c->updates < SW_PATIENCE;
   return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
 }
 
@@ -321,36 +340,31 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   const double stiffness = stiffness_of(c, k, m, last, usual);
   const double kept = m ? m->steady : 0.0, steady = place->sharp ? kept : 0.0;
   const sw_web *web = s->bodies[k->body].plan->web;
-  sw_touch t = {.obstacle = k->obstacle,
-                .segment = k->segment,
-                .node = k->node,
-                .other = k->other,
-                .body = k->body,
-                .feature = near->feature,
-                .at = at,
-                .spot = sw_contact_spot(s, k, at),
-                .sharp = place->sharp,
-                .edge = place->edge,
-                .steady = kept,
-                .point = sw_pose_point(*pose, near->point),
-                .local = near->point,
-                .known = m != NULL,
-                .stiffer = stiffness,
-                .usual = usual,
-                .held = sw_contact_is_held(s, k),
-                .candidate = (size_t)(k - c->candidates),
-                .stage = c->stage,
-                .press = {.normal = sw_contact_leaning(c, s, k, place, steady),
-                          .gap = near->gap - k->skin,
-                          .k = stiffness,
-                          .by_place = goes_by_place(c, s, k)}};
-  if (c->softer) t.press.k = sw_contact_softer(c, s, k, stiffness);
-  t.press.gap += sw_contact_aslant(c, k->node, k->other, at, t.press.normal);
-  if (web && !web->per_ring) t.press.soft = fmin(SOFTEST, (double)web->particles);
-  sw_press *press = &t.press;
-  forgive(c, s, k, m, y, &t);
-  if (m && web) t.hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
-  press->gap += t.forgiven;
+  sw_touch *const t = new_touch(c);
+  if (!t) return SW_ENOMEM;
+  sw_press *press = &t->press;
+  t->obstacle = k->obstacle, t->segment = k->segment;
+  t->node = k->node, t->other = k->other, t->body = k->body;
+  t->feature = near->feature;
+  t->at = at;
+  t->spot = sw_contact_spot(s, k, at);
+  t->sharp = place->sharp, t->edge = place->edge;
+  t->steady = kept;
+  t->point = sw_pose_point(*pose, near->point), t->local = near->point;
+  t->known = m != NULL;
+  t->stiffer = stiffness, t->usual = usual;
+  t->held = sw_contact_is_held(s, k);
+  t->candidate = (size_t)(k - c->candidates);
+  t->stage = c->stage;
+  press->normal = sw_contact_leaning(c, s, k, place, steady);
+  press->gap = near->gap - k->skin;
+  press->k = c->softer ? sw_contact_softer(c, s, k, stiffness) : stiffness;
+  press->by_place = goes_by_place(c, s, k);
+  press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
+  if (web && !web->per_ring) press->soft = fmin(SOFTEST, (double)web->particles);
+  forgive(c, s, k, m, y, t);
+  if (m && web) t->hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
+  press->gap += t->forgiven;
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
@@ -358,8 +372,9 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
     press->active = 1; /* what just touches may be all that bears the wire */
     press->active = sw_press_apart(press);
   }
-  t.seen = sw_pose_local(*pose, sw_mean_place(c, y, &t.spot));
-  begin_friction(c, s, m, last, y, &t);
-  if (t.held) press->active = 0;
-  return push(c, &t);
+  t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  begin_friction(c, s, m, last, y, t);
+  if (t->held) press->active = 0;
+  take_in(c);
+  return SW_OK;
 }

@@ -42,7 +42,7 @@ struct sw_contact {
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
-  sw_touch *pressed; /* touches with a force at the end of a stage of this trial */
+  sw_pressed *pressed; /* touches with a force at the end of a stage of this trial */
   size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
   sw_turn *turns;                                         /* (pressed_count) of a review */
   size_t turn_capacity;
@@ -70,6 +70,8 @@ struct sw_contact {
   double nominal;    /* the run's full step [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
+  int hasty;       /* 1: friction of a wire that strikes is not agreed on in this trial */
+  int careful;     /* 1: none of that in this step */
   double soonest;  /* rebound that is not at the step's start, after it [s] */
   double least;    /* rebounds sooner than this after the start are at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
@@ -83,7 +85,8 @@ struct sw_contact {
  * order of wires: from the first of one to the end, that of the next. */
 double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
-/* How far a node of velocity v may go in the step unnoticed [m]. */
+/* How far a node of velocity v may go in the step unnoticed, and one of any velocity [m]. */
+#define SW_FLIGHT_LEAST 1e-4
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
 /* A wire's weight, or the force that bends it [N]. */
@@ -99,9 +102,14 @@ void sw_contact_expect(sw_contact *c, int obstacle);
 /* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
+sw_pressed sw_contact_pressed(const sw_touch *t);
 /* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
  * when something was changed. */
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
+
+/* Will any of the touches from first to end strike, as they press now? Only of what gives nothing
+ * back. */
+int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
 /* Raise barriers where wires cross obstacles on their way to x1. h: of the step, 0 in statics,
  * where there are no speeds to change. Returns 1 when there are new ones. */
@@ -116,9 +124,17 @@ sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 /* Fill the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
-/* An iterate begins: touches become those of the one before, of candidates from *first to *end.
- * SW_ENOMEM. */
-sw_status sw_contact_turn_over(sw_contact *c, size_t *first, size_t *end);
+/* An iterate looks at its candidates. */
+typedef struct sw_glance {
+  size_t next, end;   /* what is left of them */
+  size_t match, last; /* the first one that has not found its touches of the iterate before, and the
+                         first of these that is left; as far as they are needed */
+} sw_glance;
+
+/* An iterate begins: touches become those of the one before. SW_ENOMEM. */
+sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
+/* Candidates up to the next one, and on the segment beside, find theirs. */
+void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 /* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
  */
@@ -130,8 +146,10 @@ struct sw_place;
 /* SW_ENOMEM. */
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const struct sw_place *place);
-/* Find the touches at positions y; those of before are then the last ones. SW_ENOMEM. */
-sw_status sw_contact_look(sw_contact *c, const sw_system *s, const double *y, sw_error *err);
+/* Find touches at positions y, of some candidates more. *found: number of touches that are found
+ * and stay where they are in the list. SW_ENOMEM. */
+sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
+                             size_t *found, sw_error *err);
 /* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
@@ -162,8 +180,13 @@ typedef struct sw_levers {
   sw_vec arm[2];      /* shift per turn [m] */
 } sw_levers;
 
-/* With the tangents of the last evaluation. */
-sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t);
+/* With the tangents of the last evaluation: of a touch at a node or on a segment that begins there.
+ */
+sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
+static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
+  if (!s->bodies[t->body].roll_block) return (sw_levers){0};
+  return sw_levers_at(s, t->body, t->node, t->segment, t->press.normal);
+}
 /* Shift of the surface by turn[edge stride] [m], or its speed by rates. */
 sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
 /* The touch's friction and stiffness (upper half of K) on the turns. */
