@@ -3,7 +3,6 @@
 #include <limits.h>
 #include <string.h>
 
-#include "bind/bind_motion.h"
 #include "bind/child.h"
 #include "bind/share.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class obstacle and scene:obstacle. */
 
-#include "bind/bind_motion.h"
 #include "bind/bind_shape.h"
 #include "bind/child.h"
 #include "bind/share.h"

@@ -3,7 +3,6 @@
  * it as scene:gripper. */
 #include <math.h>
 
-#include "bind/bind_motion.h"
 #include "bind/child.h"
 #include "bind/share.h"
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene:zone, and how near wires came to zones. */
-#include <math.h>
 
 #include "bind/bind_shape.h"
 #include "bind/child.h"

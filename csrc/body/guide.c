@@ -9,7 +9,6 @@
 #include "contact/grains.h"
 #include "link/hold.h"
 #include "link/spool.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 

@@ -6,7 +6,6 @@
  * particles), and these points with the force across the surface at each. */
 #include "read/frames.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -17,8 +16,6 @@
 #include "read/kept_frames.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/obstacle.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/web.h"
 #include "strand/ring.h"

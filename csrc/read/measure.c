@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Read-outs of wires and of the whole scene. */
-#include <math.h>
 #include <string.h>
 
 #include "body/body.h"
 #include "body/build.h"
-#include "body/spin.h"
 #include "body/touching.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"

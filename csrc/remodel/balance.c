@@ -4,7 +4,6 @@
  * A rod and a mesh do not lie quite alike under the same forces. So the wire that takes over is
  * shifted, by micrometres, to where it is in balance with the inertia of the other one. Else it
  * would begin to swing, and the gripper would feel that. */
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"

@@ -4,7 +4,6 @@
  * through these lists. */
 #include "solve/sparse.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"

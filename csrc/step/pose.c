@@ -8,7 +8,6 @@
 #include "edit/edit.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/jaw.h"

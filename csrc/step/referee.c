@@ -5,7 +5,6 @@
 
 #include "body/hold.h"
 #include "body/touching.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/reading.h"
 #include "scene/gripper.h"

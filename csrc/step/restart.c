@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step/restart.h"
 
-#include <math.h>
 
 #include "contact/contact.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/gripper.h"
 #include "scene/world.h"

@@ -15,7 +15,6 @@
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/lead.h"
-#include "system/linear.h"
 #include "system/part.h"
 #include "system/rail.h"
 #include "system/spin.h"

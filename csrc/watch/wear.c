@@ -5,14 +5,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "body/touching.h"
 #include "contact/grains.h"
 #include "read/extremes.h"
 #include "record/wear.h"
 #include "scene/wire.h"
 #include "scene/world.h"
 #include "state/hinge.h"
-#include "watch/observe.h"
 
 /* --- places ---------------------------------------------------------------------- */
 
