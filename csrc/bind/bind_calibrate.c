@@ -272,7 +272,6 @@ static sw_cell_solid *read_solids(lua_State *L, int index, size_t groups, size_t
  * (from 1), weight, 1 for bending or 0; stiffness: one number a group, of elements their modulus;
  * elements: flat, 6 or 8 and as many particles (from 1), 8 places in any case, group, nu. */
 static int mod_cell(lua_State *L) {
-  sw_error err = {""};
   sw_cell_result result;
   size_t places, numbers, groups;
   const double spacing = luaL_checknumber(L, 1);
@@ -300,7 +299,7 @@ static int mod_cell(lua_State *L) {
                         .link = link,
                         .solids = solids,
                         .solid = solid};
-  lsw_must(L, sw_cell_stiffness(&cell, k, &result, NULL, &err), &err);
+  LSW_DO(L, sw_cell_stiffness, &cell, k, &result, NULL);
   lua_createtable(L, 0, SW_TARGETS + 1);
   set_beam(L, &result);
   return 1;

@@ -28,9 +28,8 @@ static int mod_film(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4),
                              0};
-  sw_error err = {""};
   sw_film *film = lsw_keep(L, sizeof *film, "softworld.film", NULL, free_film);
-  lsw_must(L, sw_film_make(scene, &args, sw_interrupted, film, &err), &err);
+  LSW_DO(L, sw_film_make, scene, &args, sw_interrupted, film);
   lua_pushlstring(L, (const char *)film->bytes, film->size);
   lua_pushinteger(L, (lua_Integer)film->frames);
   lua_pushinteger(L, (lua_Integer)film->broken);

@@ -17,7 +17,6 @@ static int new_hold(lua_State *L) {
                        .speed = NAN,
                        .force = NAN,
                        .force_limit = NAN};
-  sw_error err = {""};
   if (lsw_test(L, 2, &lsw_class_particles)) {
     if (strcmp(kind, "clamp") == 0) return lsw_hold_particles(L);
     return luaL_error(L, "scene:%s goes with wires; particles are held by scene:hold", kind);
@@ -27,7 +26,7 @@ static int new_hold(lua_State *L) {
   lsw_arguments(L, 3, what, &cls->params, &args);
   if (lua_istable(L, 3)) args.points = lsw_read_points(L, 3, "path", kind, &args.count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  lsw_must(L, sw_scene_add_hold(owner->h.object, cls, wire, &args, &child->id, &err), &err);
+  LSW_DO(L, sw_scene_add_hold, owner->h.object, cls, wire, &args, &child->id);
   child->h.object = owner;
   return 1;
 }
@@ -42,7 +41,6 @@ void lsw_add_holds(lua_State *L) {
 }
 
 static lsw_load load_of(lua_State *L, int with_point) {
-  sw_error err = {""};
   lsw_load on;
   sw_vec point = sw_v(NAN, NAN, NAN);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
@@ -51,7 +49,7 @@ static lsw_load load_of(lua_State *L, int with_point) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
   const sw_vec *at = isnan(point.x) ? NULL : &point;
-  lsw_must(L, sw_scene_hold_force(c.scene, c.id, at, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_hold_force, c.scene, c.id, at, &on.force, &on.moment);
   return on;
 }
 
@@ -76,11 +74,10 @@ static int meth_release(lua_State *L) {
 /* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
  * obstacle [s], [m]; nil when it never did */
 static int meth_crash(lua_State *L) {
-  sw_error err = {""};
   double time, depth;
   const char *obstacle;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_hold_crash(c.scene, c.id, &time, &depth, &obstacle, &err), &err);
+  LSW_DO(L, sw_scene_hold_crash, c.scene, c.id, &time, &depth, &obstacle);
   if (!(depth > 0)) return 0;
   lua_createtable(L, 0, 3);
   lsw_set_number(L, "time", time);
@@ -103,13 +100,12 @@ static void push_columns(lua_State *L, const double *rows, size_t count, size_t 
  * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s].
  * clamp:log(first) starts at that row. */
 static int meth_log(lua_State *L) {
-  sw_error err = {""};
   const double *rows;
   size_t count;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const lua_Integer first =
       lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
-  lsw_must(L, sw_scene_hold_log(c.scene, c.id, &rows, &count, &err), &err);
+  LSW_DO(L, sw_scene_hold_log, c.scene, c.id, &rows, &count);
   const size_t past = first > 1 ? (size_t)(first - 1) : 0, skip = past < count ? past : count;
   const size_t n = count - skip;
   if (skip) rows += skip * SW_LOG_SIZE;
@@ -121,26 +117,24 @@ static int meth_log(lua_State *L) {
 
 /* clamp:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
-  sw_error err = {""};
   sw_hold_args args;
   const sw_params *rows;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_hold_args(c.scene, c.id, &rows, &args, &err), &err);
+  LSW_DO(L, sw_scene_hold_args, c.scene, c.id, &rows, &args);
   lsw_push_values(L, rows, &args);
   return 1;
 }
 
 /* clamp:set{ friction = }: from now on. */
 static int meth_set(lua_State *L) {
-  sw_error err = {""};
   sw_hold_args args;
   const sw_params *rows;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(c.scene, &err), &err);
-  lsw_must(L, sw_scene_hold_args(c.scene, c.id, &rows, &args, &err), &err);
+  LSW_DO(L, sw_scene_editable, c.scene);
+  LSW_DO(L, sw_scene_hold_args, c.scene, c.id, &rows, &args);
   lsw_changes(L, 2, lua_pushfstring(L, "%s:set", rows->object), rows, &args);
-  lsw_must(L, sw_scene_set_hold(c.scene, c.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_set_hold, c.scene, c.id, &args);
   return 0;
 }
 
@@ -148,10 +142,9 @@ static int meth_set(lua_State *L) {
 
 /* slider:place() -> place along the rail, speed, force on the wire along it [m], [m/s], [N] */
 static int meth_place(lua_State *L) {
-  sw_error err = {""};
   sw_slide_state state;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_slide_state(c.scene, c.id, &state, &err), &err);
+  LSW_DO(L, sw_scene_slide_state, c.scene, c.id, &state);
   lua_pushnumber(L, state.place);
   lua_pushnumber(L, state.speed);
   lua_pushnumber(L, state.force);
@@ -161,10 +154,9 @@ static int meth_place(lua_State *L) {
 /* --- feeds ---------------------------------------------------------------------- */
 
 static sw_feed_state feed_state(lua_State *L) {
-  sw_error err = {""};
   sw_feed_state state;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_feed_state(c.scene, c.id, &state, &err), &err);
+  LSW_DO(L, sw_scene_feed_state, c.scene, c.id, &state);
   return state;
 }
 
@@ -189,10 +181,9 @@ static double feed_argument(lua_State *L, const char *name) {
 /* may_be_nil: that is none. */
 static int set_feed(lua_State *L, const char *name, int may_be_nil,
                     sw_status (*set)(sw_scene *, sw_handle, double, sw_error *)) {
-  sw_error err = {""};
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, name);
-  lsw_must(L, set(c.scene, c.id, value, &err), &err);
+  LSW_DO(L, set, c.scene, c.id, value);
   return 0;
 }
 
@@ -249,7 +240,7 @@ static int meth_feed(lua_State *L) {
   plan.name = "feed:feed", plan.law = a.law[0] ? a.law : NULL;
   plan.points = points, plan.count = 2;
   plan.speed = a.speed, plan.duration = a.duration, plan.acceleration = a.acceleration;
-  if (a.length != 0) lsw_must(L, sw_motion_create(&plan, &motion, &err), &err);
+  if (a.length != 0) LSW_DO(L, sw_motion_create, &plan, &motion);
   const sw_status status = sw_scene_feed_length(c.scene, c.id, motion, a.length, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);

@@ -37,7 +37,6 @@ int lsw_scene_join(lua_State *L) {
   const sw_scene *scene = owner->h.object;
   sw_join_args args;
   sw_join_end ends[SW_JOIN_ENDS];
-  sw_error err = {""};
   lua_settop(L, 2);
   lsw_arguments(L, 2, "scene:join", &sw_link_find("join")->params, &args);
   if (!lua_istable(L, 2) || lua_getfield(L, 2, "ends") != LUA_TTABLE)
@@ -48,20 +47,19 @@ int lsw_scene_join(lua_State *L) {
     ends[k] = read_end(L, scene, k + 1);
   }
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_join);
-  lsw_must(L, sw_scene_add_join(owner->h.object, &args, ends, count, &child->id, &err), &err);
+  LSW_DO(L, sw_scene_add_join, owner->h.object, &args, ends, count, &child->id);
   child->h.object = owner;
   return 1;
 }
 
 static lsw_load load_of(lua_State *L) {
-  sw_error err = {""};
   lsw_load on;
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
   const lua_Integer k = lua_isinteger(L, 2) ? lua_tointeger(L, 2) : 0;
   if (k < 1)
     luaL_error(L, "join: the number of one of its ends is wanted, from 1; got %s",
                lsw_describe(L, 2));
-  lsw_must(L, sw_scene_join_force(j.scene, j.id, (size_t)k - 1, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_join_force, j.scene, j.id, (size_t)k - 1, &on.force, &on.moment);
   return on;
 }
 
@@ -71,10 +69,9 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L).mome
 
 /* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
 static int meth_read(lua_State *L) {
-  sw_error err = {""};
   sw_tie_state state;
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
-  lsw_must(L, sw_scene_tie_state(j.scene, j.id, &state, &err), &err);
+  LSW_DO(L, sw_scene_tie_state, j.scene, j.id, &state);
   lua_newtable(L);
   lsw_set_number(L, "distance", state.distance);
   lsw_set_number(L, "tension", state.tension);

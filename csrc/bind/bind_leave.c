@@ -18,10 +18,9 @@ static int mod_remove_tool(lua_State *L) {
 
 /* core.shape_of(obstacle) -> its shape, also of one that was removed, which frames still show */
 static int mod_shape_of(lua_State *L) {
-  sw_error err = {""};
   sw_shape *shape;
   const lsw_self o = lsw_check_self(L, &lsw_class_obstacle);
-  lsw_must(L, sw_scene_obstacle_shape(o.scene, o.id, &shape, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_shape, o.scene, o.id, &shape);
   lsw_push_shape(L, shape);
   return 1;
 }

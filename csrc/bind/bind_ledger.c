@@ -40,8 +40,7 @@ static void set_losses(lua_State *L, const sw_ledger *l) {
 /* core.ledger(scene) -> table; energies in J */
 static int mod_ledger(lua_State *L) {
   sw_ledger l;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_ledger(lsw_check_scene(L), &l, &err), &err);
+  LSW_DO(L, sw_scene_ledger, lsw_check_scene(L), &l);
   lua_createtable(L, 0, 14);
   lsw_set_number(L, "kinetic", l.kinetic);
   lsw_set_number(L, "stored", l.stored);

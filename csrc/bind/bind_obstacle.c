@@ -28,7 +28,6 @@ int lsw_scene_obstacle(lua_State *L) {
 static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_obstacle); }
 
 static lsw_load load_of(lua_State *L, int with_point) {
-  sw_error err = {""};
   lsw_load on;
   sw_vec about = sw_v(0, 0, 0);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
@@ -36,7 +35,7 @@ static lsw_load load_of(lua_State *L, int with_point) {
   static const sw_params params = SW_PARAMS("obstacle:moment", rows);
   const lsw_self o = check(L);
   if (with_point) lsw_arguments(L, 2, "obstacle:moment", &params, &about);
-  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, about, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_force, o.scene, o.id, about, &on.force, &on.moment);
   return on;
 }
 
@@ -56,10 +55,9 @@ static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
 
 /* obstacle:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
-  sw_error err = {""};
   sw_obstacle_args args;
   const lsw_self o = check(L);
-  lsw_must(L, sw_scene_obstacle_args(o.scene, o.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_args, o.scene, o.id, &args);
   lsw_push_values(L, &sw_obstacle_params, &args);
   return 1;
 }
@@ -73,21 +71,20 @@ static int given(lua_State *L, const char *name) {
 /* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone is that
  * of what slides, too. */
 static int meth_set(lua_State *L) {
-  sw_error err = {""};
   sw_obstacle_args args;
   const lsw_self o = check(L);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(o.scene, &err), &err);
-  lsw_must(L, sw_scene_obstacle_args(o.scene, o.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_editable, o.scene);
+  LSW_DO(L, sw_scene_obstacle_args, o.scene, o.id, &args);
   lsw_changes(L, 2, "obstacle:set", &sw_obstacle_params, &args);
   const int rubs = given(L, "friction"), slides = given(L, "kinetic_friction");
   if (rubs && !slides) args.kinetic = args.friction;
   if (given(L, "at") || given(L, "rotation")) {
     const sw_pose pose = {args.at, args.rotation};
-    lsw_must(L, sw_scene_obstacle_set_pose(o.scene, o.id, pose, &err), &err);
+    LSW_DO(L, sw_scene_obstacle_set_pose, o.scene, o.id, pose);
   }
   if (rubs || slides || given(L, "restitution"))
-    lsw_must(L, sw_scene_obstacle_set_surface(o.scene, o.id, &args, &err), &err);
+    LSW_DO(L, sw_scene_obstacle_set_surface, o.scene, o.id, &args);
   return 0;
 }
 
@@ -103,14 +100,13 @@ static int meth_log(lua_State *L) {
 
 /* obstacle.shape: the shape at the origin, in its own axes. */
 static int prop_shape(lua_State *L) {
-  sw_error err = {""};
   sw_shape *shape;
   const char *kind;
   int present = 0;
   const lsw_self o = check(L);
   if (!sw_scene_obstacle_name(o.scene, o.id, &kind, &present) || !present)
     return lsw_not_there(L, &lsw_class_obstacle, o.scene);
-  lsw_must(L, sw_scene_obstacle_shape(o.scene, o.id, &shape, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_shape, o.scene, o.id, &shape);
   lsw_push_shape(L, shape);
   return 1;
 }

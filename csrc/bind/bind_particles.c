@@ -8,13 +8,12 @@ int lsw_scene_particles(lua_State *L) {
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   sw_particles_args args;
   sw_particles_parts parts = {0};
-  sw_error err = {""};
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:particles");
   lsw_arguments(L, 2, "particles", &sw_particles_params, &args);
   lsw_read_parts(L, 2, &parts);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_particles);
-  lsw_must(L, sw_scene_add_particles(owner->h.object, &args, &parts, &child->id, &err), &err);
+  LSW_DO(L, sw_scene_add_particles, owner->h.object, &args, &parts, &child->id);
   child->h.object = owner;
   return 1;
 }
@@ -35,7 +34,6 @@ int lsw_hold_particles(lua_State *L) {
   } args;
   _Static_assert(offsetof(__typeof__(args), at) == SW_NAME_SIZE, "as in the row");
   lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  sw_error err = {""};
   size_t count;
   lua_settop(L, 3);
   const sw_handle object =
@@ -44,10 +42,8 @@ int lsw_hold_particles(lua_State *L) {
   lua_getfield(L, 3, "particles");
   const uint32_t *list = lsw_particle_numbers(L, 4, "particles to be held", &count);
   lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  lsw_must(L,
-           sw_scene_hold_particles(owner->h.object, object, args.name, list, count, args.at,
-                                   &child->id, &err),
-           &err);
+  LSW_DO(L, sw_scene_hold_particles, owner->h.object, object, args.name, list, count, args.at,
+         &child->id);
   child->h.object = owner;
   return 1;
 }
@@ -55,21 +51,17 @@ int lsw_hold_particles(lua_State *L) {
 /* --- read-outs ---------------------------------------------------------------- */
 
 static sw_particles_info info_of(lua_State *L, lsw_self *of) {
-  sw_error err = {""};
   sw_particles_info info;
   *of = lsw_check_self(L, &lsw_class_particles);
-  lsw_must(L, sw_scene_particles_info(of->scene, of->id, &info, &err), &err);
+  LSW_DO(L, sw_scene_particles_info, of->scene, of->id, &info);
   return info;
 }
 
 static int push_copy(lua_State *L, int velocities) {
   lsw_self p;
-  sw_error err = {""};
   const size_t n = 3 * info_of(L, &p).particles;
   double *x = lua_newuserdatauv(L, n * sizeof *x, 0);
-  lsw_must(
-      L, sw_scene_particles_copy(p.scene, p.id, velocities ? NULL : x, velocities ? x : NULL, &err),
-      &err);
+  LSW_DO(L, sw_scene_particles_copy, p.scene, p.id, velocities ? NULL : x, velocities ? x : NULL);
   lsw_push_flat(L, x, n);
   return 1;
 }
@@ -81,7 +73,6 @@ static int meth_velocities(lua_State *L) { return push_copy(L, 1); }
 /* object:particle(i) -> position [m], velocity [m/s] */
 static int meth_particle(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
   sw_vec x, v;
   info_of(L, &p);
   int whole;
@@ -89,7 +80,7 @@ static int meth_particle(lua_State *L) {
   if (!whole || i < 1)
     return luaL_error(L, "particles:particle takes the number of a particle, from 1 on, got %s",
                       lsw_describe(L, 2));
-  lsw_must(L, sw_scene_particle(p.scene, p.id, (size_t)i - 1, &x, &v, &err), &err);
+  LSW_DO(L, sw_scene_particle, p.scene, p.id, (size_t)i - 1, &x, &v);
   lsw_push_vector(L, x);
   lsw_push_vector(L, v);
   return 2;
@@ -98,11 +89,9 @@ static int meth_particle(lua_State *L) {
 /* object:links() -> flat lists of all links: force pulling [N], strain [-], plastic strain [-] */
 static int meth_links(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
   const size_t n = info_of(L, &p).links;
   double *values = lua_newuserdatauv(L, (3 * n + 1) * sizeof *values, 0);
-  lsw_must(L, sw_scene_particles_links(p.scene, p.id, values, values + n, values + 2 * n, &err),
-           &err);
+  LSW_DO(L, sw_scene_particles_links, p.scene, p.id, values, values + n, values + 2 * n);
   for (size_t k = 0; k < 3; k++) lsw_push_flat(L, values + k * n, n);
   return 3;
 }
@@ -110,17 +99,15 @@ static int meth_links(lua_State *L) {
 /* object:energy() -> { kinetic =, stretch =, ... } of it alone [J] */
 static int meth_energy(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
   sw_energy e;
   info_of(L, &p);
-  lsw_must(L, sw_scene_body_energy(p.scene, p.id, &e, &err), &err);
+  LSW_DO(L, sw_scene_body_energy, p.scene, p.id, &e);
   lsw_push_energy(L, &e);
   return 1;
 }
 
 /* A flat list of three numbers for each particle. */
 static int set_all(lua_State *L, lsw_self p, size_t count) {
-  sw_error err = {""};
   const size_t n = 3 * count;
   if (lua_rawlen(L, 2) != n)
     return luaL_error(L,
@@ -133,7 +120,7 @@ static int set_all(lua_State *L, lsw_self p, size_t count) {
     v[i] = lsw_number(L, -1, "particles:set_velocity: an item", "m/s");
     lua_pop(L, 1);
   }
-  lsw_must(L, sw_scene_particles_set_velocities(p.scene, p.id, v, &err), &err);
+  LSW_DO(L, sw_scene_particles_set_velocities, p.scene, p.id, v);
   return 0;
 }
 

@@ -30,11 +30,10 @@ static int give_block(lua_State *L, block *b) {
 /* core.save(scene, note) -> string */
 static int mod_save(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   block b = {NULL, 0};
   size_t note_size;
   const char *note = luaL_checklstring(L, 2, &note_size);
-  lsw_must(L, sw_scene_save(scene, note, note_size, &b.bytes, &b.size, &err), &err);
+  LSW_DO(L, sw_scene_save, scene, note, note_size, &b.bytes, &b.size);
   return give_block(L, &b);
 }
 
@@ -50,9 +49,8 @@ static int mod_fields(lua_State *L) {
 static int mod_saved_note(lua_State *L) {
   size_t size, note_size;
   const void *note;
-  sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 1, &size);
-  lsw_must(L, sw_saved_note(bytes, size, &note, &note_size, &err), &err);
+  LSW_DO(L, sw_saved_note, bytes, size, &note, &note_size);
   lua_pushlstring(L, note, note_size);
   return 1;
 }
@@ -61,11 +59,10 @@ static int mod_saved_note(lua_State *L) {
 static int mod_load(lua_State *L) {
   size_t size;
   sw_scene *scene = NULL;
-  sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 1, &size);
   lsw_handle *h = lsw_new_scene(L);
   lsw_mesh_child_for(L);
-  lsw_must(L, sw_scene_load(bytes, size, &scene, &err), &err);
+  LSW_DO(L, sw_scene_load, bytes, size, &scene);
   h->object = scene;
   return 1;
 }
@@ -74,10 +71,9 @@ static int mod_load(lua_State *L) {
 static int mod_resume(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   size_t size;
-  sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 2, &size);
   lsw_mesh_child_for(L);
-  lsw_must(L, sw_scene_resume(scene, bytes, size, &err), &err);
+  LSW_DO(L, sw_scene_resume, scene, bytes, size);
   lsw_forget_forces(L, 1, scene);
   return 0;
 }

@@ -18,12 +18,11 @@ lsw_handle *lsw_new_scene(lua_State *L) {
 
 static int mod_scene(lua_State *L) {
   sw_scene_args args;
-  sw_error err = {""};
   sw_scene *scene = NULL;
   lua_settop(L, 1);
   lsw_arguments(L, 1, "scene", &sw_scene_params, &args);
   lsw_handle *h = lsw_new_scene(L);
-  lsw_must(L, sw_scene_new(&args, &scene, &err), &err);
+  LSW_DO(L, sw_scene_new, &args, &scene);
   h->object = scene;
   return 1;
 }
@@ -128,8 +127,7 @@ static int mod_check_settle(lua_State *L) {
 
 /* core.begin_run(scene[, wear]): extremes start anew; is the wear of wires to be kept? */
 static int mod_begin_run(lua_State *L) {
-  sw_error err = {""};
-  lsw_must(L, sw_scene_begin_run(lsw_check_scene(L), lua_toboolean(L, 2), &err), &err);
+  LSW_DO(L, sw_scene_begin_run, lsw_check_scene(L), lua_toboolean(L, 2));
   return 0;
 }
 
@@ -145,7 +143,6 @@ static int mod_window(lua_State *L) {
 /* core.remesh(scene, { segments of each wire }) */
 static int mod_remesh(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   luaL_checktype(L, 2, LUA_TTABLE);
   const size_t count = lua_rawlen(L, 2);
   size_t *segments = lua_newuserdatauv(L, (count + 1) * sizeof *segments, 0);
@@ -155,28 +152,26 @@ static int mod_remesh(lua_State *L) {
     segments[w] = n > 0 ? (size_t)n : 0;
     lua_pop(L, 1);
   }
-  lsw_must(L, sw_scene_remesh(scene, segments, count, &err), &err);
+  LSW_DO(L, sw_scene_remesh, scene, segments, count);
   return 0;
 }
 
 /* core.redraw(wire, rolls, EA, EI, GJ): a rod with other stiffnesses (factors), or that rolls. */
 static int mod_redraw(lua_State *L) {
-  sw_error err = {""};
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_redrawing as = {.rolls = lua_toboolean(L, 2),
                            .EA = luaL_optnumber(L, 3, 1),
                            .EI = luaL_optnumber(L, 4, 1),
                            .GJ = luaL_optnumber(L, 5, 1)};
-  lsw_must(L, sw_scene_redraw(w.scene, w.id, &as, &err), &err);
+  LSW_DO(L, sw_scene_redraw, w.scene, w.id, &as);
   return 0;
 }
 
 /* core.segments(wire): even ones of its mesh, before holds added nodes. */
 static int mod_segments(lua_State *L) {
-  sw_error err = {""};
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_segments(w.scene, w.id, &n, &err), &err);
+  LSW_DO(L, sw_scene_wire_segments, w.scene, w.id, &n);
   lua_pushinteger(L, (lua_Integer)n);
   return 1;
 }
@@ -275,16 +270,14 @@ static int meth_settle(lua_State *L) {
 
 static int meth_energy(lua_State *L) {
   sw_energy e;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_energy(lsw_check_scene(L), &e, &err), &err);
+  LSW_DO(L, sw_scene_energy, lsw_check_scene(L), &e);
   lsw_push_energy(L, &e);
   return 1;
 }
 
 static int meth_stable_dt(lua_State *L) {
   double dt;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_stable_dt(lsw_check_scene(L), &dt, &err), &err);
+  LSW_DO(L, sw_scene_stable_dt, lsw_check_scene(L), &dt);
   lua_pushnumber(L, dt);
   return 1;
 }
@@ -293,9 +286,8 @@ static int meth_stable_dt(lua_State *L) {
 static int meth_gravity(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   if (lua_gettop(L) > 1) {
-    sw_error err = {""};
     const sw_vec g = lsw_vector(L, 2, "scene:gravity", "m/s2");
-    lsw_must(L, sw_scene_set_gravity(scene, g, &err), &err);
+    LSW_DO(L, sw_scene_set_gravity, scene, g);
     return 0;
   }
   lsw_push_vector(L, sw_scene_gravity(scene));
@@ -317,22 +309,20 @@ static int prop_name(lua_State *L) {
 static int meth_snapshot(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_snapshot *snapshot = NULL;
-  sw_error err = {""};
   lsw_handle *h = lsw_new(L, &lsw_class_snapshot, 2);
   lua_pushvalue(L, 1);
   lua_setiuservalue(L, -2, 1);
-  lsw_must(L, sw_scene_snapshot(scene, &snapshot, &err), &err);
+  LSW_DO(L, sw_scene_snapshot, scene, &snapshot);
   h->object = snapshot;
   return 1;
 }
 
 static int meth_restore(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   const lsw_handle *h = lsw_check(L, 2, &lsw_class_snapshot);
   lua_getiuservalue(L, 2, 1);
   if (!lua_rawequal(L, -1, 1)) return luaL_error(L, "restore: the snapshot is of another scene");
-  lsw_must(L, sw_scene_restore(scene, h->object, &err), &err);
+  LSW_DO(L, sw_scene_restore, scene, h->object);
   lsw_forget_forces(L, 1, scene);
   return 0;
 }

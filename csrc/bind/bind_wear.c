@@ -12,9 +12,8 @@ static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
 
 /* The wire at 1, and how many places of it are kept; partial: of a part of the run only. */
 static lsw_self wire_at(lua_State *L, size_t *places, int *partial) {
-  sw_error err = {""};
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_worn(w.scene, w.id, places, partial, &err), &err);
+  LSW_DO(L, sw_scene_worn, w.scene, w.id, places, partial);
   return w;
 }
 

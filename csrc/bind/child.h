@@ -59,6 +59,13 @@ int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene);
 /* Raise unless status is SW_OK; callback errors keep their value. */
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);
 
+/* Call a function of the core, whose last argument is an sw_error, and raise what it fails by. */
+#define LSW_DO(L, function, ...)                              \
+  do {                                                        \
+    sw_error lsw_err_ = {""};                                 \
+    lsw_must(L, function(__VA_ARGS__, &lsw_err_), &lsw_err_); \
+  } while (0)
+
 /* scene:<kind>(wire, {...}) for holds; scene:obstacle{...}; scene:force{...} */
 int lsw_scene_wire(lua_State *L);
 int lsw_scene_particles(lua_State *L);

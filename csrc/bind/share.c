@@ -7,9 +7,8 @@
 
 int lsw_order(lua_State *L, const lsw_class *c,
               sw_status (*order)(sw_scene *scene, sw_handle id, sw_error *err)) {
-  sw_error err = {""};
   const lsw_self self = lsw_check_self(L, c);
-  lsw_must(L, order(self.scene, self.id, &err), &err);
+  LSW_DO(L, order, self.scene, self.id);
   return 0;
 }
 
@@ -28,7 +27,6 @@ int lsw_body_present(lua_State *L, const lsw_class *c) {
 int lsw_set_velocity(lua_State *L, const lsw_class *c) {
   static const char *const words[] = {"velocity", "omega", "about"};
   static const char *const units[] = {"m/s", "rad/s", "m"};
-  sw_error err = {""};
   sw_vec v[3] = {{0}};
   char what[64];
   const lsw_self b = lsw_check_self(L, c);
@@ -37,27 +35,26 @@ int lsw_set_velocity(lua_State *L, const lsw_class *c) {
     snprintf(what, sizeof what, "%s:set_velocity: %s", c->name, words[k]);
     v[k] = lsw_vector(L, 2 + k, what, units[k]);
   }
-  lsw_must(L, sw_scene_wire_set_velocity(b.scene, b.id, v[0], v[1], v[2], &err), &err);
+  LSW_DO(L, sw_scene_wire_set_velocity, b.scene, b.id, v[0], v[1], v[2]);
   return 0;
 }
 
 int lsw_pose(lua_State *L, const lsw_posed *of) {
-  sw_error err = {""};
   sw_pose pose;
   const lsw_self c = lsw_check_self(L, of->cls);
   if (lua_gettop(L) > 1) {
     lua_settop(L, 3);
     const sw_vec to = lsw_vector(L, 2, lua_pushfstring(L, "%s:pose: position", of->name), "m");
-    lsw_must(L, sw_scene_editable(c.scene, &err), &err);
+    LSW_DO(L, sw_scene_editable, c.scene);
     if (lua_isnil(L, 3))
-      lsw_must(L, of->get(c.scene, c.id, &pose, &err), &err);
+      LSW_DO(L, of->get, c.scene, c.id, &pose);
     else
       pose.q = lsw_rotation(L, 3, lua_pushfstring(L, "%s:pose: rotation", of->name));
     pose.p = to;
-    lsw_must(L, of->set(c.scene, c.id, pose, &err), &err);
+    LSW_DO(L, of->set, c.scene, c.id, pose);
     return 0;
   }
-  lsw_must(L, of->get(c.scene, c.id, &pose, &err), &err);
+  LSW_DO(L, of->get, c.scene, c.id, &pose);
   lsw_push_vector(L, pose.p);
   lsw_push_quaternion(L, pose.q);
   return 2;
@@ -77,11 +74,10 @@ int lsw_follow(lua_State *L, const lsw_posed *of) {
 }
 
 int lsw_log(lua_State *L, const lsw_class *c, lsw_log_reader read, size_t size) {
-  sw_error err = {""};
   const double *rows;
   size_t count;
   const lsw_self child = lsw_check_self(L, c);
-  lsw_must(L, read(child.scene, child.id, &rows, &count, &err), &err);
+  LSW_DO(L, read, child.scene, child.id, &rows, &count);
   lsw_push_flat(L, rows, count * size);
   lua_pushinteger(L, (lua_Integer)count);
   return 2;
