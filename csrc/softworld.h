@@ -40,6 +40,7 @@
 #include "save/file.h"
 #include "save/life.h"
 #include "scene/account.h"
+#include "scene/driven.h"
 #include "scene/scene.h"
 #include "shape/mesh_read.h"
 #include "shape/shape.h"

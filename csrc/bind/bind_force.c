@@ -215,9 +215,7 @@ static int meth_read(lua_State *L) {
 }
 
 /* force:log() -> flat rows of 4: t, force on wires; number of rows */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_force, sw_scene_force_log, SW_LOG_FORCE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_force, SW_LOG_FORCE_SIZE); }
 
 /* force:call_it(name): what its events call it */
 static int meth_call_it(lua_State *L) {
@@ -226,20 +224,6 @@ static int meth_call_it(lua_State *L) {
     luaL_error(L, "force:call_it: the name must be a string, got %s", lsw_describe(L, 2));
   LSW_DO(L, sw_scene_name_force, f.scene, f.id, lua_tostring(L, 2));
   return 0;
-}
-
-static int prop_kind(lua_State *L) {
-  const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
-  if (!cls) return lsw_not_there(L, &lsw_class_force, f.scene);
-  lua_pushstring(L, cls->name);
-  return 1;
-}
-
-static int prop_held(lua_State *L) {
-  const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  lua_pushboolean(L, sw_scene_force_acts(f.scene, f.id));
-  return 1;
 }
 
 static int describe(lua_State *L) {
@@ -279,9 +263,11 @@ static int meth_set(lua_State *L) {
 static const luaL_Reg methods[] = {
     {"release", meth_release}, {"get", meth_get},         {"set", meth_set}, {"read", meth_read},
     {"log", meth_log},         {"call_it", meth_call_it}, {NULL, NULL}};
-static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
+static const luaL_Reg properties[] = {
+    {"kind", lsw_prop_kind}, {"held", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_force = {.name = "force",
+                                   .kind = SW_OF_FORCE,
                                    .size = sizeof(lsw_child),
                                    .methods = methods,
                                    .describe = describe,

@@ -57,15 +57,12 @@ static lsw_load load_of(lua_State *L, int with_point) {
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
-static const lsw_posed posed = {&lsw_class_clamp,   "clamp",           "clamp:follow",
-                                sw_scene_hold_pose, sw_scene_set_pose, sw_scene_follow};
-
 /* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets;
  * without a rotation it keeps the one it has. */
-static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
+static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_clamp); }
 
 /* clamp:follow(trajectory or its table); clamp:follow(nil) stops it there. */
-static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
+static int meth_follow(lua_State *L) { return lsw_follow(L, &lsw_class_clamp, "clamp:follow"); }
 
 static int meth_release(lua_State *L) {
   return lsw_order(L, &lsw_class_clamp, sw_scene_release_hold);
@@ -105,7 +102,7 @@ static int meth_log(lua_State *L) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const lua_Integer first =
       lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
-  LSW_DO(L, sw_scene_hold_log, c.scene, c.id, &rows, &count);
+  LSW_DO(L, sw_scene_log, c.scene, SW_OF_HOLD, c.id, &rows, &count);
   const size_t past = first > 1 ? (size_t)(first - 1) : 0, skip = past < count ? past : count;
   const size_t n = count - skip;
   if (skip) rows += skip * SW_LOG_SIZE;
@@ -250,46 +247,24 @@ static int meth_feed(lua_State *L) {
 
 /* --- what it is ----------------------------------------------------------------- */
 
-typedef struct identity {
-  const char *name, *kind;
-  int held;
-} identity;
-
-static identity identify(lua_State *L) {
-  identity is;
-  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  is.name = sw_scene_hold_name(c.scene, c.id, &is.kind, &is.held);
-  if (!is.name) lsw_not_there(L, &lsw_class_clamp, c.scene);
-  return is;
-}
-
-static int prop_name(lua_State *L) { return lua_pushstring(L, identify(L).name), 1; }
-static int prop_kind(lua_State *L) { return lua_pushstring(L, identify(L).kind), 1; }
-static int prop_held(lua_State *L) { return lua_pushboolean(L, identify(L).held), 1; }
-
 static int describe(lua_State *L) {
   lsw_self c;
   sw_error err;
-  const char *kind;
   sw_vec force, moment;
-  int held;
   if (!lsw_find_self(L, &lsw_class_clamp, &c)) return 1;
-  const char *name = sw_scene_hold_name(c.scene, c.id, &kind, &held);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_clamp);
-  if (!held) return lsw_say(L, "%s '%s' (released)", kind, name);
+  const sw_identity is = sw_scene_identify(c.scene, SW_OF_HOLD, c.id);
+  if (!is.name) return lsw_say_taken_back(L, &lsw_class_clamp);
+  if (!is.alive) return lsw_say(L, "%s '%s' (released)", is.kind, is.name);
   if (sw_scene_hold_force(c.scene, c.id, NULL, &force, &moment, &err) != SW_OK)
-    return lsw_say(L, "%s '%s'", kind, name);
-  return lsw_say(L, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", kind, name, force.x, force.y,
-                 force.z);
+    return lsw_say(L, "%s '%s'", is.kind, is.name);
+  return lsw_say(L, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", is.kind, is.name, force.x,
+                 force.y, force.z);
 }
 
 static const char *word_of(lua_State *L) {
   lsw_self c;
-  const char *kind;
-  int held;
-  return lsw_find_self(L, &lsw_class_clamp, &c) && sw_scene_hold_name(c.scene, c.id, &kind, &held)
-             ? kind
-             : NULL;
+  return lsw_find_self(L, &lsw_class_clamp, &c) ? sw_scene_identify(c.scene, SW_OF_HOLD, c.id).kind
+                                                : NULL;
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},
@@ -311,9 +286,10 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {NULL, NULL}};
 
 static const luaL_Reg properties[] = {
-    {"name", prop_name}, {"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
+    {"name", lsw_prop_name}, {"kind", lsw_prop_kind}, {"held", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_clamp = {.name = "clamp",
+                                   .kind = SW_OF_HOLD,
                                    .size = sizeof(lsw_child),
                                    .methods = methods,
                                    .describe = describe,

@@ -83,49 +83,29 @@ static int meth_read(lua_State *L) {
 }
 
 /* join:log() of a tie -> flat rows of time, force on the first wire [s], [N]; their number */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_join, sw_scene_tie_log, SW_LOG_FORCE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_join, SW_LOG_FORCE_SIZE); }
 
 static int meth_release(lua_State *L) {
   return lsw_order(L, &lsw_class_join, sw_scene_release_join);
 }
 
-static const char *identity(lua_State *L, int *held) {
-  size_t ends;
-  const lsw_self j = lsw_check_self(L, &lsw_class_join);
-  const char *name = sw_scene_join_name(j.scene, j.id, held, &ends);
-  if (!name) lsw_not_there(L, &lsw_class_join, j.scene);
-  return name;
-}
-
-static int prop_name(lua_State *L) {
-  int held;
-  return lua_pushstring(L, identity(L, &held)), 1;
-}
-
-static int prop_held(lua_State *L) {
-  int held;
-  identity(L, &held);
-  return lua_pushboolean(L, held), 1;
-}
-
 static int describe(lua_State *L) {
   lsw_self j;
-  int held;
-  size_t ends;
   if (!lsw_find_self(L, &lsw_class_join, &j)) return 1;
-  const char *name = sw_scene_join_name(j.scene, j.id, &held, &ends);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_join);
-  return lsw_say(L, "join '%s' of %zu wires%s", name, ends, held ? "" : " (released)");
+  const sw_identity is = sw_scene_identify(j.scene, SW_OF_JOIN, j.id);
+  if (!is.name) return lsw_say_taken_back(L, &lsw_class_join);
+  return lsw_say(L, "join '%s' of %zu wires%s", is.name, sw_scene_join_ends(j.scene, j.id),
+                 is.alive ? "" : " (released)");
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},
                                    {"release", meth_release}, {"read", meth_read},
                                    {"log", meth_log},         {NULL, NULL}};
-static const luaL_Reg properties[] = {{"name", prop_name}, {"held", prop_held}, {NULL, NULL}};
+static const luaL_Reg properties[] = {
+    {"name", lsw_prop_name}, {"held", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_join = {.name = "join",
+                                  .kind = SW_OF_JOIN,
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
                                   .describe = describe,

@@ -43,15 +43,13 @@ static lsw_load load_of(lua_State *L, int with_point) {
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
-static const lsw_posed posed = {&lsw_class_obstacle,        "obstacle",
-                                "obstacle:follow",          sw_scene_obstacle_pose,
-                                sw_scene_obstacle_set_pose, sw_scene_obstacle_follow};
-
 /* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets; without a
  * rotation it keeps the one it has. */
-static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
+static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_obstacle); }
 
-static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
+static int meth_follow(lua_State *L) {
+  return lsw_follow(L, &lsw_class_obstacle, "obstacle:follow");
+}
 
 /* obstacle:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
@@ -81,7 +79,7 @@ static int meth_set(lua_State *L) {
   if (rubs && !slides) args.kinetic = args.friction;
   if (given(L, "at") || given(L, "rotation")) {
     const sw_pose pose = {args.at, args.rotation};
-    LSW_DO(L, sw_scene_obstacle_set_pose, o.scene, o.id, pose);
+    LSW_DO(L, sw_scene_object_put, o.scene, SW_OF_OBSTACLE, o.id, pose);
   }
   if (rubs || slides || given(L, "restitution"))
     LSW_DO(L, sw_scene_obstacle_set_surface, o.scene, o.id, &args);
@@ -94,17 +92,13 @@ static int meth_remove(lua_State *L) {
 
 /* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an
  * equilibrium) [s, N, s]; number of rows. */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_obstacle, sw_scene_obstacle_log, SW_LOG_OBSTACLE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_obstacle, SW_LOG_OBSTACLE_SIZE); }
 
 /* obstacle.shape: the shape at the origin, in its own axes. */
 static int prop_shape(lua_State *L) {
   sw_shape *shape;
-  const char *kind;
-  int present = 0;
   const lsw_self o = check(L);
-  if (!sw_scene_obstacle_name(o.scene, o.id, &kind, &present) || !present)
+  if (!sw_scene_identify(o.scene, SW_OF_OBSTACLE, o.id).alive)
     return lsw_not_there(L, &lsw_class_obstacle, o.scene);
   LSW_DO(L, sw_scene_obstacle_shape, o.scene, o.id, &shape);
   lsw_push_shape(L, shape);
@@ -116,44 +110,25 @@ static const luaL_Reg methods[] = {
     {"follow", meth_follow}, {"remove", meth_remove}, {"log", meth_log},
     {"get", meth_get},       {"set", meth_set},       {NULL, NULL}};
 
-static int prop_name(lua_State *L) {
-  const char *kind;
-  int present;
-  const lsw_self o = check(L);
-  const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
-  if (!name) return lsw_not_there(L, &lsw_class_obstacle, o.scene);
-  lua_pushstring(L, name);
-  return 1;
-}
-
-static int prop_present(lua_State *L) {
-  const char *kind;
-  int present = 0;
-  const lsw_self o = check(L);
-  lua_pushboolean(L, sw_scene_obstacle_name(o.scene, o.id, &kind, &present) && present);
-  return 1;
-}
-
 static int describe(lua_State *L) {
   lsw_self o;
   sw_error err;
-  const char *kind;
   sw_vec force, moment;
-  int present;
   if (!lsw_find_self(L, &lsw_class_obstacle, &o)) return 1;
-  const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_obstacle);
-  if (!present) return lsw_say(L, "%s '%s' (removed)", kind, name);
+  const sw_identity is = sw_scene_identify(o.scene, SW_OF_OBSTACLE, o.id);
+  if (!is.name) return lsw_say_taken_back(L, &lsw_class_obstacle);
+  if (!is.alive) return lsw_say(L, "%s '%s' (removed)", is.kind, is.name);
   if (sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
-    return lsw_say(L, "%s '%s'", kind, name);
-  return lsw_say(L, "%s '%s': force on it (%.4g, %.4g, %.4g) N", kind, name, force.x, force.y,
+    return lsw_say(L, "%s '%s'", is.kind, is.name);
+  return lsw_say(L, "%s '%s': force on it (%.4g, %.4g, %.4g) N", is.kind, is.name, force.x, force.y,
                  force.z);
 }
 
 static const luaL_Reg properties[] = {
-    {"shape", prop_shape}, {"name", prop_name}, {"present", prop_present}, {NULL, NULL}};
+    {"shape", prop_shape}, {"name", lsw_prop_name}, {"present", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_obstacle = {.name = "obstacle",
+                                      .kind = SW_OF_OBSTACLE,
                                       .size = sizeof(lsw_child),
                                       .methods = methods,
                                       .describe = describe,

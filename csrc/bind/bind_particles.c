@@ -140,8 +140,6 @@ static sw_particles_info info(lua_State *L) {
   return info_of(L, &p);
 }
 
-static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_particles); }
-static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_particles); }
 static int prop_count(lua_State *L) {
   return lua_pushinteger(L, (lua_Integer)info(L).particles), 1;
 }
@@ -169,11 +167,12 @@ static const luaL_Reg methods[] = {{"positions", meth_positions},
                                    {"energy", meth_energy},
                                    {"set_velocity", meth_set_velocity},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"name", prop_name},     {"present", prop_present},
+static const luaL_Reg properties[] = {{"name", lsw_prop_name}, {"present", lsw_prop_alive},
                                       {"count", prop_count},   {"mass", prop_mass},
                                       {"radius", prop_radius}, {NULL, NULL}};
 
 const lsw_class lsw_class_particles = {.name = "particles",
+                                       .kind = SW_OF_BODY,
                                        .size = sizeof(lsw_child),
                                        .methods = methods,
                                        .describe = describe,

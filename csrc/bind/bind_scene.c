@@ -56,26 +56,19 @@ static int mod_busy(lua_State *L) {
   return 1;
 }
 
-/* core.exists(object): does its scene still know it? */
+/* core.exists(object): does its scene still know it? What was released counts, what was taken away
+ * does not. */
 static int mod_exists(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
   const lsw_handle *h = lua_touserdata(L, 1);
-  const char *kind;
-  int alive;
-  size_t ends;
   int known = c && h->object;
-  if (known && !c->close) { /* a child */
+  if (known && c->kind) {
     const lsw_child *child = lua_touserdata(L, 1);
     const sw_scene *scene = ((lsw_scene_handle *)child->h.object)->h.object;
-    known =
-        scene &&
-        (c == &lsw_class_wire || c == &lsw_class_particles
-             ? sw_scene_wire_name(scene, sw_scene_body_now(scene, child->id)) != NULL
-         : c == &lsw_class_tool  ? sw_scene_tool_name(scene, child->id) != NULL
-         : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind, &alive) != NULL
-         : c == &lsw_class_join  ? sw_scene_join_name(scene, child->id, &alive, &ends) != NULL
-         : c == &lsw_class_force ? sw_scene_force_class(scene, child->id) != NULL
-                                 : sw_scene_obstacle_name(scene, child->id, &kind, &alive) != NULL);
+    const int body = c->kind == SW_OF_BODY, leaves = body || c->kind == SW_OF_TOOL;
+    const sw_handle id = body && scene ? sw_scene_body_now(scene, child->id) : child->id;
+    const sw_identity is = scene ? sw_scene_identify(scene, c->kind, id) : (sw_identity){NULL};
+    known = is.name && (is.alive || !leaves);
   }
   lua_pushboolean(L, known);
   return 1;

@@ -57,13 +57,9 @@ static int meth_pads_on(lua_State *L) {
   return 0;
 }
 
-static const lsw_posed posed = {&lsw_class_tool,        "tool",
-                                "gripper:move",         sw_scene_tool_pose,
-                                sw_scene_tool_set_pose, sw_scene_tool_follow};
+static int meth_follow(lua_State *L) { return lsw_follow(L, &lsw_class_tool, "gripper:move"); }
 
-static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
-
-static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
+static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_tool); }
 
 static const char *const modes[] = {"still", "to", "force", NULL};
 static const sw_param jaw_rows[] = {
@@ -151,9 +147,7 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 2, 3
 /* tool:log() -> flat rows of 15: t, force, moment, centre, span, opening, squeeze, margin, slip;
  * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at
  * whose end it is the force; 0 at an equilibrium [s]. */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_tool, sw_scene_tool_log, SW_LOG_TOOL_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_tool, SW_LOG_TOOL_SIZE); }
 
 /* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,
  * wire_name }, ... } */
@@ -230,12 +224,13 @@ static const luaL_Reg methods[] = {{"pad", meth_pad},         {"hold", meth_hold
 static int describe(lua_State *L) {
   lsw_self t;
   if (!lsw_find_self(L, &lsw_class_tool, &t)) return 1;
-  const char *name = sw_scene_tool_name(t.scene, t.id);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_tool);
-  return lsw_say(L, "tool '%s'", name);
+  const sw_identity is = sw_scene_identify(t.scene, SW_OF_TOOL, t.id);
+  if (!is.alive) return lsw_say_taken_back(L, &lsw_class_tool);
+  return lsw_say(L, "tool '%s'", is.name);
 }
 
 const lsw_class lsw_class_tool = {.name = "tool",
+                                  .kind = SW_OF_TOOL,
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
                                   .describe = describe,

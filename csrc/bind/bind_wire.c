@@ -286,9 +286,7 @@ static int meth_folded(lua_State *L) {
 }
 
 /* wire:log() -> flat rows of 3: t, largest tension, largest curvature; number of rows */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_wire, sw_scene_wire_log, SW_LOG_WIRE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_wire, SW_LOG_WIRE_SIZE); }
 
 static int prop_length(lua_State *L) {
   double length;
@@ -324,15 +322,6 @@ static int prop_radius(lua_State *L) {
   lua_getfield(L, -1, "radius");
   return 1;
 }
-
-static int prop_model(lua_State *L) {
-  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lua_pushstring(L, sw_scene_wire_model(w.scene, w.id));
-  return 1;
-}
-
-static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_wire); }
-static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_wire); }
 
 static int describe(lua_State *L) {
   lsw_self w;
@@ -376,12 +365,13 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"frequencies", lsw_wire_frequencies},
                                    {"remodel", lsw_wire_remodel},
                                    SW_READOUTS(READOUT){NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
-                                      {"beam", push_beam},     {"radius", prop_radius},
-                                      {"name", prop_name},     {"present", prop_present},
-                                      {"model", prop_model},   {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length},  {"segments", prop_segments},
+                                      {"beam", push_beam},      {"radius", prop_radius},
+                                      {"name", lsw_prop_name},  {"present", lsw_prop_alive},
+                                      {"model", lsw_prop_kind}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",
+                                  .kind = SW_OF_BODY,
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
                                   .describe = describe,

@@ -3,7 +3,6 @@
  * a force are added when something does, or when the series is read. */
 #include "body/obstacle_log.h"
 
-
 #include "body/touching.h"
 #include "scene/obstacle.h"
 #include "scene/values.h"

@@ -156,20 +156,17 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
 }
 
 const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
-  const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
-  return known ? s->forces[h.slot].cls : NULL;
-}
-
-int sw_scene_force_acts(const sw_scene *s, sw_handle h) {
-  return sw_scene_force_class(s, h) && s->forces[h.slot].alive;
+  const sw_scene_force *f = sw_scene_find_force(s, h, NULL);
+  return f ? f->cls : NULL;
 }
 
 sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, double *out,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
-  const sw_force_class *cls = sw_scene_force_class(s, force);
-  if (!cls) return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
+  const sw_scene_force *f = sw_scene_find_force(s, force, err);
+  if (!f) return SW_EDEAD;
+  const sw_force_class *cls = f->cls;
   const sw_scene_wire *w = sw_scene_find_body(s, wire, err);
   if (!w) return SW_EDEAD;
   if (!cls->read) return sw_fail(err, SW_EINVAL, "force %s: there is nothing to read", cls->name);
@@ -185,9 +182,9 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
 }
 
 sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw_error *err) {
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  snprintf(s->forces[force.slot].name, SW_NAME_SIZE, "%s", name);
+  sw_scene_force *f = sw_scene_find_force(s, force, err);
+  if (!f) return SW_EDEAD;
+  snprintf(f->name, SW_NAME_SIZE, "%s", name);
   return SW_OK;
 }
 
@@ -211,9 +208,8 @@ sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw
 
 sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  sw_scene_force *f = &s->forces[force.slot];
+  sw_scene_force *f = sw_scene_find_force(s, force, err);
+  if (!f) return SW_EDEAD;
   const sw_handle wire = f->wire < 0 ? (sw_handle){0, 0}
                                      : (sw_handle){(uint32_t)f->wire, s->wires[f->wire].generation};
   if (!f->alive)
@@ -229,10 +225,10 @@ sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  if (!s->forces[force.slot].alive) return SW_OK;
+  sw_scene_force *f = sw_scene_find_force(s, force, err);
+  if (!f) return SW_EDEAD;
+  if (!f->alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
-  s->forces[force.slot].alive = 0;
+  f->alive = 0;
   return SW_OK;
 }

@@ -16,6 +16,7 @@
 #include "edit/links.h"
 #include "link/joint.h"
 #include "scene/drive.h"
+#include "scene/driven.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/values.h"
@@ -245,40 +246,13 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int relative,
-                          sw_error *err) {
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
-  sw_course_jump(&s->course);
-  return SW_OK;
-}
-
-sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  return sw_drive_put(s, &h->drive, h->name, pose, err);
-}
-
-sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error *err) {
-  sw_motion_state now;
-  sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  *out = h->last_pose;
-  if (!h->alive) return SW_OK;
-  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
-  *out = now.pose;
-  return SW_OK;
-}
-
 sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, sw_vec *force,
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
   sw_hold *h = sw_scene_living_hold(s, hold, err);
   if (!h) return SW_EDEAD;
-  if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
+  if (about) SW_TRY(sw_scene_object_pose(s, SW_OF_HOLD, hold, &pose, err));
   *force = h->force;
   *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
   return SW_OK;
@@ -313,30 +287,5 @@ sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out,
     return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
                    h->cls->name, h->name);
   *out = (sw_slide_state){h->slider.p, h->slider.v, h->slider.force};
-  return SW_OK;
-}
-
-sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, size_t *count,
-                            sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  const sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  *rows = h->log.rows;
-  *count = h->log.count / SW_LOG_SIZE;
-  return SW_OK;
-}
-
-sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows, size_t *count,
-                                sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  const char *kind;
-  int present; /* a removed obstacle's series can still be read */
-  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
-    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
-  sw_scene_obstacle *o = &s->obstacles[obstacle.slot];
-  if (sw_obstacle_log_fill(s, o) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
-  *rows = o->log.rows;
-  *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
   return SW_OK;
 }

@@ -188,12 +188,9 @@ sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
 
 /* --- handles ---------------------------------------------------------------------- */
 
-const char *sw_scene_join_name(const sw_scene *s, sw_handle h, int *held, size_t *ends) {
+size_t sw_scene_join_ends(const sw_scene *s, sw_handle h) {
   const sw_joint *j = sw_scene_find_join(s, h, NULL);
-  if (!j) return NULL;
-  *held = j->alive;
-  *ends = j->count;
-  return j->name;
+  return j ? j->count : 0;
 }
 
 sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {

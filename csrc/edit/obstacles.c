@@ -9,6 +9,7 @@
 #include "edit/edit.h"
 #include "edit/links.h"
 #include "scene/drive.h"
+#include "scene/driven.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
@@ -60,40 +61,10 @@ sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *er
   return SW_OK;
 }
 
-sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *motion, int relative,
-                                   sw_error *err) {
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
-  sw_course_jump(&s->course);
-  if (s->contact) sw_contact_ask_again(s->contact);
-  return SW_OK;
-}
-
-sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, sw_error *err) {
-  sw_motion_state now;
-  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
-  *out = now.pose;
-  return SW_OK;
-}
-
 sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **out, sw_error *err) {
-  const char *kind;
-  int present; /* frames of before show one that was removed */
-  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
-    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
-  *out = s->obstacles[obstacle.slot].shape;
-  return SW_OK;
-}
-
-sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose, sw_error *err) {
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_drive_put(s, &o->drive, o->name, pose, err));
-  if (s->contact) sw_contact_ask_again(s->contact);
+  const sw_scene_obstacle *o = sw_scene_any_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD; /* frames of before show one that was removed */
+  *out = o->shape;
   return SW_OK;
 }
 
@@ -102,7 +73,7 @@ sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_ar
   sw_pose pose;
   const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
   if (!o) return SW_EDEAD;
-  SW_TRY(sw_scene_obstacle_pose(s, obstacle, &pose, err));
+  SW_TRY(sw_scene_object_pose(s, SW_OF_OBSTACLE, obstacle, &pose, err));
   *out = (sw_obstacle_args){.at = pose.p,
                             .rotation = pose.q,
                             .friction = o->friction,

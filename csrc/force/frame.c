@@ -5,9 +5,10 @@
  * state/hinge.h and b' its unloaded value, bend.c has 1/2 k (b1^2 + b2^2), k the
  * smaller stiffness; here is the rest. */
 
+#include "force/frame.h"
+
 #include "base/simd.h"
 #include "force/force.h"
-#include "force/frame.h"
 
 /* --- into the field ------------------------------------------------------------- */
 

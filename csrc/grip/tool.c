@@ -13,6 +13,7 @@
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "scene/drive.h"
+#include "scene/driven.h"
 #include "scene/gripper.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
@@ -23,20 +24,6 @@ void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);
   sw_frozen_release(t->frozen);
   sw_log_free(&t->log);
-}
-
-sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {
-  if (h.slot < s->tool_count && s->tools[h.slot].generation == h.generation &&
-      s->tools[h.slot].alive)
-    return &s->tools[h.slot];
-  sw_fail(err, SW_EDEAD, "this gripper is not of scene '%s' any more", s->name);
-  return NULL;
-}
-
-const char *sw_scene_tool_name(const sw_scene *s, sw_handle h) {
-  sw_error ignored;
-  const sw_tool *t = sw_scene_find_tool(s, h, &ignored);
-  return t ? t->name : NULL;
 }
 
 static const double SLIP = 1e-4; /* that is an event, unless told [m] */
@@ -113,32 +100,6 @@ sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *e
   SW_TRY(sw_scene_thaw(s));
   for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].off = !on;
   return SW_OK;
-}
-
-sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, int relative,
-                               sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
-  for (size_t k = 0; k < s->hold_count; k++) /* pads alone push by where they are, not how fast */
-    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) sw_course_jump(&s->course);
-  return SW_OK;
-}
-
-sw_status sw_scene_tool_pose(sw_scene *s, sw_handle tool, sw_pose *out, sw_error *err) {
-  sw_motion_state now;
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
-  *out = now.pose;
-  return SW_OK;
-}
-
-sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_error *err) {
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  return sw_drive_put(s, &t->drive, t->name, pose, err);
 }
 
 sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *args, sw_error *err) {
@@ -229,7 +190,7 @@ sw_status sw_scene_tool_force(sw_scene *s, sw_handle tool, const sw_vec *about, 
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_tool_pose(s, tool, &pose, err));
+  SW_TRY(sw_scene_object_pose(s, SW_OF_TOOL, tool, &pose, err));
   const sw_vec point = about ? *about : pose.p;
   *force = *moment = sw_v(0, 0, 0);
   pads_force(s, &s->tools[tool.slot], -1, point, force, moment);
@@ -240,7 +201,7 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
                                sw_vec *force, sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_tool_pose(s, tool, &pose, err));
+  SW_TRY(sw_scene_object_pose(s, SW_OF_TOOL, tool, &pose, err));
   const sw_tool *t = &s->tools[tool.slot];
   if (finger < 0 || finger >= t->fingers)
     return sw_fail(err, SW_EINVAL, "gripper '%s': there is no finger %d; it has %d", t->name,
@@ -373,16 +334,5 @@ sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, s
   out->crash_obstacle = any ? s->obstacles[t->crash.obstacle].name : "";
   out->opening = sw_jaw_at(&t->jaw, s->time);
   out->status = t->jaw.status;
-  return SW_OK;
-}
-
-sw_status sw_scene_tool_log(sw_scene *s, sw_handle tool, const double **rows, size_t *count,
-                            sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  const int known = tool.slot < s->tool_count && s->tools[tool.slot].generation == tool.generation;
-  const sw_tool *t = known ? &s->tools[tool.slot] : sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  *rows = t->log.rows;
-  *count = t->log.count / SW_LOG_TOOL_SIZE;
   return SW_OK;
 }

@@ -14,6 +14,7 @@
 #include "remodel/remodel.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
+#include "scene/lookup.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/wire.h"

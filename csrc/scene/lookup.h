@@ -14,7 +14,14 @@ sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err);
 /* NULL: the scene does not know it. */
 sw_joint *sw_scene_find_join(const sw_scene *scene, sw_handle join, sw_error *err);
 
+/* Released or not. */
+sw_scene_force *sw_scene_find_force(const sw_scene *scene, sw_handle h, sw_error *err);
+
+/* Those that are there; any: also one that was taken away. */
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
+sw_scene_obstacle *sw_scene_any_obstacle(const sw_scene *scene, sw_handle h, sw_error *err);
+sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
+sw_tool *sw_scene_any_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 
 /* SW_EINVAL when the wire is a mesh of particles, which does not go with what. */
 sw_status sw_scene_check_line(const sw_scene_wire *wire, const char *what, sw_error *err);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step/restart.h"
 
-
 #include "contact/contact.h"
 #include "link/hold.h"
 #include "scene/gripper.h"

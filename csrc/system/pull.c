@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "system/axial.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "system/arrays.h"
+#include "system/axial.h"
 
 /* Changes in a step of more than this are blows, which do not go on [-]. */
 static const double SMOOTH = 0.1;
