@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "motion/law.h"
 
 enum { PARTS = 7 }; /* x y z of position, w x y z of the quaternion [-] */
@@ -40,15 +41,9 @@ static void cubic(const knot *a, double t, int first, int count, double *y, doub
 }
 
 static const knot *find(const spline *s, double t) {
-  size_t low = 0, high = s->count - 1;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->knots[middle].t <= t)
-      low = middle;
-    else
-      high = middle;
-  }
-  return &s->knots[low];
+  size_t after;
+  SW_FIRST_NOT(s->knots[after].t <= t, after, 1, s->count - 1);
+  return &s->knots[after - 1];
 }
 
 static sw_quat quat_at(const double *p) { return (sw_quat){p[0], p[1], p[2], p[3]}; }

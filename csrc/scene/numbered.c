@@ -2,22 +2,17 @@
 /* Bodies by number and handle, those that have left too. */
 #include <stdint.h>
 
+#include "base/halving.h"
 #include "scene/lookup.h"
 #include "scene/scene.h"
 #include "scene/wire.h"
 #include "scene/world.h"
 
 const sw_scene_wire *sw_scene_numbered(const sw_scene *s, size_t number, const sw_gone **gone) {
-  size_t low = 0, high = s->wire_count; /* slots are in the order of their numbers */
+  size_t i; /* slots are in the order of their numbers */
   *gone = NULL;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (s->wires[middle].number < number)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  if (low < s->wire_count && s->wires[low].number == number) return &s->wires[low];
+  SW_FIRST_NOT(s->wires[i].number < number, i, 0, s->wire_count);
+  if (i < s->wire_count && s->wires[i].number == number) return &s->wires[i];
   for (size_t k = 0; k < s->gone_count; k++)
     if (s->gone[k].number == number) *gone = &s->gone[k];
   return NULL;

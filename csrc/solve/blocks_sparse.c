@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/clear.h"
+#include "base/halving.h"
 #include "solve/blocks_tree.h"
 
 enum { BLOCK = 9 };
@@ -125,15 +126,9 @@ sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t
 
 size_t sw_blocks_sparse_slot(const sw_blocks_sparse *s, size_t i, size_t j) {
   if (i >= s->nodes) return SIZE_MAX;
-  uint32_t low = s->first[i], high = s->first[i + 1];
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (s->column[middle] < j)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < s->first[i + 1] && s->column[low] == j ? BLOCK * (size_t)low : SIZE_MAX;
+  size_t at;
+  SW_FIRST_NOT(s->column[at] < j, at, s->first[i], s->first[i + 1]);
+  return at < s->first[i + 1] && s->column[at] == j ? BLOCK * at : SIZE_MAX;
 }
 
 void sw_blocks_sparse_clear(sw_blocks_sparse *s) {

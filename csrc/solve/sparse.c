@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "solve/blocks.h"
@@ -111,15 +112,9 @@ static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
 }
 
 static uint32_t find_slot(const sw_sparse *s, uint32_t column, uint32_t row) {
-  uint32_t low = s->start[column], high = s->start[column + 1];
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (s->row[middle] <= row)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(s->row[after] <= row, after, s->start[column] + 1, s->start[column + 1]);
+  return after - 1;
 }
 
 /* Where the product of rows a < b of each column goes, in the order in which the

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out) {
   sw_web *w = sw_alloc(1, sizeof *w);
@@ -72,15 +73,9 @@ sw_status sw_web_add_surface(sw_web *w) {
 }
 
 size_t sw_web_ring_of(const sw_web *w, size_t particle) {
-  size_t low = 0, high = w->rings;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (w->first[middle] <= particle)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(w->first[after] <= particle, after, 1, w->rings);
+  return after - 1;
 }
 
 sw_status sw_web_bound_rate(sw_web *w) {
