@@ -140,19 +140,17 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   SW_TRY(check_force(s, cls, wire, args, err));
   if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
-  sw_scene_force *f = &s->forces[s->force_count];
-  *f = (sw_scene_force){.generation = s->serial + 1,
-                        .alive = 1,
-                        .cls = cls,
-                        .wire = wire.generation ? (long)wire.slot : -1,
-                        .scale = w ? w->mesh.scale : 1.0};
-  if (args_size) memcpy(f->args, args, args_size);
-  SW_TRY(place_force(s, w, cls, f->args, err));
-  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
-  if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
-  *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
-  return SW_OK;
+  sw_scene_force f = {.alive = 1,
+                      .cls = cls,
+                      .wire = wire.generation ? (long)wire.slot : -1,
+                      .scale = w ? w->mesh.scale : 1.0};
+  if (args_size) memcpy(f.args, args, args_size);
+  SW_TRY(place_force(s, w, cls, f.args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(&f));
+  if (w && cls->flags & SW_FORCE_AT_PLACE) f.args[0] += w->mesh.s[0]; /* stays with the wire */
+  const sw_status status = sw_scene_add(s, SW_OF_FORCE, &f, out);
+  if (status != SW_OK) sw_scene_clear_force(&f);
+  return status;
 }
 
 const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {

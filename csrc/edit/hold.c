@@ -92,9 +92,8 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
                    s->wires[wire.slot].name, join->name);
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
-  sw_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
-  h.args = *args, h.scale = s->wires[wire.slot].mesh.scale, h.shape = s->serial + 1;
+  sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot};
+  h.args = *args, h.scale = s->wires[wire.slot].mesh.scale;
   if (args->name[0])
     memcpy(h.name, args->name, sizeof h.name);
   else
@@ -106,12 +105,12 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
     status = acts->begin(&h, &of);
   }
   sw_hold_forget(&h.args);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);
   if (status != SW_OK) {
     sw_hold_clear(&h);
     return sw_fail(err, status, "%s: out of memory", cls->name);
   }
-  *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
-  s->holds[s->hold_count++] = h;
+  s->holds[out->slot].shape = out->generation;
   return SW_OK;
 }
 

@@ -154,14 +154,10 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
     memcpy(j.name, args->name, sizeof j.name);
   else
     snprintf(j.name, sizeof j.name, "join%zu", s->join_count + 1);
-  if (sw_grow((void **)&s->joins, &s->join_capacity, s->join_count + 1, sizeof *s->joins) !=
-          SW_OK ||
-      place_ends(s, &j) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "scene:join: out of memory");
-  measure(s, &j);
-  j.generation = ++s->serial;
-  *out = (sw_handle){(uint32_t)s->join_count, j.generation};
-  s->joins[s->join_count++] = j;
+  sw_status status = place_ends(s, &j);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_JOIN, &j, out);
+  if (status != SW_OK) return sw_fail(err, status, "scene:join: out of memory");
+  measure(s, &s->joins[out->slot]);
   return SW_OK;
 }
 

@@ -35,19 +35,16 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                                 sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->obstacles, &s->obstacle_capacity, s->obstacle_count + 1,
-                 sizeof *s->obstacles));
-  sw_scene_obstacle *o = &s->obstacles[s->obstacle_count];
-  *o = (sw_scene_obstacle){.generation = ++s->serial,
-                           .alive = 1,
-                           .drive = {.pose = {args->at, args->rotation}},
-                           .friction = args->friction,
-                           .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
-                           .restitution = args->restitution};
-  sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
-  o->shape = sw_shape_retain(shape);
-  sw_obstacle_log_begin(s, o);
-  *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
+  sw_scene_obstacle o = {.alive = 1,
+                         .shape = shape,
+                         .drive = {.pose = {args->at, args->rotation}},
+                         .friction = args->friction,
+                         .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
+                         .restitution = args->restitution};
+  sw_scene_give_name(o.name, args->name, sw_shape_kind(shape), s->obstacle_count);
+  sw_obstacle_log_begin(s, &o);
+  SW_TRY(sw_scene_add(s, SW_OF_OBSTACLE, &o, out));
+  sw_shape_retain(shape);
   return SW_OK;
 }
 

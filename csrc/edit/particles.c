@@ -359,21 +359,18 @@ static sw_status add_yield(sw_scene *s, const sw_web *web, sw_handle body, sw_er
 sw_status sw_scene_add_particles(sw_scene *s, const sw_particles_args *args,
                                  const sw_particles_parts *parts, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_wire w = {.generation = s->serial + 1, .cls = &particles_class};
+  sw_scene_wire w = {.cls = &particles_class};
   sw_scene_give_name(w.name, args->name, "particles", s->wire_count);
   maker m = {.name = w.name, .parts = parts, .err = err};
   sw_error text = {""};
   m.err = &text;
   sw_status status = check(&m, args);
   if (status == SW_OK) status = sw_scene_thaw(s);
-  if (status == SW_OK)
-    status = sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires);
   if (status == SW_OK) status = make_body(&m, &w);
   if (status == SW_OK) status = sw_scene_check_rules(s, s->wire_count, &w, &text);
+  w.number = sw_scene_bodies_made(s);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_BODY, &w, out);
   if (status == SW_OK) {
-    w.number = sw_scene_bodies_made(s);
-    *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
-    s->wires[s->wire_count++] = w;
     status = add_yield(s, m.web, *out, &text);
     if (status != SW_OK) s->wire_count--;
   }

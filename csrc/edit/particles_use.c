@@ -181,25 +181,21 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
   const sw_scene_wire *w = find(s, object, err);
   if (!w) return SW_EDEAD;
   SW_TRY(check_hold(s, w, object.slot, particles, count, err));
-  sw_hold h = {.generation = s->serial + 1,
-               .alive = 1,
+  sw_hold h = {.alive = 1,
                .cls = sw_link_find("clamp"),
                .wire = object.slot,
                .args = {.direction = {NAN, NAN, NAN}},
-               .scale = 1,
-               .shape = s->serial + 1};
+               .scale = 1};
   char usual[SW_NAME_SIZE];
   snprintf(usual, sizeof usual, "clamp%zu", s->hold_count + 1);
   snprintf(h.name, sizeof h.name, "%s", name[0] ? name : usual);
   sw_status status = sw_scene_thaw(s);
-  if (status == SW_OK)
-    status = sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds);
   if (status == SW_OK) status = take(w, &h, particles, count, at);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);
   if (status != SW_OK) {
     sw_hold_clear(&h);
     return sw_fail(err, status, "clamp: out of memory");
   }
-  *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
-  s->holds[s->hold_count++] = h;
+  s->holds[out->slot].shape = out->generation;
   return SW_OK;
 }

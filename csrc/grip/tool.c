@@ -31,20 +31,16 @@ static const double LIMIT = 0.9; /* of the margin of a frozen grip, unless told 
 
 sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (sw_grow((void **)&s->tools, &s->tool_capacity, s->tool_count + 1, sizeof *s->tools) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
-  sw_tool *t = &s->tools[s->tool_count];
-  *t = (sw_tool){.generation = ++s->serial,
-                 .alive = 1,
-                 .drive = {.pose = {args->at, args->rotation}},
-                 .jaw = {.opening = args->opening, .since = s->time, .force = HUGE_VAL},
-                 .tolerance = SLIP,
-                 .limit = LIMIT,
-                 .now = {.centre = args->at, .q = args->rotation}};
-  t->now.slip_time = t->now.slip_place = t->now.lost_time = NAN;
-  sw_scene_give_name(t->name, args->name, "gripper", s->tool_count);
-  *out = (sw_handle){(uint32_t)s->tool_count++, s->serial};
-  return SW_OK;
+  sw_tool t = {.alive = 1,
+               .drive = {.pose = {args->at, args->rotation}},
+               .jaw = {.opening = args->opening, .since = s->time, .force = HUGE_VAL},
+               .tolerance = SLIP,
+               .limit = LIMIT,
+               .now = {.centre = args->at, .q = args->rotation}};
+  t.now.slip_time = t.now.slip_place = t.now.lost_time = NAN;
+  sw_scene_give_name(t.name, args->name, "gripper", s->tool_count);
+  if (sw_scene_add(s, SW_OF_TOOL, &t, out) == SW_OK) return SW_OK;
+  return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
 }
 
 /* The pose in the frame of a tool at its present place. */
