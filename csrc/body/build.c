@@ -206,8 +206,7 @@ static sw_status new_plans(sw_scene *s, sw_plan **plans) {
     const sw_scene_wire *wire = &s->wires[w];
     size_t n = 0;
     int number = 0;
-    for (size_t k = 0; k < s->hold_count; k++) {
-      const sw_hold *h = &s->holds[k];
+    SW_EACH(hold, h, s) {
       if (!h->alive) continue;
       if (h->wire == w)
         places[n++] = (sw_hold_place){
@@ -367,9 +366,9 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
     size_t alive = 0, rails = 0;
     SW_TRY(sw_scene_check_holds(s, err));
-    for (size_t k = 0; k < s->hold_count; k++) {
-      alive += s->holds[k].alive != 0;
-      rails += s->holds[k].alive && s->holds[k].cls->hold->rail;
+    SW_EACH(hold, h, s) {
+      alive += h->alive != 0;
+      rails += h->alive && h->cls->hold->rail;
     }
     sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;

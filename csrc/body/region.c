@@ -31,8 +31,7 @@ static size_t find_parts(const sw_scene *s, size_t wire, const double region[2],
                          double length, part *out) {
   size_t n = 0, kept = 0;
   out[n++] = (part){region[0], region[1], (double)NAN};
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *hold = sw_scene_hold_in(s, k);
+  SW_EACH(hold, hold, s) {
     if (!hold->alive || hold->wire != wire || !hold->cls->hold->direction) continue;
     out[n++] = (part){hold->s1 - BESIDE * h, hold->s2 + BESIDE * h, hold->s1};
   }

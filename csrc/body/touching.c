@@ -113,8 +113,8 @@ static int may_move(void *user, int o) {
 
 /* What nothing touches now remembers nothing of when something did. */
 void sw_scene_inform_contact(sw_scene *s) {
-  for (size_t k = 0; k < s->obstacle_count; k++)
-    if (!s->obstacles[k].alive || s->obstacles[k].off) s->obstacles[k].past = (sw_contact_past){0};
+  SW_EACH(obstacle, o, s)
+    if (!o->alive || o->off) o->past = (sw_contact_past){0};
   sw_contact_recall(s->contact, past_of, may_move);
 }
 

@@ -61,8 +61,7 @@ static int passes_by(const sw_force_class *cls, const sw_scene_wire *w) {
 
 sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
                                sw_error *err) {
-  for (size_t k = 0; k < s->force_count; k++) {
-    const sw_scene_force *f = &s->forces[k];
+  SW_EACH(force, f, s) {
     if (f->alive && (f->wire < 0 ? !passes_by(f->cls, as) : f->wire == (long)wire))
       SW_TRY(check_wire(f->cls, as, f->args, err));
   }

@@ -3,16 +3,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "body/build.h"
 #include "body/obstacle_log.h"
 #include "edit/edit.h"
 #include "edit/links.h"
+#include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/driven.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 static const sw_param obstacle_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
@@ -41,7 +41,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                          .friction = args->friction,
                          .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
                          .restitution = args->restitution};
-  sw_scene_give_name(o.name, args->name, sw_shape_kind(shape), s->obstacle_count);
+  sw_scene_give_name(o.name, args->name, sw_shape_kind(shape), sw_scene_obstacle_slots(s));
   sw_obstacle_log_begin(s, &o);
   SW_TRY(sw_scene_add(s, SW_OF_OBSTACLE, &o, out));
   sw_shape_retain(shape);
@@ -87,7 +87,7 @@ sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_thaw(s));
   o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;
-  sw_course_jump(&s->course);
+  sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 
@@ -95,7 +95,7 @@ sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about,
                                   sw_vec *moment, sw_error *err) {
   if (!sw_scene_find_obstacle(s, obstacle, err)) return SW_EDEAD;
   SW_TRY(sw_scene_readable(s, err));
-  sw_obstacle_mean(&s->obstacles[obstacle.slot], about, force, moment);
+  sw_obstacle_mean(sw_scene_obstacle_in(s, obstacle.slot), about, force, moment);
   return SW_OK;
 }
 

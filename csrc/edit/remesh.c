@@ -120,8 +120,7 @@ static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_
 
 /* The wire's direction at the end s of a living hold, which leaves or arrives there. */
 static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
       return sw_rotate(h->turn, h->director[leaves]);
   }
@@ -152,10 +151,10 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
   size_t count = 0;
   double *held = sw_alloc(2 * s->hold_count, sizeof *held);
   if (!held) return SW_ENOMEM;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
-    held[2 * count] = s->holds[k].s1;
-    held[2 * count++ + 1] = s->holds[k].s2;
+  SW_EACH(hold, h, s) {
+    if (!h->alive || h->wire != wire) continue;
+    held[2 * count] = h->s1;
+    held[2 * count++ + 1] = h->s2;
   }
   sw_status status = new_places(s, wire, segments, &places);
   if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
@@ -179,12 +178,11 @@ static int is_drawn(const sw_scene_wire *w) {
 /* Feeding makes and takes nodes of its own, at places that another mesh would not know; a mesh
  * of particles is what it was made. */
 static sw_status check_fed(const sw_scene *s, sw_error *err) {
-  for (size_t w = 0; w < s->wire_count; w++)
-    SW_TRY(sw_scene_check_line(&s->wires[w], "another number of segments", err));
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && sw_hold_passes(&s->holds[k]))
+  SW_EACH(wire, wire, s) SW_TRY(sw_scene_check_line(wire, "another number of segments", err));
+  SW_EACH(hold, h, s)
+    if (h->alive && sw_hold_passes(h))
       return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': it cannot be meshed anew",
-                     s->wires[s->holds[k].wire].name, s->holds[k].name);
+                     s->wires[h->wire].name, h->name);
   for (size_t w = 0; w < s->wire_count; w++)
     if (s->wires[w].mesh.s[0] != 0)
       return sw_fail(err, SW_EINVAL, "wire '%s' has been fed: it cannot be meshed anew",

@@ -10,8 +10,8 @@
 #include "record/wear.h"
 #include "record/zone.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/mesh.h"
 #include "state/plan.h"
 
@@ -219,7 +219,7 @@ static sw_status draw_wire(sw_scene *s, sw_scene_wire *w, const sw_wire_args *ar
     SW_TRY(sw_scene_draw(w, segments, &w->mesh, err));
   if (!w->cls->mesh && args->rest_twist != 0 && sw_scene_draw_untwisted(w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
-  return sw_scene_check_rules(s, s->wire_count, w, err);
+  return sw_scene_check_rules(s, sw_scene_wire_slots(s), w, err);
 }
 
 sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
@@ -229,7 +229,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
   sw_scene_wire w = {.cls = sw_wire_all()[args->model], .beam = *beam};
-  sw_scene_give_name(w.name, args->name, "wire", s->wire_count);
+  sw_scene_give_name(w.name, args->name, "wire", sw_scene_wire_slots(s));
   if (!points && (isnan(args->from.x) || isnan(args->to.x)))
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)

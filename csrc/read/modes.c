@@ -105,12 +105,12 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
 }
 
 static sw_status check_joins(const sw_scene *s, size_t w, sw_error *err) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == w && s->holds[k].cls->hold->rail)
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == w && h->cls->hold->rail)
       return sw_fail(err, SW_EINVAL,
                      "frequencies: wire '%s' slides along '%s'; only wires without rails are "
                      "looked at",
-                     s->wires[w].name, s->holds[k].name);
+                     s->wires[w].name, h->name);
   const sw_joint *join = sw_scene_joined(s, w);
   if (!join) return SW_OK;
   return sw_fail(err, SW_EINVAL,

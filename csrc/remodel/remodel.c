@@ -92,14 +92,12 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
     return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is curved at rest", w->name);
   if (w->mesh.s[0] != 0) return sw_fail(err, SW_EINVAL, "remodel: wire '%s' has been fed", w->name);
   if (cls->mesh && sw_scene_joined(s, wire)) return sw_scene_check_line(&as, "scene:join", err);
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == wire && sw_hold_passes(&s->holds[k]))
-      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name,
-                     s->holds[k].name);
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == wire && s->holds[k].cls->hold->rail)
-      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name,
-                     s->holds[k].name);
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire && sw_hold_passes(h))
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name, h->name);
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire && h->cls->hold->rail)
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name, h->name);
   return sw_scene_check_rules(s, wire, &as, err);
 }
 

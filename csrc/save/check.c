@@ -183,17 +183,17 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
 void sw_tape_check_scene(sw_tape *t, sw_scene *s) {
   sw_tape_check_numbers(t, s);
   for (size_t k = 0; k < s->rule_count; k++) check_rule(t, s, &s->rules[k]);
-  for (size_t k = 0; k < s->force_count; k++) check_force(t, s, &s->forces[k]);
+  SW_EACH(force, f, s) check_force(t, s, f);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++) check_wire(t, s, w);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) check_hold(t, s, &s->holds[k]);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++)
     if (s->wires[w].strand.web) check_particles(t, s, w);
-  for (size_t k = 0; k < s->join_count; k++) check_join(t, s, &s->joins[k]);
-  for (size_t k = 0; k < s->tool_count; k++) check_tool(t, s, &s->tools[k]);
-  for (size_t k = 0; k < s->hold_count; k++) check_drive(t, s, &s->holds[k].drive);
-  for (size_t k = 0; k < s->obstacle_count; k++) check_drive(t, s, &s->obstacles[k].drive);
-  for (size_t k = 0; k < s->obstacle_count; k++)
-    sw_tape_expect(t, s->obstacles[k].log.count % SW_LOG_OBSTACLE_SIZE == 0, "an obstacle's log");
+  SW_EACH(join, j, s) check_join(t, s, j);
+  SW_EACH(tool, tool, s) check_tool(t, s, tool);
+  SW_EACH(hold, h, s) check_drive(t, s, &h->drive);
+  SW_EACH(obstacle, o, s) check_drive(t, s, &o->drive);
+  SW_EACH(obstacle, o, s)
+    sw_tape_expect(t, o->log.count % SW_LOG_OBSTACLE_SIZE == 0, "an obstacle's log");
   if (sw_tape_good(t)) check_kept(t, s);
   sw_tape_expect(t, isfinite(s->time) && sw_finite(s->gravity), "the time of a scene");
 }

@@ -30,8 +30,7 @@ static void ask_again(sw_scene *s, sw_kind kind) {
 /* Does it hold wires, whose speed then jumps? Pads alone push by where they are, not how fast. */
 static int holds_any(const sw_scene *s, sw_kind kind, sw_handle of) {
   int any = kind != SW_OF_TOOL;
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *h = sw_scene_hold_in(s, k);
+  SW_EACH(hold, h, s) {
     any |= h->alive && h->drive.tool == 1 + of.slot;
   }
   return any;

@@ -26,8 +26,8 @@ enum { MOST_NUDGES = 2 };
 
 double sw_rest_longest(const sw_scene *s) {
   double length = 0;
-  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
-    const sw_mesh *m = &sw_scene_wire_in(s, w)->mesh;
+  SW_EACH(wire, wire, s) {
+    const sw_mesh *m = &wire->mesh;
     length = fmax(length, m->s[m->n - 1] - m->s[0]);
   }
   return length;

@@ -86,9 +86,8 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
 /* Is the rest of the wires independent of their past? */
 static int forgets(const sw_scene *s) {
   if (s->pairs || s->crowd || s->grains) return 0;
-  for (size_t o = 0; o < s->obstacle_count; o++)
-    if (s->obstacles[o].alive && fmax(s->obstacles[o].friction, s->obstacles[o].kinetic) > 0)
-      return 0;
+  SW_EACH(obstacle, obstacle, s)
+    if (obstacle->alive && fmax(obstacle->friction, obstacle->kinetic) > 0) return 0;
   for (size_t b = 0; b < s->system.body_count; b++)
     if (s->system.bodies[b].plan->web) return 0;
   return 1;
