@@ -13,9 +13,9 @@
 #include "edit/edit.h"
 #include "edit/forces.h"
 #include "force/solid.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/mesh.h"
 
 static const sw_param rows[] = {
@@ -360,19 +360,19 @@ sw_status sw_scene_add_particles(sw_scene *s, const sw_particles_args *args,
                                  const sw_particles_parts *parts, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   sw_scene_wire w = {.cls = &particles_class};
-  sw_scene_give_name(w.name, args->name, "particles", s->wire_count);
+  sw_scene_give_name(w.name, args->name, "particles", sw_scene_wire_slots(s));
   maker m = {.name = w.name, .parts = parts, .err = err};
   sw_error text = {""};
   m.err = &text;
   sw_status status = check(&m, args);
   if (status == SW_OK) status = sw_scene_thaw(s);
   if (status == SW_OK) status = make_body(&m, &w);
-  if (status == SW_OK) status = sw_scene_check_rules(s, s->wire_count, &w, &text);
+  if (status == SW_OK) status = sw_scene_check_rules(s, sw_scene_wire_slots(s), &w, &text);
   w.number = sw_scene_bodies_made(s);
   if (status == SW_OK) status = sw_scene_add(s, SW_OF_BODY, &w, out);
   if (status == SW_OK) {
     status = add_yield(s, m.web, *out, &text);
-    if (status != SW_OK) s->wire_count--;
+    if (status != SW_OK) sw_scene_unmake_body(s);
   }
   sw_web_release(m.web);
   if (status == SW_OK) return SW_OK;

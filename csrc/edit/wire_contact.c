@@ -46,6 +46,17 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
   return SW_OK;
 }
 
+sw_status sw_scene_check_touched(const sw_scene *s, size_t wire, const sw_scene_wire *as,
+                                 sw_error *err) {
+  for (size_t k = 0; k < s->rule_count; k++) {
+    const sw_scene_rule *r = &s->rules[k];
+    int mine = r->count == 0;
+    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
+  }
+  return SW_OK;
+}
+
 void sw_scene_drop_rules(sw_scene *s, size_t keep) {
   while (s->rule_count > keep) sw_free(s->rules[--s->rule_count].wires);
 }

@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/touching.h"
 #include "grip/frozen.h"
-#include "read/linear.h"
 #include "remodel/exchange.h"
 #include "scene/gripper.h"
 #include "scene/obstacle.h"

@@ -38,9 +38,26 @@ sw_system *sw_scene_system(const sw_scene *s) { return (sw_system *)&s->system; 
 sw_course *sw_scene_course(const sw_scene *s) { return (sw_course *)&s->course; }
 sw_books *sw_scene_books(const sw_scene *s) { return (sw_books *)&s->books; }
 sw_events *sw_scene_events_of(const sw_scene *s) { return (sw_events *)&s->events; }
+sw_hold_load *sw_scene_hold_loads(const sw_scene *s) { return s->hold_loads; }
+sw_log *sw_scene_contact_steps(const sw_scene *s) { return (sw_log *)&s->contact_steps; }
 sw_extreme *sw_scene_penetrated(const sw_scene *s) { return (sw_extreme *)&s->deepest; }
 
 void sw_scene_set_time(sw_scene *s, double time) { s->time = time; }
+int sw_scene_begin_look(sw_scene *s) {
+  const int running = s->running;
+  s->running = 0, s->looking = 1;
+  return running;
+}
+void sw_scene_end_look(sw_scene *s, int running) { s->running = running, s->looking = 0; }
+void sw_scene_go_part(sw_scene *s, const sw_pose *from, double share) {
+  s->part_from = from, s->part = share;
+}
+void sw_scene_renumber(sw_scene *s) { s->build = ++s->builds; }
+void sw_scene_forget_mesh(sw_scene *s, size_t wire) {
+  s->kept.changed = wire + 1;
+  sw_course_jump(&s->course);
+}
+void sw_scene_unmake_body(sw_scene *s) { s->wire_count--; }
 uint32_t sw_scene_number(sw_scene *s) { return ++s->serial; }
 
 #define ADD(type, list, count, capacity)                                         \

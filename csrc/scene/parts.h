@@ -25,6 +25,8 @@ typedef struct sw_contact sw_contact;
 typedef struct sw_pairs sw_pairs;
 typedef struct sw_grains sw_grains;
 typedef struct sw_crowd sw_crowd;
+typedef struct sw_hold_load sw_hold_load;
+typedef struct sw_log sw_log;
 
 /* Slots of each kind [-], and what is in one; some may be empty. */
 size_t sw_scene_wire_slots(const sw_scene *scene);
@@ -63,13 +65,27 @@ int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and hold
 sw_course *sw_scene_course(const sw_scene *scene);
 sw_books *sw_scene_books(const sw_scene *scene);
 sw_events *sw_scene_events_of(const sw_scene *scene);
-sw_extreme *sw_scene_penetrated(const sw_scene *scene); /* the deepest penetration of the run */
-int sw_scene_wears(const sw_scene *scene);              /* 1: what wears wires is kept */
+sw_hold_load *sw_scene_hold_loads(const sw_scene *scene); /* (holds) of the stage solved last */
+sw_log *sw_scene_contact_steps(const sw_scene *scene);    /* time and span of those observed [s] */
+sw_extreme *sw_scene_penetrated(const sw_scene *scene);   /* the deepest penetration of the run */
+int sw_scene_wears(const sw_scene *scene);                /* 1: what wears wires is kept */
 
 /* The given name, or kind and a number. */
 void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
 
 void sw_scene_set_time(sw_scene *scene, double time); /* [s] */
+/* An observer looks: what runs stands still, and nothing may be changed. Returns what is to be
+ * given back when it has. */
+int sw_scene_begin_look(sw_scene *scene);
+void sw_scene_end_look(sw_scene *scene, int running);
+/* Holds are at this share of their way from these poses; NULL: at its end. */
+void sw_scene_go_part(sw_scene *scene, const sw_pose *from, double share);
+/* The built system is another one now, as if it were built anew. */
+void sw_scene_renumber(sw_scene *scene);
+/* The wire has other nodes: contact remembers nothing of it, and its velocities jump. */
+void sw_scene_forget_mesh(sw_scene *scene, size_t wire);
+/* The body made last is none; nothing of it is freed. */
+void sw_scene_unmake_body(sw_scene *scene);
 /* Another number than any that was given before: a generation, a shape of a hold. */
 uint32_t sw_scene_number(sw_scene *scene);
 /* A copy of a new object into the list of its kind, with a number of its own. SW_ENOMEM. */
