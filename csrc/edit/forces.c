@@ -157,11 +157,9 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
   sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
-  const sw_scene_force *f = sw_scene_find_force(s, force, err);
-  if (!f) return SW_EDEAD;
+  SW_FIND(const sw_scene_force, f, sw_scene_find_force(s, force, err));
   const sw_force_class *cls = f->cls;
-  const sw_scene_wire *w = sw_scene_find_body(s, wire, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_body(s, wire, err));
   if (!cls->read) return sw_fail(err, SW_EINVAL, "force %s: there is nothing to read", cls->name);
   SW_TRY(sw_scene_build(s, err));
   sw_system_refresh(system);
@@ -175,8 +173,7 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
 }
 
 sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw_error *err) {
-  sw_scene_force *f = sw_scene_find_force(s, force, err);
-  if (!f) return SW_EDEAD;
+  SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
   snprintf(f->name, SW_NAME_SIZE, "%s", name);
   return SW_OK;
 }
@@ -201,8 +198,7 @@ sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw
 
 sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_force *f = sw_scene_find_force(s, force, err);
-  if (!f) return SW_EDEAD;
+  SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
   const sw_handle wire =
       f->wire < 0 ? (sw_handle){0, 0}
                   : (sw_handle){(uint32_t)f->wire, sw_scene_wire_in(s, f->wire)->generation};
@@ -219,8 +215,7 @@ sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_force *f = sw_scene_find_force(s, force, err);
-  if (!f) return SW_EDEAD;
+  SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
   if (!f->alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
   f->alive = 0;

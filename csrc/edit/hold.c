@@ -230,8 +230,7 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
 
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(sw_hold, h, sw_scene_find_hold(s, hold, err));
   if (!h->alive) return SW_OK;
   sw_motion_state now;
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
@@ -246,8 +245,7 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
   if (about) SW_TRY(sw_scene_object_pose(s, SW_OF_HOLD, hold, &pose, err));
   *force = h->force;
   *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
@@ -256,8 +254,7 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
 
 sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params **rows,
                              sw_hold_args *out, sw_error *err) {
-  const sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, sw_scene_living_hold(s, hold, err));
   *rows = &h->cls->params;
   *out = h->args;
   out->s -= sw_scene_wire_in(s, h->wire)->mesh.s[0];
@@ -268,8 +265,7 @@ sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params 
 
 sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
   SW_TRY(sw_scene_thaw(s));
   if (h->cls->hold->set) h->cls->hold->set(h, args);
   return SW_OK;
@@ -277,8 +273,7 @@ sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *arg
 
 sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, sw_scene_living_hold(s, hold, err));
   if (!h->cls->hold->rail)
     return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
                    h->cls->name, h->name);

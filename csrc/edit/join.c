@@ -39,8 +39,7 @@ void sw_scene_measure_joins(sw_scene *s) {
 /* --- making ----------------------------------------------------------------------- */
 
 static sw_status check_end(const sw_scene *s, const sw_join_end *ends, size_t k, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, ends[k].wire, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, ends[k].wire, err));
   const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
   if (!(ends[k].s >= 0 && ends[k].s <= length * (1 + 1e-9)))
     return sw_fail(err, SW_EINVAL,
@@ -192,8 +191,7 @@ size_t sw_scene_join_ends(const sw_scene *s, sw_handle h) {
 
 sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_joint *j = sw_scene_find_join(s, h, err);
-  if (!j) return SW_EDEAD;
+  SW_FIND(sw_joint, j, sw_scene_find_join(s, h, err));
   if (!j->alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
   j->alive = 0;
@@ -204,8 +202,7 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err));
-  const sw_joint *j = sw_scene_find_join(s, h, err);
-  if (!j) return SW_EDEAD;
+  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
   *force = *moment = sw_v(0, 0, 0);
   if (k >= j->count)
     return sw_fail(err, SW_EINVAL, "join '%s': end %zu is not one of its %zu", j->name, k + 1,

@@ -50,8 +50,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
 
 sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
+  SW_FIND(sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
   SW_TRY(sw_scene_thaw(s));
   if (sw_obstacle_log_fill(s, o) != SW_OK) return sw_fail(err, SW_ENOMEM, "out of memory");
   o->alive = 0;
@@ -68,8 +67,7 @@ sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **ou
 sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_args *out,
                                  sw_error *err) {
   sw_pose pose;
-  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
+  SW_FIND(const sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
   SW_TRY(sw_scene_object_pose(s, SW_OF_OBSTACLE, obstacle, &pose, err));
   *out = (sw_obstacle_args){.at = pose.p,
                             .rotation = pose.q,
@@ -82,8 +80,7 @@ sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_ar
 
 sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
                                         const sw_obstacle_args *args, sw_error *err) {
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
+  SW_FIND(sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_thaw(s));
   o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;

@@ -28,8 +28,7 @@ static sw_status open_particles(sw_scene *s, sw_handle h, sw_scene_wire **out, s
 }
 
 sw_status sw_scene_particles_info(sw_scene *s, sw_handle h, sw_particles_info *out, sw_error *err) {
-  const sw_scene_wire *w = find(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, find(s, h, err));
   const sw_web *web = w->strand.web;
   *out = (sw_particles_info){.particles = web->particles,
                              .links = web->links,
@@ -184,8 +183,7 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
                                   sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  const sw_scene_wire *w = find(s, object, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, find(s, object, err));
   SW_TRY(check_hold(s, w, object.slot, particles, count, err));
   sw_hold h = {.alive = 1,
                .cls = sw_link_find("clamp"),

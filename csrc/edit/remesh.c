@@ -270,8 +270,7 @@ sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_e
 }
 
 sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *segments = (size_t)fmax(1.0, round((w->mesh.s[w->mesh.n - 1] - w->mesh.s[0]) / w->mesh.spacing));
   return SW_OK;
 }

@@ -117,8 +117,7 @@ sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_err
   sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_editable(s, err));
-  const sw_joint *j = sw_scene_find_join(s, h, err);
-  if (!j) return SW_EDEAD;
+  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
   if (!j->cls->joint->pull)
     return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
   *out = (sw_tie_state){.peak = j->fate[SW_TIE_PEAK],

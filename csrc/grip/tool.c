@@ -92,8 +92,7 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
 
 sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   SW_TRY(sw_scene_thaw(s));
   for (size_t k = 0; k < t->pads; k++) sw_scene_obstacle_in(s, t->pad[k].obstacle)->off = !on;
   return SW_OK;
@@ -101,8 +100,7 @@ sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *e
 
 sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   sw_jaw *j = &t->jaw;
   if (j->force != args->force) SW_TRY(sw_scene_thaw(s)); /* contact is told */
   j->mode = args->mode;
@@ -115,8 +113,7 @@ sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *arg
 sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int stops,
                               sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   t->tolerance = tolerance, t->stops = stops;
   t->now.slipped = sw_v(0, 0, 0);
   t->now.slip = 0;
@@ -315,8 +312,7 @@ int sw_tool_slipped(const sw_scene *s) {
 
 sw_status sw_scene_tool_limit(sw_scene *s, sw_handle tool, double margin, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   t->limit = margin;
   t->now.lost_time = NAN;
   return SW_OK;
@@ -324,8 +320,7 @@ sw_status sw_scene_tool_limit(sw_scene *s, sw_handle tool, double margin, sw_err
 
 sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   *out = t->now;
   out->frozen = t->frozen != NULL;
   const int any = t->crash.depth > 0;

@@ -17,22 +17,19 @@
 #include "system/system.h"
 
 sw_status sw_scene_wire_length(sw_scene *s, sw_handle h, double *length, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
   return SW_OK;
 }
 
 sw_status sw_scene_wire_nodes(sw_scene *s, sw_handle h, size_t *nodes, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *nodes = w->mesh.n;
   return SW_OK;
 }
 
 sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_body(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_body(s, h, err));
   *particles = sw_body_state_of(w).points;
   return SW_OK;
 }
@@ -50,8 +47,7 @@ sw_status sw_scene_wire_particle_copy(sw_scene *s, sw_handle h, double *position
 }
 
 sw_status sw_scene_wire_beam(sw_scene *s, sw_handle h, sw_beam *out, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *out = w->beam;
   return SW_OK;
 }

@@ -39,8 +39,7 @@ static int holds_any(const sw_scene *s, sw_kind kind, sw_handle of) {
 sw_status sw_scene_object_follow(sw_scene *s, sw_kind kind, sw_handle of, sw_motion *motion,
                                  int relative, sw_error *err) {
   const char *name;
-  sw_drive *d = drive_of(s, kind, of, &name, err);
-  if (!d) return SW_EDEAD;
+  SW_FIND(sw_drive, d, drive_of(s, kind, of, &name, err));
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_drive_follow(s, d, name, motion, relative, err));
   if (holds_any(s, kind, of)) sw_course_jump(sw_scene_course(s));
@@ -51,8 +50,7 @@ sw_status sw_scene_object_follow(sw_scene *s, sw_kind kind, sw_handle of, sw_mot
 sw_status sw_scene_object_put(sw_scene *s, sw_kind kind, sw_handle of, sw_pose pose,
                               sw_error *err) {
   const char *name;
-  sw_drive *d = drive_of(s, kind, of, &name, err);
-  if (!d) return SW_EDEAD;
+  SW_FIND(sw_drive, d, drive_of(s, kind, of, &name, err));
   SW_TRY(sw_drive_put(s, d, name, pose, err));
   ask_again(s, kind);
   return SW_OK;
@@ -64,8 +62,7 @@ sw_status sw_scene_object_pose(sw_scene *s, sw_kind kind, sw_handle of, sw_pose 
   sw_motion_state now;
   const sw_hold *released = kind == SW_OF_HOLD ? sw_scene_find_hold(s, of, NULL) : NULL;
   if (released && !released->alive) return *out = released->last_pose, SW_OK;
-  const sw_drive *d = drive_of(s, kind, of, &name, err);
-  if (!d) return SW_EDEAD;
+  SW_FIND(const sw_drive, d, drive_of(s, kind, of, &name, err));
   SW_TRY(sw_drive_eval(s, d, sw_scene_time(s), &now, err));
   *out = now.pose;
   return SW_OK;

@@ -7,6 +7,12 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 
+/* Declares a pointer to what a call finds; returns SW_EDEAD from the function where it finds none.
+ */
+#define SW_FIND(type, name, call) \
+  type *name = (call);            \
+  if (!name) return SW_EDEAD
+
 sw_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
 /* The same of a hold that has not been released. */
 sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err);

@@ -140,8 +140,7 @@ int sw_hold_crashed(const sw_scene *s) {
 
 sw_status sw_scene_hold_crash(const sw_scene *s, sw_handle hold, double *time, double *depth,
                               const char **obstacle, sw_error *err) {
-  const sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, sw_scene_find_hold(s, hold, err));
   const sw_crash *c = &h->watch.crash;
   *time = c->depth > 0 ? c->time : (double)NAN;
   *depth = c->depth;

@@ -154,8 +154,7 @@ sw_status sw_scene_log(sw_scene *s, sw_kind kind, sw_handle of, const double **r
       [SW_OF_OBSTACLE] = SW_LOG_OBSTACLE_SIZE, [SW_OF_TOOL] = SW_LOG_TOOL_SIZE,
       [SW_OF_FORCE] = SW_LOG_FORCE_SIZE,       [SW_OF_JOIN] = SW_LOG_FORCE_SIZE};
   SW_TRY(sw_scene_readable(s, err));
-  const sw_log *log = log_of(s, kind, of, err);
-  if (!log) return SW_EDEAD;
+  SW_FIND(const sw_log, log, log_of(s, kind, of, err));
   *rows = log->rows;
   *count = log->count / width[kind];
   return SW_OK;

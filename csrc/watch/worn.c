@@ -9,8 +9,7 @@
 
 sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, int *partial,
                         sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *places = w->wear.count;
   *partial = w->wear.partial;
   return SW_OK;
