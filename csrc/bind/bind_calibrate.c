@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* Numbers are pushed in a protected call, so that what the core allocated is freed when Lua
  * runs out of memory. The function gets p as light userdata and returns one value. */
@@ -305,8 +304,5 @@ static int mod_cell(lua_State *L) {
   return 1;
 }
 
-void lsw_open_calibrate(lua_State *L) {
-  static const luaL_Reg functions[] = {
-      {"calibrate", mod_calibrate}, {"cell", mod_cell}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_calibrate[] = {
+    {"calibrate", mod_calibrate}, {"cell", mod_cell}, {NULL, NULL}};

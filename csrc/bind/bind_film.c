@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* Bytes on their way to Lua, freed whatever happens there. */
 static int free_film(lua_State *L) {
@@ -145,8 +144,6 @@ static int mod_page(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_film[] = {
     {"film", mod_film},     {"edges", mod_edges}, {"skin", mod_skin}, {"deflate", mod_deflate},
     {"base64", mod_base64}, {"page", mod_page},   {NULL, NULL}};
-
-void lsw_open_film(lua_State *L) { luaL_setfuncs(L, functions, 0); }

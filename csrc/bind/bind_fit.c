@@ -6,7 +6,6 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 enum { MOST = 10000000 }; /* numbers of a matrix */
 
@@ -105,11 +104,8 @@ static int mod_chi2_above(lua_State *L) {
   return 1;
 }
 
-void lsw_open_fit(lua_State *L) {
-  static const luaL_Reg functions[] = {{"least_squares", mod_least_squares},
-                                       {"singular", mod_singular},
-                                       {"student", mod_student},
-                                       {"chi2_above", mod_chi2_above},
-                                       {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_fit[] = {{"least_squares", mod_least_squares},
+                                   {"singular", mod_singular},
+                                   {"student", mod_student},
+                                   {"chi2_above", mod_chi2_above},
+                                   {NULL, NULL}};

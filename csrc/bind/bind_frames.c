@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvature", "contact",
                                                          "twist_moment", "stress",    NULL};
@@ -231,12 +230,10 @@ static int mod_frame_squeeze(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"frame_now", mod_frame_now},
-                                     {"frame_times", mod_frame_times},
-                                     {"frame_range", mod_frame_range},
-                                     {"keep_frames", mod_keep_frames},
-                                     {"frames_thinned", mod_frames_thinned},
-                                     {"frame_squeeze", mod_frame_squeeze},
-                                     {NULL, NULL}};
-
-void lsw_open_frames(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
+                                      {"frame_times", mod_frame_times},
+                                      {"frame_range", mod_frame_range},
+                                      {"keep_frames", mod_keep_frames},
+                                      {"frames_thinned", mod_frames_thinned},
+                                      {"frame_squeeze", mod_frame_squeeze},
+                                      {NULL, NULL}};

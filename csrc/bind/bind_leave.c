@@ -2,7 +2,6 @@
 /* What leaves a scene: see scene:remove, which is Lua's. */
 #include "bind/bind_shape.h"
 #include "bind/child.h"
-#include "bind/module.h"
 #include "bind/share.h"
 
 /* core.remove_body(wire or object of particles): what holds it lets go. */
@@ -25,9 +24,7 @@ static int mod_shape_of(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"remove_body", mod_remove_body},
+const luaL_Reg lsw_module_leave[] = {{"remove_body", mod_remove_body},
                                      {"remove_tool", mod_remove_tool},
                                      {"shape_of", mod_shape_of},
                                      {NULL, NULL}};
-
-void lsw_open_leave(lua_State *L) { luaL_setfuncs(L, functions, 0); }

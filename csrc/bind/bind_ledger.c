@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The energy ledger of the last run. */
 #include "bind/child.h"
-#include "bind/module.h"
 
 static void set_retries(lua_State *L, const char *name, const sw_retries *r) {
   lua_createtable(L, 0, 5);
@@ -78,7 +77,5 @@ static int mod_end_run(lua_State *L) {
   return 2;
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_ledger[] = {
     {"ledger", mod_ledger}, {"energy_log", mod_energy_log}, {"end_run", mod_end_run}, {NULL, NULL}};
-
-void lsw_open_ledger(lua_State *L) { luaL_setfuncs(L, functions, 0); }

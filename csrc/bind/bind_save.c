@@ -6,7 +6,6 @@
 
 #include "bind/child.h"
 #include "bind/mesh_child.h"
-#include "bind/module.h"
 
 typedef struct block {
   unsigned char *bytes;
@@ -138,9 +137,7 @@ static int mod_numbered(lua_State *L) {
   return luaL_error(L, "a scene has no objects of class '%s'", name);
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_save[] = {
     {"save", mod_save},     {"fields", mod_fields},     {"saved_note", mod_saved_note},
     {"load", mod_load},     {"resume", mod_resume},     {"items", mod_items},
     {"number", mod_number}, {"numbered", mod_numbered}, {NULL, NULL}};
-
-void lsw_open_save(lua_State *L) { luaL_setfuncs(L, functions, 0); }

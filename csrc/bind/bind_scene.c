@@ -5,7 +5,6 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 lsw_handle *lsw_new_scene(lua_State *L) {
   lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);
@@ -380,7 +379,7 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-static const luaL_Reg functions[] = {{"scene", mod_scene},
+const luaL_Reg lsw_module_scene[] = {{"scene", mod_scene},
                                      {"data", mod_data},
                                      {"type", mod_type},
                                      {"busy", mod_busy},
@@ -397,5 +396,3 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"redraw", mod_redraw},
                                      {"segments", mod_segments},
                                      {NULL, NULL}};
-
-void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

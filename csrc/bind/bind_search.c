@@ -8,7 +8,6 @@
 #include <math.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 static const char SEARCH[] = "softworld.search";
 
@@ -100,7 +99,4 @@ static int mod_eigen(lua_State *L) {
   return 2;
 }
 
-void lsw_open_search(lua_State *L) {
-  static const luaL_Reg functions[] = {{"search", mod_search}, {"eigen", mod_eigen}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_search[] = {{"search", mod_search}, {"eigen", mod_eigen}, {NULL, NULL}};

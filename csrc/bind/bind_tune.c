@@ -6,7 +6,6 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* The function is at stack index 2 of L, at which no one else looks. */
 typedef struct caller {
@@ -149,11 +148,8 @@ static int mod_normal_at(lua_State *L) {
   return 1;
 }
 
-void lsw_open_tune(lua_State *L) {
-  static const luaL_Reg functions[] = {{"minimise", mod_minimise},
-                                       {"quasi", mod_quasi},
-                                       {"normal_below", mod_normal_below},
-                                       {"normal_at", mod_normal_at},
-                                       {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_tune[] = {{"minimise", mod_minimise},
+                                    {"quasi", mod_quasi},
+                                    {"normal_below", mod_normal_below},
+                                    {"normal_at", mod_normal_at},
+                                    {NULL, NULL}};

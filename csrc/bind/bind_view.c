@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 static const char SERVER[] = "softworld.server";
 static const char FILM[] = "softworld.film_now";
@@ -109,7 +108,4 @@ static int mod_film_now(lua_State *L) {
   return 2;
 }
 
-static const luaL_Reg functions[] = {
-    {"serve", mod_serve}, {"film_now", mod_film_now}, {NULL, NULL}};
-
-void lsw_open_view(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_view[] = {{"serve", mod_serve}, {"film_now", mod_film_now}, {NULL, NULL}};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run did to its wires, place by place; and the count of cycles alone, for specs. */
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* A flat list of range, mean, number. */
 static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
@@ -81,10 +80,8 @@ static int mod_cycles(lua_State *L) {
   return push_cycles(L, list, sw_cycles_read(&c, list));
 }
 
-static const luaL_Reg functions[] = {{"worn", mod_worn},
-                                     {"worn_sidewall", mod_worn_sidewall},
-                                     {"worn_cycles", mod_worn_cycles},
-                                     {"cycles", mod_cycles},
-                                     {NULL, NULL}};
-
-void lsw_open_wear(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_wear[] = {{"worn", mod_worn},
+                                    {"worn_sidewall", mod_worn_sidewall},
+                                    {"worn_cycles", mod_worn_cycles},
+                                    {"cycles", mod_cycles},
+                                    {NULL, NULL}};
