@@ -343,7 +343,7 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
   if (!*changed) return SW_OK;
   const size_t count = s->system.hold_count;
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
-  sw_vec *axes = sw_alloc(2 * count, sizeof *axes);
+  sw_vec *axes SW_LOCAL = sw_alloc(2 * count, sizeof *axes);
   if (!axes) return sw_fail(err, SW_ENOMEM, "feed: out of memory");
   for (size_t k = 0; k < count; k++) {
     axes[2 * k] = sw_vec_at(s->system.directors_now, 2 * k + 1);
@@ -353,7 +353,6 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
   /* a shift may have put nodes a little way into what they touch: let out slowly, not thrown */
   if (status == SW_OK && !s->kept.fresh) s->kept.fresh = SW_CONTACT_EMERGING;
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
-  sw_free(axes);
   if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");
   if (status != SW_OK) return status;
   return sw_scene_build(s, err);

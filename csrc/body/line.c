@@ -91,14 +91,12 @@ enum { LEAST_EDGES = 4 };
 /* Halve every edge between the nodes at arc lengths low and high. */
 static sw_status halve_edges(sw_mesh *m, double low, double high) {
   const size_t first = sw_mesh_node(m, low), count = sw_mesh_node(m, high) - first + 1;
-  double placed, *nodes = sw_alloc(count, sizeof *nodes);
+  double placed, *nodes SW_LOCAL = sw_alloc(count, sizeof *nodes);
   if (!nodes) return SW_ENOMEM;
   memcpy(nodes, m->s + first, count * sizeof *nodes);
-  sw_status status = SW_OK;
-  for (size_t i = 0; i + 1 < count && status == SW_OK; i++)
-    status = sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed);
-  sw_free(nodes);
-  return status;
+  for (size_t i = 0; i + 1 < count; i++)
+    SW_TRY(sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed));
+  return SW_OK;
 }
 
 /* Enough edges between h and the holds beside it. */

@@ -139,13 +139,11 @@ static int grains_fit(const sw_scene *s, const sw_live *p) {
   sw_system *system = sw_scene_system(s);
   const size_t n = system->body_count;
   if (!p->grains_size) return 1;
-  size_t *first = sw_alloc(n + 1, sizeof *first);
+  size_t *first SW_LOCAL = sw_alloc(n + 1, sizeof *first);
   if (!first) return 0;
   for (size_t b = 0; b < n; b++) first[b] = system->bodies[b].first_node;
   first[n] = system->nodes;
-  const int fits = sw_grains_memory_fits(p->grains, p->grains_size, first, n);
-  sw_free(first);
-  return fits;
+  return sw_grains_memory_fits(p->grains, p->grains_size, first, n);
 }
 
 int sw_live_fits(const sw_scene *s, const sw_live *p) {

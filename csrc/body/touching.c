@@ -26,14 +26,13 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
   int any = 0;
   const size_t n = s->wire_count;
   if (!s->rule_count) return SW_OK;
-  sw_pair_rule *table = sw_alloc(n * n, sizeof *table);
+  sw_pair_rule *table SW_LOCAL = sw_alloc(n * n, sizeof *table);
   if (!table) return SW_ENOMEM;
   for (size_t k = 0; k < s->rule_count; k++) state_rule(&s->rules[k], n, table);
   for (size_t k = 0; k < n * n; k++) any |= table[k].on;
-  sw_status status = any ? sw_pairs_new(table, n, &s->pairs) : SW_OK;
-  if (any && status == SW_OK) status = sw_grains_new(&s->system, table, &s->grains);
-  sw_free(table);
-  return status;
+  if (!any) return SW_OK;
+  SW_TRY(sw_pairs_new(table, n, &s->pairs));
+  return sw_grains_new(&s->system, table, &s->grains);
 }
 
 /* --- the system's coupling ------------------------------------------------------- */

@@ -50,7 +50,7 @@ static double solve_one(const double *a, const double *s, const gsl_matrix *fact
 }
 
 sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, double *left) {
-  double *work = sw_alloc(n * n + 4 * n, sizeof *work);
+  double *work SW_LOCAL = sw_alloc(n * n + 4 * n, sizeof *work);
   if (!work) return SW_ENOMEM;
   double *s = work + n * n;
   int finite = 1;
@@ -68,6 +68,5 @@ sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, 
     if (left) left[k] = share;
   }
   gsl_set_error_handler(before);
-  sw_free(work);
   return failed ? SW_ESINGULAR : SW_OK;
 }

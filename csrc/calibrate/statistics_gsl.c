@@ -16,7 +16,7 @@ double sw_student(double p, double freedom) {
 double sw_chi2_above(double x, double freedom) { return gsl_cdf_chisq_Q(x, freedom); }
 
 sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err) {
-  double *copy = sw_alloc(rows * n, sizeof *copy);
+  double *copy SW_LOCAL = sw_alloc(rows * n, sizeof *copy);
   if (!copy) return sw_fail(err, SW_ENOMEM, "singular values: out of memory");
   memcpy(copy, a, rows * n * sizeof *copy);
   gsl_error_handler_t *before = gsl_set_error_handler_off();
@@ -25,7 +25,6 @@ sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double 
   gsl_vector_view values = gsl_vector_view_array(s, n);
   const int status = gsl_linalg_SV_decomp_jacobi(&left.matrix, &right.matrix, &values.vector);
   gsl_set_error_handler(before);
-  sw_free(copy);
   if (status != GSL_SUCCESS)
     return sw_fail(err, SW_ESINGULAR, "singular values: %s", gsl_strerror(status));
   return SW_OK;

@@ -154,7 +154,7 @@ static double area_of(const paper *g, const sw_face *f) {
 }
 
 static void list_faces(paper *g) {
-  uint32_t *seen = sw_alloc(g->d->face_count, sizeof *seen);
+  uint32_t *seen SW_LOCAL = sw_alloc(g->d->face_count, sizeof *seen);
   if (!seen) g->status = SW_ENOMEM;
   for (size_t i = 0; seen && i < g->layer.width * g->layer.height; i++) {
     const uint32_t id = g->layer.id[i];
@@ -167,7 +167,6 @@ static void list_faces(paper *g) {
     if (seen[i] && (double)seen[i] > -0.5 * GLIMPSE * area_of(g, f))
       g->status = add_item(g, depth, i, 0);
   }
-  sw_free(seen);
 }
 
 static void put_face(paper *g, const sw_face *f) {

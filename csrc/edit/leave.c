@@ -193,7 +193,7 @@ void sw_tape_gone(sw_tape *t, sw_gone *x) {
 /* Numbers of frames are those of all that were ever made, each once. */
 void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
   const size_t made = sw_scene_bodies_made(s);
-  unsigned char *taken = sw_alloc(made, 1);
+  unsigned char *taken SW_LOCAL = sw_alloc(made, 1);
   if (!taken) sw_tape_fail(t, SW_ENOMEM);
   for (size_t k = 0; k < made && sw_tape_good(t); k++) {
     const size_t number =
@@ -201,5 +201,4 @@ void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
     const int in_order = !k || k >= s->wire_count || s->wires[k - 1].number < number;
     sw_tape_expect(t, number < made && in_order && !taken[number]++, "the numbers of wires");
   }
-  sw_free(taken);
 }

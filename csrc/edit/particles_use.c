@@ -124,28 +124,24 @@ static sw_status check_hold(const sw_scene *s, const sw_scene_wire *w, size_t sl
                             const uint32_t *particles, size_t count, sw_error *err) {
   const size_t n = w->strand.web->particles;
   if (!count) return sw_fail(err, SW_EINVAL, "clamp: particles of '%s' to be held: none", w->name);
-  unsigned char *taken = sw_alloc(n, 1);
+  unsigned char *taken SW_LOCAL = sw_alloc(n, 1);
   if (!taken) return sw_fail(err, SW_ENOMEM, "clamp: out of memory");
-  const sw_hold *by = NULL;
-  sw_status status = SW_OK;
-  for (size_t i = 0; i < count && status == SW_OK; i++) {
+  for (size_t i = 0; i < count; i++) {
     if (particles[i] >= n)
-      status = sw_fail(err, SW_EINVAL, "clamp: '%s' has no particle %lu; it has %zu, from 1 on",
-                       w->name, (unsigned long)particles[i] + 1, n);
-    else if (taken[particles[i]]++)
-      status = sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' comes twice",
-                       (unsigned long)particles[i] + 1, w->name);
+      return sw_fail(err, SW_EINVAL, "clamp: '%s' has no particle %lu; it has %zu, from 1 on",
+                     w->name, (unsigned long)particles[i] + 1, n);
+    if (taken[particles[i]]++)
+      return sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' comes twice",
+                     (unsigned long)particles[i] + 1, w->name);
   }
-  for (size_t k = 0; k < sw_scene_hold_slots(s) && status == SW_OK; k++) {
-    by = sw_scene_hold_in(s, k);
+  SW_EACH(hold, by, s) {
     if (!by->alive || by->wire != slot) continue;
-    for (size_t i = 0; i < by->count && status == SW_OK; i++)
+    for (size_t i = 0; i < by->count; i++)
       if (taken[by->particle[i]])
-        status = sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' is already held by '%s'",
-                         (unsigned long)by->particle[i] + 1, w->name, by->name);
+        return sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' is already held by '%s'",
+                       (unsigned long)by->particle[i] + 1, w->name, by->name);
   }
-  sw_free(taken);
-  return status;
+  return SW_OK;
 }
 
 static int by_number(const void *a, const void *b) {

@@ -150,7 +150,7 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh places = {0}, fresh = {0};
   size_t count = 0;
-  double *held = sw_alloc(2 * sw_scene_hold_slots(s), sizeof *held);
+  double *held SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s), sizeof *held);
   if (!held) return SW_ENOMEM;
   SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != wire) continue;
@@ -166,7 +166,6 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
     w->mesh.spacing = places.spacing;
   }
   sw_mesh_free(&places);
-  sw_free(held);
   return status;
 }
 

@@ -124,15 +124,13 @@ static sw_status solve_part(spline *s, int part, double *diagonal, double *besid
 
 static sw_status solve_slopes(spline *s) {
   const size_t n = s->count;
-  double *work = sw_alloc(4 * n, sizeof *work);
+  double *work SW_LOCAL = sw_alloc(4 * n, sizeof *work);
   if (!work) return SW_ENOMEM;
-  sw_status status = SW_OK;
   gsl_set_error_handler_off(); /* a status is enough */
   matrix(s, work, work + n);
-  for (int part = 0; part < (s->turns ? PARTS : 3) && status == SW_OK; part++)
-    status = solve_part(s, part, work, work + n, work + 2 * n, work + 3 * n);
-  sw_free(work);
-  return status;
+  for (int part = 0; part < (s->turns ? PARTS : 3); part++)
+    SW_TRY(solve_part(s, part, work, work + n, work + 2 * n, work + 3 * n));
+  return SW_OK;
 }
 
 static sw_status fill(spline *s, const sw_route *route, sw_error *err) {

@@ -180,12 +180,10 @@ static sw_status fit_window(sw_scene *s, size_t w) {
   const sw_body *b = &s->system.bodies[w];
   const size_t n = watched_edges(b);
   if (window->edges == n) return SW_OK;
-  double *places = sw_alloc(n, sizeof *places);
+  double *places SW_LOCAL = sw_alloc(n, sizeof *places);
   if (!places) return SW_ENOMEM;
   for (size_t e = 0; e < n; e++) places[e] = watched_place(b, e);
-  const sw_status status = sw_window_fit(window, n, places);
-  sw_free(places);
-  return status;
+  return sw_window_fit(window, n, places);
 }
 
 /* The largest mean over the window up to now. */

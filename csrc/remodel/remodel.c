@@ -48,22 +48,21 @@ static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w
 
 /* The wire's living holds take hold of what it has become, each where its pose is now. */
 static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
-  unsigned char *waits = sw_alloc(sw_scene_hold_slots(s), 1);
+  unsigned char *waits SW_LOCAL = sw_alloc(sw_scene_hold_slots(s), 1);
   if (!waits) return SW_ENOMEM;
   for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     sw_hold *h = sw_scene_hold_in(s, k);
     waits[k] = h->alive && h->wire == wire;
     if (waits[k]) h->alive = 0; /* where it held the wire that was is not in the others' way */
   }
-  sw_status status = SW_OK;
-  for (size_t k = 0; k < sw_scene_hold_slots(s) && status == SW_OK; k++) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     sw_motion_state now;
+    sw_hold *h = sw_scene_hold_in(s, k);
     if (!waits[k]) continue;
-    status = sw_drive_eval(s, &sw_scene_hold_in(s, k)->drive, sw_scene_time(s), &now, err);
-    if (status == SW_OK) status = sw_scene_rehold(s, sw_scene_hold_in(s, k), now.pose, err);
+    SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
+    SW_TRY(sw_scene_rehold(s, h, now.pose, err));
   }
-  sw_free(waits);
-  return status;
+  return SW_OK;
 }
 
 /* --- all of it ----------------------------------------------------------------------- */

@@ -59,7 +59,7 @@ static void check_wire(sw_tape *t, const sw_scene *s, size_t number) {
 /* No particle of a mesh is held twice, or does not exist. */
 static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
   const sw_web *web = s->wires[wire].strand.web;
-  unsigned char *taken = sw_alloc(web->particles, 1);
+  unsigned char *taken SW_LOCAL = sw_alloc(web->particles, 1);
   if (!taken) sw_tape_fail(t, SW_ENOMEM);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) {
     const sw_hold *h = &s->holds[k];
@@ -69,7 +69,6 @@ static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
       sw_tape_expect(t, h->particle[i] < web->particles && !taken[h->particle[i]]++,
                      "a clamp's particles");
   }
-  sw_free(taken);
 }
 
 static void check_crash(sw_tape *t, const sw_scene *s, const sw_hold *h) {

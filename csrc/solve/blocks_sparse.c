@@ -67,18 +67,15 @@ static void unite(size_t nodes, uint32_t *first, uint32_t *column) {
 }
 
 static sw_status find_pattern(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count) {
-  uint32_t *work = sw_alloc(s->nodes + 1 + count, sizeof *work);
+  uint32_t *work SW_LOCAL = sw_alloc(s->nodes + 1 + count, sizeof *work);
   s->first = sw_alloc(s->nodes + 1, sizeof *s->first);
   s->column = sw_alloc(count + s->nodes, sizeof *s->column);
-  const sw_status status = work && s->first && s->column ? SW_OK : SW_ENOMEM;
-  if (status == SW_OK) {
-    uint32_t *order = work + s->nodes + 1;
-    sort_by_column(s->nodes, pairs, count, work, order);
-    sort_by_row(s->nodes, pairs, count, order, s->first, s->column);
-    unite(s->nodes, s->first, s->column);
-  }
-  sw_free(work);
-  return status;
+  if (!work || !s->first || !s->column) return SW_ENOMEM;
+  uint32_t *order = work + s->nodes + 1;
+  sort_by_column(s->nodes, pairs, count, work, order);
+  sort_by_row(s->nodes, pairs, count, order, s->first, s->column);
+  unite(s->nodes, s->first, s->column);
+  return SW_OK;
 }
 
 /* The blocks below each node's own one. */

@@ -162,11 +162,10 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
 /* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
  * transposed. */
 static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
-  sw_blocks_pair *same = sw_alloc(count, sizeof *same);
+  sw_blocks_pair *same SW_LOCAL = sw_alloc(count, sizeof *same);
   if (!same) return SW_ENOMEM;
   for (size_t k = 0; k < count; k++) same[k] = (sw_blocks_pair){pairs[k].i, pairs[k].j};
   const sw_status status = sw_blocks_new_sparse(s->n, same, count, &s->fronts);
-  sw_free(same);
   for (size_t k = 0; k < count && status == SW_OK; k++) {
     const uint32_t i = pairs[k].i, j = pairs[k].j;
     const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);

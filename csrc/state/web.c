@@ -51,7 +51,8 @@ sw_status sw_web_add_surface(sw_web *w) {
   sw_free(w->side);
   w->side = sw_alloc(2 * w->particles, sizeof *w->side);
   if (!w->side) return SW_ENOMEM;
-  uint32_t *next = sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
+  uint32_t *next SW_LOCAL =
+      sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
   if (!next) return SW_ENOMEM;
   for (size_t i = 0; i < w->per_ring; i++) next[i] = (uint32_t)i;
   for (size_t k = 0; k < n; k++) next[w->around[k]] = w->around[(k + 1) % n];
@@ -68,7 +69,6 @@ sw_status sw_web_add_surface(sw_web *w) {
         w->side[count++] = (uint32_t)(w->first[r + 1] + i);
     }
   w->side_first[w->particles] = count;
-  sw_free(next);
   return SW_OK;
 }
 
@@ -79,7 +79,7 @@ size_t sw_web_ring_of(const sw_web *w, size_t particle) {
 }
 
 sw_status sw_web_bound_rate(sw_web *w) {
-  double *sum = sw_alloc(w->particles, sizeof *sum);
+  double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
   for (size_t e = 0; e < w->links; e++) {
     sum[w->link[e].a] += w->link[e].k;
@@ -90,13 +90,12 @@ sw_status sw_web_bound_rate(sw_web *w) {
     w->rate2 = fmax(w->rate2, 2.0 * sum[p] / w->mass[p]);
     w->behind[p] += sum[p];
   }
-  sw_free(sum);
   return SW_OK;
 }
 
 /* Along, the force on one edge has the other's distance as its lever. */
 sw_status sw_web_bound_slides(sw_web *w) {
-  double *sum = sw_alloc(w->particles, sizeof *sum);
+  double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
   for (size_t i = 0; i < w->slides; i++) {
     const sw_web_slide *s = &w->slide[i];
@@ -107,7 +106,6 @@ sw_status sw_web_bound_slides(sw_web *w) {
   w->slide_rate2 = 0;
   for (size_t p = 0; p < w->particles; p++)
     w->slide_rate2 = fmax(w->slide_rate2, sum[p] / w->mass[p]);
-  sw_free(sum);
   return SW_OK;
 }
 

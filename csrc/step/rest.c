@@ -172,13 +172,10 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
                         int (*interrupted)(void), sw_settle_report *report, sw_error *why) {
   sw_system *system = sw_scene_system(s);
   const size_t n = system->freedoms, size = system->state_size;
-  double *block = sw_alloc(4 * n + system->edges + 2 * size, sizeof *block);
-  sw_pose *poses = sw_alloc(system->hold_count, sizeof *poses);
-  if (!block || !poses) {
-    sw_free(block);
-    sw_free(poses);
+  double *block SW_LOCAL = sw_alloc(4 * n + system->edges + 2 * size, sizeof *block);
+  sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
+  if (!block || !poses)
     return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
-  }
   sw_statics p = {.s = s,
                   .args = args,
                   .report = report,
@@ -202,8 +199,6 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
     sw_rest_take_back(s, p.begun);
   }
   sw_course_jump(sw_scene_course(s));
-  sw_free(block);
-  sw_free(poses);
   return status;
 }
 

@@ -240,7 +240,7 @@ static void find_around(const sw_lattice *l, uint32_t *around, size_t *count) {
  * steps of explicit methods. SW_ENOMEM. */
 static sw_status bound_solids(sw_web *w, const double *x) {
   double at[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
-  double *sum = sw_alloc(w->particles, sizeof *sum);
+  double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
   for (size_t n = 0; n < w->solids; n++) {
     const sw_web_solid *s = &w->solid[n];
@@ -258,7 +258,6 @@ static sw_status bound_solids(sw_web *w, const double *x) {
     w->solid_rate2 = fmax(w->solid_rate2, sum[p] / w->mass[p]);
     w->behind[p] += 0.5 * sum[p];
   }
-  sw_free(sum);
   return SW_OK;
 }
 

@@ -53,14 +53,12 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
 /* With more pairs (more x 2). */
 static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more, sw_blocks **out) {
   if (w->banded) return sw_blocks_new_rings(w->rings, w->per_ring, out);
-  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
+  sw_blocks_pair *pairs SW_LOCAL = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
   if (!pairs) return SW_ENOMEM;
   size_t count = pairs_of(w, pairs);
   for (size_t i = 0; i < more; i++)
     pairs[count++] = (sw_blocks_pair){others[2 * i], others[2 * i + 1]};
-  const sw_status status = sw_blocks_new_sparse(w->particles, pairs, count, out);
-  sw_free(pairs);
-  return status;
+  return sw_blocks_new_sparse(w->particles, pairs, count, out);
 }
 
 static size_t between(const sw_blocks *m, size_t a, size_t b) {
