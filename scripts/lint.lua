@@ -11,17 +11,17 @@
 local ROOMS = {
   base = {},
   motion = { "base" },
-  shape = { "base", "motion" },
+  shape = { "base" },
   state = { "base" },
   wire = { "base", "state" },
   force = { "base", "state" },
   solve = { "base" }, -- matrices only
   system = { "base", "state", "solve", "force" }, -- it evaluates the wires' forces
-  modal = { "base", "state", "solve", "system" },
-  integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
+  modal = { "base", "system" },
+  integrate = { "base", "system" }, -- a system, never a force or a wire
   contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
   link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
-  calibrate = { "base", "wire", "force", "solve" },
+  calibrate = { "base", "wire", "force" },
   record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   -- The rooms of a scene. Its lists, and what is in them:
@@ -48,7 +48,7 @@ local ROOMS = {
   remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
     "grip", "edit", "read", "save" },
   -- what makes it go on
-  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
+  step = { "base", "motion", "state", "force", "system", "integrate", "contact", "link", "scene",
     "body", "grip", "edit", "read", "watch" },
   film = { "base", "read" },
   view = { "base" }, -- bytes for pages; never a scene
