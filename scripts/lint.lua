@@ -73,6 +73,10 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
 local INSIDE = { "record", "strand", "scene", "body", "grip", "edit", "read", "watch", "save",
   "remodel", "step" }
 
+-- Headers that show a whole object's inside, and how many files may include them at most; others take
+-- what they need from narrow headers (scene/parts.h, scene/lookup.h).
+local MOST_INCLUDERS = { ["scene/world.h"] = 21 }
+
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }
 
@@ -316,7 +320,7 @@ local function check_outside_include(file, number, path, included)
 end
 
 function check.includes()
-  local members = {}
+  local members, includers = {}, {}
   local circle = circle_of_rooms(ROOMS)
   if circle then finding("scripts/lint.lua", 1, "rooms include one another in a circle: %s", circle) end
   for room in pairs(FAMILIES) do members[room] = members_of(room) end
@@ -330,6 +334,11 @@ function check.includes()
     for number, line in ipairs(lines_of(file)) do
       local bracket, included = line:match "^%s*#%s*include%s*([<\"])([^>\"]+)[>\"]"
       if included then
+        includers[included] = (includers[included] or 0) + 1
+        if includers[included] - 1 == MOST_INCLUDERS[included] then
+          finding(file, number, "%s has more than %d includers; take what is needed from a narrow header",
+            included, MOST_INCLUDERS[included])
+        end
         local own = bracket == '"' and not outside_rule(included)
         if not own then check_outside_include(file, number, path, included)
         elseif room then check_own_include(file, number, room, stem, included, members)
