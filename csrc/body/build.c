@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "body/body.h"
 #include "body/history.h"
@@ -164,8 +165,7 @@ static void inherit_twist(sw_scene *s) {
       const double s1 = b->plan->s[b->plan->spans[k].first];
       const double s2 = b->plan->s[b->plan->spans[k].last + 1];
       double *twist = &s->system.twist[b->first_span + k], unwound = s2 - s1;
-      for (size_t j = 0; j < wire->twisted_count; j++) {
-        const sw_twisted *old = &wire->twisted[j];
+      SW_ITEMS(const sw_twisted, old, wire->twisted, wire->twisted_count) {
         const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
         if (!(common > 0)) continue;
         *twist += old->twist * common / (old->s2 - old->s1);

@@ -36,8 +36,7 @@ static size_t find_parts(const sw_scene *s, size_t wire, const double region[2],
     out[n++] = (part){hold->s1 - BESIDE * h, hold->s2 + BESIDE * h, hold->s1};
   }
   qsort(out, n, sizeof *out, before);
-  for (size_t k = 0; k < n; k++) {
-    const part *p = &out[k];
+  SW_ITEMS(const part, p, out, n) {
     part *last = kept ? &out[kept - 1] : NULL;
     if (!last || p->from > last->to + NARROW * h) {
       out[kept++] = *p;

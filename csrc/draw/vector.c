@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "draw/light.h"
 #include "draw/pieces.h"
 
@@ -220,8 +221,7 @@ static void put_lines(paper *g, const sw_line *lines, size_t count, int hidden, 
     if (!sw_line_shows(&lines[i], g->view.camera.at)) continue;
     g->status = sw_line_stretches(&g->pieces, lines[i].p[0], lines[i].p[1], 0);
     for (int c = 0; c < 3; c++) linear[c] = sw_linear(pale + (1 - pale) * lines[i].colour[c]);
-    for (size_t k = 0; k < g->pieces.count; k++) {
-      const sw_stretch *s = &g->pieces.list[k];
+    SW_ITEMS(const sw_stretch, s, g->pieces.list, g->pieces.count) {
       if (s->hidden == hidden) put_stretch(g, s->from, s->to, linear, (double)lines[i].width);
     }
   }
@@ -239,8 +239,7 @@ static void put_piece(paper *g, const sw_piece *q) {
     const float x = sw_linear(q->colour[c]);
     body[c] = 0.86f * x, rim[c] = 0.38f * x, shine[c] = 0.75f * x + 0.25f;
   }
-  for (size_t k = 0; k < g->pieces.count; k++) {
-    const sw_stretch *s = &g->pieces.list[k];
+  SW_ITEMS(const sw_stretch, s, g->pieces.list, g->pieces.count) {
     if (s->hidden) continue;
     put_stretch(g, s->from, s->to, rim, width + 0.9);
     put(g, "<g stroke-linecap=\"round\">");

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "body/build.h"
 #include "body/history.h"
 #include "body/obstacle_log.h"
@@ -58,8 +59,7 @@ static void leave_holds(sw_scene *s, size_t wire) {
 
 static void leave_joins(sw_scene *s, size_t wire) {
   SW_EACH(join, j, s)
-    for (size_t i = 0; i < j->count; i++) {
-      sw_joint_end *e = &j->ends[i];
+    SW_ITEMS(sw_joint_end, e, j->ends, j->count) {
       if (e->wire == wire) j->alive = 0;
       e->wire = less(e->wire, wire);
     }
@@ -75,8 +75,7 @@ static void leave_forces(sw_scene *s, size_t wire) {
 /* A rule of no wires is one of all: what spoke of this wire alone goes. */
 static void leave_rules(sw_scene *s, size_t wire) {
   size_t kept = 0;
-  for (size_t k = 0; k < s->rule_count; k++) {
-    sw_scene_rule *r = &s->rules[k];
+  SW_ITEMS(sw_scene_rule, r, s->rules, s->rule_count) {
     const int of_all = r->count == 0;
     size_t n = 0;
     for (size_t i = 0; i < r->count; i++)
@@ -94,8 +93,7 @@ static void leave_memory(sw_scene *s, size_t wire) {
   size_t kept = 0;
   for (size_t w = 0; s->kept.memory && w < s->kept.wires; w++)
     s->kept.now[w] = less(s->kept.now[w], wire);
-  for (size_t k = 0; k < s->kept_history_count; k++) {
-    sw_kept_history *h = &s->kept_histories[k];
+  SW_ITEMS(sw_kept_history, h, s->kept_histories, s->kept_history_count) {
     if (h->wire == wire) {
       sw_plan_release(h->plan);
       sw_free(h->data);

@@ -132,8 +132,7 @@ static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leav
  * carried vector a little less or more than the chords did, which is the twist's to make up. */
 static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
-  for (size_t k = 0; k < w->twisted_count; k++) {
-    sw_twisted *span = &w->twisted[k];
+  SW_ITEMS(sw_twisted, span, w->twisted, w->twisted_count) {
     const sw_vec from = held_direction(s, wire, span->s1, 1);
     const sw_vec to = held_direction(s, wire, span->s2, 0);
     if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */

@@ -25,8 +25,7 @@ static double pull_of(const sw_body *b, const sw_term *term, const double *x, do
 }
 
 static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
-  for (size_t k = 0; k < b->term_count; k++) {
-    const sw_term *term = &b->terms[k];
+  SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
     if (!term->cls->pull) continue;
     double bears;
     const double pull = pull_of(b, term, x, &bears);
@@ -55,8 +54,7 @@ int sw_scene_may_break(const sw_scene *s) {
   }
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
     const sw_body *body = &system->bodies[b];
-    for (size_t k = 0; k < body->term_count; k++) {
-      const sw_term *term = &body->terms[k];
+    SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       bears = 0;
       if (term->cls->pull) pull_of(body, term, system->x, &bears);
       if (bears > 0) return 1;
@@ -84,8 +82,7 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
 static void tell_of_terms(sw_scene *s, size_t body) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[body];
-  for (size_t k = 0; k < b->term_count; k++) {
-    const sw_term *term = &b->terms[k];
+  SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
     double bears;
     if (!term->cls->pull) continue;
     const double pull = pull_of(b, term, system->x, &bears);

@@ -4,6 +4,7 @@
 #ifndef SW_SCENE_PARTS_H
 #define SW_SCENE_PARTS_H
 
+#include "base/each.h"
 #include "scene/scene.h"
 
 /* Each in a header of its own. */
@@ -45,11 +46,9 @@ sw_joint *sw_scene_join_in(const sw_scene *scene, size_t slot);
 sw_hold *sw_scene_held_by(const sw_scene *scene, size_t k);
 /* For each object of a list, those that are gone too: SW_EACH(hold, h, scene) with an sw_hold *h.
  */
-#define SW_EACH(kind, object, scene)                               \
-  for (__typeof__(sw_scene_##kind##_in(scene, 0))                  \
-           object = sw_scene_##kind##_in(scene, 0),                \
-           object##_end = object + sw_scene_##kind##_slots(scene); \
-       object < object##_end; object++)
+#define SW_EACH(kind, object, scene)                                                            \
+  SW_ITEMS(__typeof__(*sw_scene_##kind##_in(scene, 0)), object, sw_scene_##kind##_in(scene, 0), \
+           sw_scene_##kind##_slots(scene))
 /* How many bodies were made so far, those that are gone too: frames have a number for each. */
 size_t sw_scene_bodies_made(const sw_scene *scene);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/halving.h"
 
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out) {
@@ -97,8 +98,7 @@ sw_status sw_web_bound_rate(sw_web *w) {
 sw_status sw_web_bound_slides(sw_web *w) {
   double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
-  for (size_t i = 0; i < w->slides; i++) {
-    const sw_web_slide *s = &w->slide[i];
+  SW_ITEMS(const sw_web_slide, s, w->slide, w->slides) {
     const double h = fabs(w->s[s->node[1]] - w->s[s->node[0]]), lever = 0.5 * s->apart / h;
     const double along = w->friction > 0 ? s->stick * (0.5 + lever) * (2.0 + 4.0 * lever) : 0.0;
     for (int k = 0; k < SW_SLIDE_NODES; k++) sum[s->node[k]] += fmax(s->press, along);

@@ -202,8 +202,7 @@ static size_t fastest_gain(const sw_scene *s) {
   const double *v0 = system->v, *v1 = sw_scene_course(s)->stepper.trial_v;
   double largest = -HUGE_VAL;
   size_t node = 0;
-  for (size_t b = 0; b < system->body_count; b++) {
-    const sw_body *body = &system->bodies[b];
+  SW_ITEMS(const sw_body, body, system->bodies, system->body_count) {
     for (size_t i = 0; i < body->plan->nodes; i++) {
       const size_t at = body->first_node + i;
       const double more =

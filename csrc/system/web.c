@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
@@ -24,8 +25,7 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   size_t n = 0;
   for (size_t e = 0; e < w->links; e++, n++)
     if (out) out[n] = (sw_blocks_pair){w->link[e].a, w->link[e].b};
-  for (size_t k = 0; k < w->folds; k++) {
-    const sw_web_fold *f = &w->fold[k];
+  SW_ITEMS(const sw_web_fold, f, w->fold, w->folds) {
     const sw_blocks_pair three[3] = {{f->a, f->b}, {f->a, f->c}, {f->b, f->c}};
     for (int i = 0; i < 3; i++, n++)
       if (out) out[n] = three[i];

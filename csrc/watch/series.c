@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "body/hold.h"
 #include "body/obstacle_log.h"
 #include "edit/forces.h"
@@ -76,8 +77,7 @@ static sw_vec force_of(const sw_scene *s, size_t slot, int place) {
   double values[SW_FORCE_OUTPUTS_MAX];
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t b = 0; b < s->system.body_count; b++)
-    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
-      const sw_term *term = &s->system.bodies[b].terms[k];
+    SW_ITEMS(const sw_term, term, s->system.bodies[b].terms, s->system.bodies[b].term_count) {
       if (term->id != (long)slot) continue;
       term->cls->read(term->args, &s->system.bodies[b].field, term->history, values);
       sum = sw_add(sum, sw_load(values + place));

@@ -91,8 +91,7 @@ static sw_status fit(sw_wear *w, const sw_plan *p) {
 /* A number for what holds the wire's direction where. */
 static uint64_t holds_of(const sw_body *b) {
   uint64_t sum = sw_sum(SW_SUM_START, &b->plan->clamp_count, sizeof b->plan->clamp_count);
-  for (size_t c = 0; c < b->plan->clamp_count; c++) {
-    const sw_clamp_hinge *h = &b->plan->clamps[c];
+  SW_ITEMS(const sw_clamp_hinge, h, b->plan->clamps, b->plan->clamp_count) {
     const size_t own[3] = {h->node, (size_t)h->hold, (size_t)(h->side + 1)};
     sum = sw_sum(sum, own, sizeof own);
   }
