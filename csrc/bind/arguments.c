@@ -2,7 +2,6 @@
 /* Argument tables read by parameter rows. */
 #include <string.h>
 
-#include "base/each.h"
 #include "bind/class.h"
 
 static int unknown_key(lua_State *L, const char *object, const lsw_section *sections, int count,
@@ -138,7 +137,8 @@ static void read_key(lua_State *L, const char *object, const lsw_section *sectio
 }
 
 static void require_keys(lua_State *L, int index, const char *object, const sw_params *params) {
-  SW_ITEMS(const sw_param, row, params->rows, params->count) {
+  for (size_t i = 0; i < params->count; i++) {
+    const sw_param *row = &params->rows[i];
     if (!(row->flags & SW_PARAM_REQUIRED)) continue;
     if (index == 0 || lua_getfield(L, index, row->name) == LUA_TNIL)
       luaL_error(L, "%s: %s is required [%s]: %s", object, row->name, row->unit, row->doc);
