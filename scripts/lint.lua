@@ -66,7 +66,7 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
-  solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
+  solve = { "band3.h", "band4.h", "blocks.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
 -- The rooms of a scene: each sees the headers of those in its row, which are private to everybody else.

@@ -24,7 +24,7 @@
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "solve/cholesky.h"
+#include "solve/dense.h"
 #include "strand/ring.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
