@@ -179,7 +179,7 @@ int lsw_scene_force(lua_State *L) {
     some.particle = lsw_particle_numbers(L, -1, "particles of a force", &some.count);
     memcpy(args, &some, sizeof some);
   }
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_force);
+  lsw_child *child = lsw_new_child(L, &lsw_class_force);
   const int number = function ? keep_function(L, owner, 4) : 0;
   if (function) {
     callback.user = (void *)(size_t)number; /* a number, not an address */
@@ -189,7 +189,6 @@ int lsw_scene_force(lua_State *L) {
       sw_scene_add_force(owner->h.object, cls, wire, args, sizeof args, &child->id, &err);
   if (function) mark_function(L, number, status == SW_OK ? &child->id : NULL);
   lsw_must(L, status, &err);
-  child->h.object = owner;
   return 1;
 }
 

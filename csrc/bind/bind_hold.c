@@ -8,7 +8,7 @@
 
 /* scene:clamp, pin, ...: one of each class of holds, which is the upvalue. */
 static int new_hold(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   const sw_link_class *cls = lua_touserdata(L, lua_upvalueindex(1));
   const char *kind = cls->name;
   sw_hold_args args = {.s = 0,
@@ -22,12 +22,11 @@ static int new_hold(lua_State *L) {
     return luaL_error(L, "scene:%s goes with wires; particles are held by scene:hold", kind);
   }
   const char *what = lua_pushfstring(L, "scene:%s", kind);
-  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
+  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, what);
   lsw_arguments(L, 3, what, &cls->params, &args);
   if (lua_istable(L, 3)) args.points = lsw_read_points(L, 3, "path", kind, &args.count);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  LSW_DO(L, sw_scene_add_hold, owner->h.object, cls, wire, &args, &child->id);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_clamp);
+  LSW_DO(L, sw_scene_add_hold, scene, cls, wire, &args, &child->id);
   return 1;
 }
 

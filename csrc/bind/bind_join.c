@@ -33,8 +33,7 @@ static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) 
 }
 
 int lsw_scene_join(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  const sw_scene *scene = owner->h.object;
+  sw_scene *scene = lsw_check_scene(L);
   sw_join_args args;
   sw_join_end ends[SW_JOIN_ENDS];
   lua_settop(L, 2);
@@ -46,9 +45,8 @@ int lsw_scene_join(lua_State *L) {
     lua_rawgeti(L, 3, (lua_Integer)k + 1);
     ends[k] = read_end(L, scene, k + 1);
   }
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_join);
-  LSW_DO(L, sw_scene_add_join, owner->h.object, &args, ends, count, &child->id);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_join);
+  LSW_DO(L, sw_scene_add_join, scene, &args, ends, count, &child->id);
   return 1;
 }
 

@@ -6,23 +6,18 @@
 #include "bind/share.h"
 
 int lsw_scene_obstacle(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_obstacle_args args;
   sw_error err = {""};
   const lsw_section extra = {&sw_obstacle_params, &args};
   lua_settop(L, 2);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_obstacle);
+  lsw_child *child = lsw_new_child(L, &lsw_class_obstacle);
   sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
-  const sw_status status = sw_scene_add_obstacle(owner->h.object, shape, &args, &child->id, &err);
-  if (status == SW_OK) {
-    child->h.object = owner;
-    lua_pushvalue(L, 3);
-    sw_shape_release(shape);
-    return 1;
-  }
+  const sw_status status = sw_scene_add_obstacle(scene, shape, &args, &child->id, &err);
   sw_shape_release(shape);
   lsw_must(L, status, &err);
-  return 0;
+  lua_pushvalue(L, 3);
+  return 1;
 }
 
 static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_obstacle); }

@@ -5,16 +5,15 @@
 #include "bind/share.h"
 
 int lsw_scene_particles(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_particles_args args;
   sw_particles_parts parts = {0};
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:particles");
   lsw_arguments(L, 2, "particles", &sw_particles_params, &args);
   lsw_read_parts(L, 2, &parts);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_particles);
-  LSW_DO(L, sw_scene_add_particles, owner->h.object, &args, &parts, &child->id);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_particles);
+  LSW_DO(L, sw_scene_add_particles, scene, &args, &parts, &child->id);
   return 1;
 }
 
@@ -33,18 +32,15 @@ int lsw_hold_particles(lua_State *L) {
     sw_vec at; /* [m] */
   } args;
   _Static_assert(offsetof(__typeof__(args), at) == SW_NAME_SIZE, "as in the row");
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   size_t count;
   lua_settop(L, 3);
-  const sw_handle object =
-      lsw_check_child_of(L, 2, &lsw_class_particles, owner->h.object, "scene:hold");
+  const sw_handle object = lsw_check_child_of(L, 2, &lsw_class_particles, scene, "scene:hold");
   lsw_arguments(L, 3, "scene:hold", &params, &args);
   lua_getfield(L, 3, "particles");
   const uint32_t *list = lsw_particle_numbers(L, 4, "particles to be held", &count);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  LSW_DO(L, sw_scene_hold_particles, owner->h.object, object, args.name, list, count, args.at,
-         &child->id);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_clamp);
+  LSW_DO(L, sw_scene_hold_particles, scene, object, args.name, list, count, args.at, &child->id);
   return 1;
 }
 

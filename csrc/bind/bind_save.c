@@ -98,9 +98,8 @@ enum { CHILDREN = sizeof children / sizeof children[0] };
 
 /* Its slot; of a wire or an object of particles, whose slots change, its number in frames. */
 static size_t slot_of(const lsw_class *c, const lsw_child *child) {
-  const lsw_scene_handle *owner = child->h.object;
-  const sw_scene *scene = owner ? owner->h.object : NULL;
-  if (!scene || (c != &lsw_class_wire && c != &lsw_class_particles)) return child->id.slot;
+  const sw_scene *scene = ((const lsw_scene_handle *)child->h.object)->h.object;
+  if (!scene || c->kind != SW_OF_BODY) return child->id.slot;
   const size_t number = sw_scene_body_number(scene, child->id);
   return number == SIZE_MAX ? UINT32_MAX : number;
 }
@@ -123,15 +122,14 @@ static int mod_number(lua_State *L) {
 /* core.numbered(scene, class, slot, generation) -> the object of that number, which the scene
  * may not have */
 static int mod_numbered(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  lsw_check_scene(L);
   const char *name = luaL_checkstring(L, 2);
   const lua_Integer slot = lsw_integer(L, 3, "numbered: the slot"),
                     generation = lsw_integer(L, 4, "numbered: the generation");
   for (int k = 0; k < CHILDREN; k++) {
     if (strcmp(children[k]->name, name) != 0) continue;
-    lsw_child *child = lsw_new_child(L, 1, children[k]);
+    lsw_child *child = lsw_new_child(L, children[k]);
     child->id = (sw_handle){(uint32_t)slot, (uint32_t)generation};
-    child->h.object = owner;
     return 1;
   }
   return luaL_error(L, "a scene has no objects of class '%s'", name);

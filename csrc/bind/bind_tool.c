@@ -19,13 +19,12 @@ static const sw_param rows[] = {
 static const sw_params tool_params = SW_PARAMS("scene:tool", rows);
 
 int lsw_scene_tool(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_tool_args args;
   lua_settop(L, 2);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_tool);
+  lsw_child *child = lsw_new_child(L, &lsw_class_tool);
   lsw_arguments(L, 2, "scene:tool", &tool_params, &args);
-  LSW_DO(L, sw_scene_add_tool, owner->h.object, &args, &child->id);
-  child->h.object = owner;
+  LSW_DO(L, sw_scene_add_tool, scene, &args, &child->id);
   return 1;
 }
 

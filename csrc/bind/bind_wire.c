@@ -59,7 +59,7 @@ size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_
 }
 
 int lsw_scene_wire(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_wire_args args;
   sw_section section;
   sw_beam beam;
@@ -86,9 +86,8 @@ int lsw_scene_wire(lua_State *L) {
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
   const double *points = lsw_read_points(L, 2, "path", "wire", &count);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
-  LSW_DO(L, sw_scene_add_wire, owner->h.object, &args, &beam, &mesh, points, count, &child->id);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_wire);
+  LSW_DO(L, sw_scene_add_wire, scene, &args, &beam, &mesh, points, count, &child->id);
   return 1;
 }
 

@@ -31,8 +31,8 @@ lsw_handle *lsw_new_scene(lua_State *L);
 /* The scene at index 1. */
 sw_scene *lsw_check_scene(lua_State *L);
 
-/* Push a child of the scene userdata at index scene. */
-lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
+/* Push a child of the scene at index 1; no object is there until its id is set. */
+lsw_child *lsw_new_child(lua_State *L, const lsw_class *c);
 
 /* The child at index 1, whose method is called; raises when it or its scene is gone. */
 lsw_self lsw_check_self(lua_State *L, const lsw_class *c);
