@@ -11,17 +11,17 @@
 local ROOMS = {
   base = {},
   motion = { "base" },
-  shape = { "base", "motion" },
+  shape = { "base" },
   state = { "base" },
   wire = { "base", "state" },
   force = { "base", "state" },
   solve = { "base" }, -- matrices only
   system = { "base", "state", "solve", "force" }, -- it evaluates the wires' forces
-  modal = { "base", "state", "solve", "system" },
-  integrate = { "base", "state", "solve", "system" }, -- a system, never a force or a wire
+  modal = { "base", "system" },
+  integrate = { "base", "system" }, -- a system, never a force or a wire
   contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
   link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
-  calibrate = { "base", "wire", "force", "solve" },
+  calibrate = { "base", "wire", "force" },
   record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
   strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
   -- The rooms of a scene. Its lists, and what is in them:
@@ -48,7 +48,7 @@ local ROOMS = {
   remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
     "grip", "edit", "read", "save" },
   -- what makes it go on
-  step = { "base", "motion", "state", "force", "solve", "system", "integrate", "contact", "link", "scene",
+  step = { "base", "motion", "state", "force", "system", "integrate", "contact", "link", "scene",
     "body", "grip", "edit", "read", "watch" },
   film = { "base", "read" },
   view = { "base" }, -- bytes for pages; never a scene
@@ -66,12 +66,16 @@ local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "gr
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
   state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
     "state_tape.h", "tie.h", "web.h" },
-  solve = { "band3.h", "band4.h", "blocks.h", "cholesky.h", "dense.h", "rotation.h", "sparse.h" },
+  solve = { "band3.h", "band4.h", "blocks.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
 -- The rooms of a scene: each sees the headers of those in its row, which are private to everybody else.
 local INSIDE = { "record", "strand", "scene", "body", "grip", "edit", "read", "watch", "save",
   "remodel", "step" }
+
+-- Headers that show a whole object's inside, and how many files may include them at most; others take
+-- what they need from narrow headers (scene/parts.h, scene/lookup.h).
+local MOST_INCLUDERS = { ["scene/world.h"] = 21 }
 
 -- May include softworld.h.
 local USES_CORE = { bind = true, host = true }
@@ -316,7 +320,7 @@ local function check_outside_include(file, number, path, included)
 end
 
 function check.includes()
-  local members = {}
+  local members, includers = {}, {}
   local circle = circle_of_rooms(ROOMS)
   if circle then finding("scripts/lint.lua", 1, "rooms include one another in a circle: %s", circle) end
   for room in pairs(FAMILIES) do members[room] = members_of(room) end
@@ -330,6 +334,11 @@ function check.includes()
     for number, line in ipairs(lines_of(file)) do
       local bracket, included = line:match "^%s*#%s*include%s*([<\"])([^>\"]+)[>\"]"
       if included then
+        includers[included] = (includers[included] or 0) + 1
+        if includers[included] - 1 == MOST_INCLUDERS[included] then
+          finding(file, number, "%s has more than %d includers; take what is needed from a narrow header",
+            included, MOST_INCLUDERS[included])
+        end
         local own = bracket == '"' and not outside_rule(included)
         if not own then check_outside_include(file, number, path, included)
         elseif room then check_own_include(file, number, room, stem, included, members)

@@ -5,6 +5,7 @@
 #define SW_BASE_ALLOC_H
 
 #include <stddef.h>
+#include <string.h>
 
 #include "base/status.h"
 
@@ -18,6 +19,15 @@ void *sw_alloc_bytes(size_t bytes);
 
 /* NULL is allowed. */
 void sw_free(void *p);
+
+/* Of a local pointer, before its value: what it points to then is freed when its block ends,
+ * however it ends. double *work SW_LOCAL = sw_alloc(n, sizeof *work); */
+#define SW_LOCAL __attribute__((cleanup(sw_free_local)))
+static inline void sw_free_local(void *pointer) {
+  void *p;
+  memcpy(&p, pointer, sizeof p);
+  sw_free(p);
+}
 
 /* Bytes that were asked for [B]. */
 size_t sw_alloc_size(const void *p);

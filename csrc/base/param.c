@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/each.h"
 #include "base/vec.h"
 
 void sw_param_store(const sw_param *row, void *args, double value) {
@@ -95,8 +96,7 @@ static sw_status check_choice(const char *object, const sw_param *row, int value
 }
 
 sw_status sw_params_check(const sw_params *params, const void *args, int lenient, sw_error *err) {
-  for (size_t i = 0; i < params->count; i++) {
-    const sw_param *row = &params->rows[i];
+  SW_ITEMS(const sw_param, row, params->rows, params->count) {
     const char *place = (const char *)args + row->offset;
     double x[4] = {0};
     long whole = 0;

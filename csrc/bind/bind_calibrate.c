@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* Numbers are pushed in a protected call, so that what the core allocated is freed when Lua
  * runs out of memory. The function gets p as light userdata and returns one value. */
@@ -272,7 +271,6 @@ static sw_cell_solid *read_solids(lua_State *L, int index, size_t groups, size_t
  * (from 1), weight, 1 for bending or 0; stiffness: one number a group, of elements their modulus;
  * elements: flat, 6 or 8 and as many particles (from 1), 8 places in any case, group, nu. */
 static int mod_cell(lua_State *L) {
-  sw_error err = {""};
   sw_cell_result result;
   size_t places, numbers, groups;
   const double spacing = luaL_checknumber(L, 1);
@@ -300,14 +298,11 @@ static int mod_cell(lua_State *L) {
                         .link = link,
                         .solids = solids,
                         .solid = solid};
-  lsw_must(L, sw_cell_stiffness(&cell, k, &result, NULL, &err), &err);
+  LSW_DO(L, sw_cell_stiffness, &cell, k, &result, NULL);
   lua_createtable(L, 0, SW_TARGETS + 1);
   set_beam(L, &result);
   return 1;
 }
 
-void lsw_open_calibrate(lua_State *L) {
-  static const luaL_Reg functions[] = {
-      {"calibrate", mod_calibrate}, {"cell", mod_cell}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_calibrate[] = {
+    {"calibrate", mod_calibrate}, {"cell", mod_cell}, {NULL, NULL}};

@@ -2,7 +2,6 @@
 /* Drawings and canvases, for softworld.output.picture. Lists are flat: x, y, z, x, ... */
 #include "bind/child.h"
 #include "bind/class.h"
-#include "bind/module.h"
 
 static const char *const DRAWING = "softworld.drawing";
 static const char *const CANVAS = "softworld.canvas";
@@ -300,7 +299,5 @@ static int mod_text_width(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_draw[] = {
     {"drawing", mod_drawing}, {"canvas", mod_canvas}, {"text_width", mod_text_width}, {NULL, NULL}};
-
-void lsw_open_draw(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -26,14 +26,11 @@ static const sw_params tell_params = SW_PARAMS("scene:tell", tell_rows);
 int lsw_scene_tell(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   tell_args args;
-  sw_error err = {""};
   lsw_arguments(L, 2, "scene:tell", &tell_params, &args);
   if (lua_getfield(L, 2, "text") != LUA_TSTRING)
     return luaL_error(L, "scene:tell: text must be a string, got %s", luaL_typename(L, -1));
-  lsw_must(L,
-           sw_scene_book_event(scene, args.kind, args.object, args.s, args.value,
-                               lua_tostring(L, -1), &err),
-           &err);
+  LSW_DO(L, sw_scene_book_event, scene, args.kind, args.object, args.s, args.value,
+         lua_tostring(L, -1));
   return 0;
 }
 

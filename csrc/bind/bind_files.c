@@ -11,7 +11,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "bind/module.h"
 #include "bind/process.h"
 
 /* --- locks ---------------------------------------------------------------- */
@@ -203,9 +202,7 @@ static int mod_kind(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_files[] = {
     {"part", mod_part},   {"lock", mod_lock}, {"create", mod_create},
     {"sweep", mod_sweep}, {"sync", mod_sync}, {"kind", mod_kind},
     {NULL, NULL}};
-
-void lsw_open_files(lua_State *L) { luaL_setfuncs(L, functions, 0); }

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* Bytes on their way to Lua, freed whatever happens there. */
 static int free_film(lua_State *L) {
@@ -28,9 +27,8 @@ static int mod_film(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4),
                              0};
-  sw_error err = {""};
   sw_film *film = lsw_keep(L, sizeof *film, "softworld.film", NULL, free_film);
-  lsw_must(L, sw_film_make(scene, &args, sw_interrupted, film, &err), &err);
+  LSW_DO(L, sw_film_make, scene, &args, sw_interrupted, film);
   lua_pushlstring(L, (const char *)film->bytes, film->size);
   lua_pushinteger(L, (lua_Integer)film->frames);
   lua_pushinteger(L, (lua_Integer)film->broken);
@@ -146,8 +144,6 @@ static int mod_page(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_film[] = {
     {"film", mod_film},     {"edges", mod_edges}, {"skin", mod_skin}, {"deflate", mod_deflate},
     {"base64", mod_base64}, {"page", mod_page},   {NULL, NULL}};
-
-void lsw_open_film(lua_State *L) { luaL_setfuncs(L, functions, 0); }

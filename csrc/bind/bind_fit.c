@@ -6,7 +6,6 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 enum { MOST = 10000000 }; /* numbers of a matrix */
 
@@ -50,7 +49,6 @@ static sw_status residuals(void *user, const double *x, double *r, double *jacob
 static int mod_least_squares(lua_State *L) {
   static const char *const ends[] = {
       [SW_FIT_NEAR] = "near", [SW_FIT_STUCK] = "stuck", [SW_FIT_USED] = "used"};
-  sw_error err = {""};
   sw_fit_end end = SW_FIT_USED;
   size_t iterations = 0;
   luaL_checktype(L, 1, LUA_TTABLE);
@@ -63,10 +61,8 @@ static int mod_least_squares(lua_State *L) {
   double *x = lua_newuserdatauv(L, sizeof *x * (size_t)n, 0);
   lsw_read_flat(L, 1, x, (size_t)n);
   caller c = {.L = L, .n = (size_t)n, .rows = (size_t)rows};
-  lsw_must(L,
-           sw_fit(residuals, &c, c.n, c.rows, x, tolerance, (size_t)(most > 0 ? most : 1), &end,
-                  &iterations, &err),
-           &err);
+  LSW_DO(L, sw_fit, residuals, &c, c.n, c.rows, x, tolerance, (size_t)(most > 0 ? most : 1), &end,
+         &iterations);
   lsw_push_flat(L, x, (size_t)n);
   lua_pushstring(L, ends[end]);
   lua_pushinteger(L, (lua_Integer)iterations);
@@ -76,7 +72,6 @@ static int mod_least_squares(lua_State *L) {
 /* singular(a, rows, n): of a matrix as a flat list, row by row -> singular values (falling),
  * directions as a flat list, n x n, one a column */
 static int mod_singular(lua_State *L) {
-  sw_error err = {""};
   luaL_checktype(L, 1, LUA_TTABLE);
   const lua_Integer rows = luaL_checkinteger(L, 2), n = luaL_checkinteger(L, 3);
   luaL_argcheck(L, n >= 1 && n <= 1000, 3, "1 to 1000 columns");
@@ -85,7 +80,7 @@ static int mod_singular(lua_State *L) {
   double *a = lua_newuserdatauv(L, sizeof *a * (size + (size_t)n + square), 0);
   double *s = a + size, *v = s + n;
   lsw_read_flat(L, 1, a, size);
-  lsw_must(L, sw_singular(a, (size_t)rows, (size_t)n, s, v, &err), &err);
+  LSW_DO(L, sw_singular, a, (size_t)rows, (size_t)n, s, v);
   lsw_push_flat(L, s, (size_t)n);
   lsw_push_flat(L, v, square);
   return 2;
@@ -109,11 +104,8 @@ static int mod_chi2_above(lua_State *L) {
   return 1;
 }
 
-void lsw_open_fit(lua_State *L) {
-  static const luaL_Reg functions[] = {{"least_squares", mod_least_squares},
-                                       {"singular", mod_singular},
-                                       {"student", mod_student},
-                                       {"chi2_above", mod_chi2_above},
-                                       {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_fit[] = {{"least_squares", mod_least_squares},
+                                   {"singular", mod_singular},
+                                   {"student", mod_student},
+                                   {"chi2_above", mod_chi2_above},
+                                   {NULL, NULL}};

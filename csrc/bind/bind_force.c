@@ -179,7 +179,7 @@ int lsw_scene_force(lua_State *L) {
     some.particle = lsw_particle_numbers(L, -1, "particles of a force", &some.count);
     memcpy(args, &some, sizeof some);
   }
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_force);
+  lsw_child *child = lsw_new_child(L, &lsw_class_force);
   const int number = function ? keep_function(L, owner, 4) : 0;
   if (function) {
     callback.user = (void *)(size_t)number; /* a number, not an address */
@@ -189,14 +189,12 @@ int lsw_scene_force(lua_State *L) {
       sw_scene_add_force(owner->h.object, cls, wire, args, sizeof args, &child->id, &err);
   if (function) mark_function(L, number, status == SW_OK ? &child->id : NULL);
   lsw_must(L, status, &err);
-  child->h.object = owner;
   return 1;
 }
 
 static int meth_release(lua_State *L) {
-  sw_error err = {""};
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  lsw_must(L, sw_scene_remove_force(f.scene, f.id, &err), &err);
+  LSW_DO(L, sw_scene_remove_force, f.scene, f.id);
   lua_getiuservalue(L, 1, 1);
   lsw_forget_forces(L, lua_gettop(L), f.scene);
   return 0;
@@ -204,12 +202,11 @@ static int meth_release(lua_State *L) {
 
 /* force:read(wire) -> what its kind has to read there, by name; see the force's file */
 static int meth_read(lua_State *L) {
-  sw_error err = {""};
   double values[SW_FORCE_OUTPUTS_MAX];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
   lua_settop(L, 2);
   const sw_handle wire = lsw_check_body_of(L, 2, f.scene, "force:read");
-  lsw_must(L, sw_scene_read_force(f.scene, f.id, wire, values, &err), &err);
+  LSW_DO(L, sw_scene_read_force, f.scene, f.id, wire, values);
   const char *const *names = sw_scene_force_class(f.scene, f.id)->outputs;
   lua_newtable(L);
   for (size_t k = 0; names[k]; k++) lsw_set_number(L, names[k], values[k]);
@@ -217,32 +214,15 @@ static int meth_read(lua_State *L) {
 }
 
 /* force:log() -> flat rows of 4: t, force on wires; number of rows */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_force, sw_scene_force_log, SW_LOG_FORCE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_force, SW_LOG_FORCE_SIZE); }
 
 /* force:call_it(name): what its events call it */
 static int meth_call_it(lua_State *L) {
-  sw_error err = {""};
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
   if (lua_type(L, 2) != LUA_TSTRING)
     luaL_error(L, "force:call_it: the name must be a string, got %s", lsw_describe(L, 2));
-  lsw_must(L, sw_scene_name_force(f.scene, f.id, lua_tostring(L, 2), &err), &err);
+  LSW_DO(L, sw_scene_name_force, f.scene, f.id, lua_tostring(L, 2));
   return 0;
-}
-
-static int prop_kind(lua_State *L) {
-  const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
-  if (!cls) return lsw_not_there(L, &lsw_class_force, f.scene);
-  lua_pushstring(L, cls->name);
-  return 1;
-}
-
-static int prop_held(lua_State *L) {
-  const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  lua_pushboolean(L, sw_scene_force_acts(f.scene, f.id));
-  return 1;
 }
 
 static int describe(lua_State *L) {
@@ -255,10 +235,9 @@ static int describe(lua_State *L) {
 
 /* force:get() -> a table of its rows, as they are now */
 static int meth_get(lua_State *L) {
-  sw_error err = {""};
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
-  lsw_must(L, sw_scene_force_args(f.scene, f.id, args, &err), &err);
+  LSW_DO(L, sw_scene_force_args, f.scene, f.id, args);
   const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
   lsw_push_values(L, &cls->params, args);
   lsw_set_text(L, "kind", cls->name);
@@ -267,26 +246,27 @@ static int meth_get(lua_State *L) {
 
 /* force:set{ stiffness =, ... }: values of its rows from now on */
 static int meth_set(lua_State *L) {
-  sw_error err = {""};
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(f.scene, &err), &err);
-  lsw_must(L, sw_scene_force_args(f.scene, f.id, args, &err), &err);
+  LSW_DO(L, sw_scene_editable, f.scene);
+  LSW_DO(L, sw_scene_force_args, f.scene, f.id, args);
   const sw_force_class *cls = sw_scene_force_class(f.scene, f.id);
   if (!cls->params.count) luaL_error(L, "force %s: it has no parameters to set", cls->name);
   const char *name = lua_pushfstring(L, "force %s: set", cls->name);
   lsw_changes(L, 2, name, &cls->params, args);
-  lsw_must(L, sw_scene_set_force(f.scene, f.id, args, &err), &err);
+  LSW_DO(L, sw_scene_set_force, f.scene, f.id, args);
   return 0;
 }
 
 static const luaL_Reg methods[] = {
     {"release", meth_release}, {"get", meth_get},         {"set", meth_set}, {"read", meth_read},
     {"log", meth_log},         {"call_it", meth_call_it}, {NULL, NULL}};
-static const luaL_Reg properties[] = {{"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
+static const luaL_Reg properties[] = {
+    {"kind", lsw_prop_kind}, {"held", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_force = {.name = "force",
+                                   .kind = SW_OF_FORCE,
                                    .size = sizeof(lsw_child),
                                    .methods = methods,
                                    .describe = describe,

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvature", "contact",
                                                          "twist_moment", "stress",    NULL};
@@ -141,8 +140,7 @@ int lsw_scene_frame_count(lua_State *L) {
 }
 
 int lsw_scene_clear_frames(lua_State *L) {
-  sw_error err = {""};
-  lsw_must(L, sw_scene_clear_frames(lsw_check_scene(L), &err), &err);
+  LSW_DO(L, sw_scene_clear_frames, lsw_check_scene(L));
   return 0;
 }
 
@@ -156,7 +154,7 @@ static int mod_frame_now(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
   lua_settop(L, 1);
-  lsw_must(L, sw_scene_readable(scene, &err), &err);
+  LSW_DO(L, sw_scene_readable, scene);
   lua_State *outer = lsw_begin_forces(L);
   const sw_status status = sw_scene_frame_now(scene, &err);
   lsw_end_forces(outer);
@@ -170,10 +168,9 @@ static int mod_frame_now(lua_State *L) {
 
 /* core.keep_frames(scene[, memory [B]]): that they may take from now on. */
 static int mod_keep_frames(lua_State *L) {
-  sw_error err = {""};
   const double memory =
       lua_isnoneornil(L, 2) ? SW_FRAME_MEMORY : lsw_number(L, 2, "keep_frames: memory", "B");
-  lsw_must(L, sw_scene_keep_frames(lsw_check_scene(L), memory, &err), &err);
+  LSW_DO(L, sw_scene_keep_frames, lsw_check_scene(L), memory);
   return 0;
 }
 
@@ -233,12 +230,10 @@ static int mod_frame_squeeze(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"frame_now", mod_frame_now},
-                                     {"frame_times", mod_frame_times},
-                                     {"frame_range", mod_frame_range},
-                                     {"keep_frames", mod_keep_frames},
-                                     {"frames_thinned", mod_frames_thinned},
-                                     {"frame_squeeze", mod_frame_squeeze},
-                                     {NULL, NULL}};
-
-void lsw_open_frames(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
+                                      {"frame_times", mod_frame_times},
+                                      {"frame_range", mod_frame_range},
+                                      {"keep_frames", mod_keep_frames},
+                                      {"frames_thinned", mod_frames_thinned},
+                                      {"frame_squeeze", mod_frame_squeeze},
+                                      {NULL, NULL}};

@@ -3,13 +3,12 @@
 #include <limits.h>
 #include <string.h>
 
-#include "bind/bind_motion.h"
 #include "bind/child.h"
 #include "bind/share.h"
 
 /* scene:clamp, pin, ...: one of each class of holds, which is the upvalue. */
 static int new_hold(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   const sw_link_class *cls = lua_touserdata(L, lua_upvalueindex(1));
   const char *kind = cls->name;
   sw_hold_args args = {.s = 0,
@@ -18,18 +17,16 @@ static int new_hold(lua_State *L) {
                        .speed = NAN,
                        .force = NAN,
                        .force_limit = NAN};
-  sw_error err = {""};
   if (lsw_test(L, 2, &lsw_class_particles)) {
     if (strcmp(kind, "clamp") == 0) return lsw_hold_particles(L);
     return luaL_error(L, "scene:%s goes with wires; particles are held by scene:hold", kind);
   }
   const char *what = lua_pushfstring(L, "scene:%s", kind);
-  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, owner->h.object, what);
+  const sw_handle wire = lsw_check_child_of(L, 2, &lsw_class_wire, scene, what);
   lsw_arguments(L, 3, what, &cls->params, &args);
   if (lua_istable(L, 3)) args.points = lsw_read_points(L, 3, "path", kind, &args.count);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  lsw_must(L, sw_scene_add_hold(owner->h.object, cls, wire, &args, &child->id, &err), &err);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_clamp);
+  LSW_DO(L, sw_scene_add_hold, scene, cls, wire, &args, &child->id);
   return 1;
 }
 
@@ -43,7 +40,6 @@ void lsw_add_holds(lua_State *L) {
 }
 
 static lsw_load load_of(lua_State *L, int with_point) {
-  sw_error err = {""};
   lsw_load on;
   sw_vec point = sw_v(NAN, NAN, NAN);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
@@ -52,7 +48,7 @@ static lsw_load load_of(lua_State *L, int with_point) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   if (with_point) lsw_arguments(L, 2, "clamp:moment", &params, &point);
   const sw_vec *at = isnan(point.x) ? NULL : &point;
-  lsw_must(L, sw_scene_hold_force(c.scene, c.id, at, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_hold_force, c.scene, c.id, at, &on.force, &on.moment);
   return on;
 }
 
@@ -60,15 +56,12 @@ static lsw_load load_of(lua_State *L, int with_point) {
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
-static const lsw_posed posed = {&lsw_class_clamp,   "clamp",           "clamp:follow",
-                                sw_scene_hold_pose, sw_scene_set_pose, sw_scene_follow};
-
 /* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets;
  * without a rotation it keeps the one it has. */
-static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
+static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_clamp); }
 
 /* clamp:follow(trajectory or its table); clamp:follow(nil) stops it there. */
-static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
+static int meth_follow(lua_State *L) { return lsw_follow(L, &lsw_class_clamp, "clamp:follow"); }
 
 static int meth_release(lua_State *L) {
   return lsw_order(L, &lsw_class_clamp, sw_scene_release_hold);
@@ -77,11 +70,10 @@ static int meth_release(lua_State *L) {
 /* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
  * obstacle [s], [m]; nil when it never did */
 static int meth_crash(lua_State *L) {
-  sw_error err = {""};
   double time, depth;
   const char *obstacle;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_hold_crash(c.scene, c.id, &time, &depth, &obstacle, &err), &err);
+  LSW_DO(L, sw_scene_hold_crash, c.scene, c.id, &time, &depth, &obstacle);
   if (!(depth > 0)) return 0;
   lua_createtable(L, 0, 3);
   lsw_set_number(L, "time", time);
@@ -104,13 +96,12 @@ static void push_columns(lua_State *L, const double *rows, size_t count, size_t 
  * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s].
  * clamp:log(first) starts at that row. */
 static int meth_log(lua_State *L) {
-  sw_error err = {""};
   const double *rows;
   size_t count;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const lua_Integer first =
       lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
-  lsw_must(L, sw_scene_hold_log(c.scene, c.id, &rows, &count, &err), &err);
+  LSW_DO(L, sw_scene_log, c.scene, SW_OF_HOLD, c.id, &rows, &count);
   const size_t past = first > 1 ? (size_t)(first - 1) : 0, skip = past < count ? past : count;
   const size_t n = count - skip;
   if (skip) rows += skip * SW_LOG_SIZE;
@@ -122,26 +113,24 @@ static int meth_log(lua_State *L) {
 
 /* clamp:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
-  sw_error err = {""};
   sw_hold_args args;
   const sw_params *rows;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_hold_args(c.scene, c.id, &rows, &args, &err), &err);
+  LSW_DO(L, sw_scene_hold_args, c.scene, c.id, &rows, &args);
   lsw_push_values(L, rows, &args);
   return 1;
 }
 
 /* clamp:set{ friction = }: from now on. */
 static int meth_set(lua_State *L) {
-  sw_error err = {""};
   sw_hold_args args;
   const sw_params *rows;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(c.scene, &err), &err);
-  lsw_must(L, sw_scene_hold_args(c.scene, c.id, &rows, &args, &err), &err);
+  LSW_DO(L, sw_scene_editable, c.scene);
+  LSW_DO(L, sw_scene_hold_args, c.scene, c.id, &rows, &args);
   lsw_changes(L, 2, lua_pushfstring(L, "%s:set", rows->object), rows, &args);
-  lsw_must(L, sw_scene_set_hold(c.scene, c.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_set_hold, c.scene, c.id, &args);
   return 0;
 }
 
@@ -149,10 +138,9 @@ static int meth_set(lua_State *L) {
 
 /* slider:place() -> place along the rail, speed, force on the wire along it [m], [m/s], [N] */
 static int meth_place(lua_State *L) {
-  sw_error err = {""};
   sw_slide_state state;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_slide_state(c.scene, c.id, &state, &err), &err);
+  LSW_DO(L, sw_scene_slide_state, c.scene, c.id, &state);
   lua_pushnumber(L, state.place);
   lua_pushnumber(L, state.speed);
   lua_pushnumber(L, state.force);
@@ -162,10 +150,9 @@ static int meth_place(lua_State *L) {
 /* --- feeds ---------------------------------------------------------------------- */
 
 static sw_feed_state feed_state(lua_State *L) {
-  sw_error err = {""};
   sw_feed_state state;
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  lsw_must(L, sw_scene_feed_state(c.scene, c.id, &state, &err), &err);
+  LSW_DO(L, sw_scene_feed_state, c.scene, c.id, &state);
   return state;
 }
 
@@ -190,10 +177,9 @@ static double feed_argument(lua_State *L, const char *name) {
 /* may_be_nil: that is none. */
 static int set_feed(lua_State *L, const char *name, int may_be_nil,
                     sw_status (*set)(sw_scene *, sw_handle, double, sw_error *)) {
-  sw_error err = {""};
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, name);
-  lsw_must(L, set(c.scene, c.id, value, &err), &err);
+  LSW_DO(L, set, c.scene, c.id, value);
   return 0;
 }
 
@@ -250,7 +236,7 @@ static int meth_feed(lua_State *L) {
   plan.name = "feed:feed", plan.law = a.law[0] ? a.law : NULL;
   plan.points = points, plan.count = 2;
   plan.speed = a.speed, plan.duration = a.duration, plan.acceleration = a.acceleration;
-  if (a.length != 0) lsw_must(L, sw_motion_create(&plan, &motion, &err), &err);
+  if (a.length != 0) LSW_DO(L, sw_motion_create, &plan, &motion);
   const sw_status status = sw_scene_feed_length(c.scene, c.id, motion, a.length, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);
@@ -260,46 +246,24 @@ static int meth_feed(lua_State *L) {
 
 /* --- what it is ----------------------------------------------------------------- */
 
-typedef struct identity {
-  const char *name, *kind;
-  int held;
-} identity;
-
-static identity identify(lua_State *L) {
-  identity is;
-  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  is.name = sw_scene_hold_name(c.scene, c.id, &is.kind, &is.held);
-  if (!is.name) lsw_not_there(L, &lsw_class_clamp, c.scene);
-  return is;
-}
-
-static int prop_name(lua_State *L) { return lua_pushstring(L, identify(L).name), 1; }
-static int prop_kind(lua_State *L) { return lua_pushstring(L, identify(L).kind), 1; }
-static int prop_held(lua_State *L) { return lua_pushboolean(L, identify(L).held), 1; }
-
 static int describe(lua_State *L) {
   lsw_self c;
   sw_error err;
-  const char *kind;
   sw_vec force, moment;
-  int held;
   if (!lsw_find_self(L, &lsw_class_clamp, &c)) return 1;
-  const char *name = sw_scene_hold_name(c.scene, c.id, &kind, &held);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_clamp);
-  if (!held) return lsw_say(L, "%s '%s' (released)", kind, name);
+  const sw_identity is = sw_scene_identify(c.scene, SW_OF_HOLD, c.id);
+  if (!is.name) return lsw_say_taken_back(L, &lsw_class_clamp);
+  if (!is.alive) return lsw_say(L, "%s '%s' (released)", is.kind, is.name);
   if (sw_scene_hold_force(c.scene, c.id, NULL, &force, &moment, &err) != SW_OK)
-    return lsw_say(L, "%s '%s'", kind, name);
-  return lsw_say(L, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", kind, name, force.x, force.y,
-                 force.z);
+    return lsw_say(L, "%s '%s'", is.kind, is.name);
+  return lsw_say(L, "%s '%s': force on the wire (%.4g, %.4g, %.4g) N", is.kind, is.name, force.x,
+                 force.y, force.z);
 }
 
 static const char *word_of(lua_State *L) {
   lsw_self c;
-  const char *kind;
-  int held;
-  return lsw_find_self(L, &lsw_class_clamp, &c) && sw_scene_hold_name(c.scene, c.id, &kind, &held)
-             ? kind
-             : NULL;
+  return lsw_find_self(L, &lsw_class_clamp, &c) ? sw_scene_identify(c.scene, SW_OF_HOLD, c.id).kind
+                                                : NULL;
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},
@@ -321,9 +285,10 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {NULL, NULL}};
 
 static const luaL_Reg properties[] = {
-    {"name", prop_name}, {"kind", prop_kind}, {"held", prop_held}, {NULL, NULL}};
+    {"name", lsw_prop_name}, {"kind", lsw_prop_kind}, {"held", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_clamp = {.name = "clamp",
+                                   .kind = SW_OF_HOLD,
                                    .size = sizeof(lsw_child),
                                    .methods = methods,
                                    .describe = describe,

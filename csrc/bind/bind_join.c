@@ -33,11 +33,9 @@ static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) 
 }
 
 int lsw_scene_join(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  const sw_scene *scene = owner->h.object;
+  sw_scene *scene = lsw_check_scene(L);
   sw_join_args args;
   sw_join_end ends[SW_JOIN_ENDS];
-  sw_error err = {""};
   lua_settop(L, 2);
   lsw_arguments(L, 2, "scene:join", &sw_link_find("join")->params, &args);
   if (!lua_istable(L, 2) || lua_getfield(L, 2, "ends") != LUA_TTABLE)
@@ -47,21 +45,19 @@ int lsw_scene_join(lua_State *L) {
     lua_rawgeti(L, 3, (lua_Integer)k + 1);
     ends[k] = read_end(L, scene, k + 1);
   }
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_join);
-  lsw_must(L, sw_scene_add_join(owner->h.object, &args, ends, count, &child->id, &err), &err);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_join);
+  LSW_DO(L, sw_scene_add_join, scene, &args, ends, count, &child->id);
   return 1;
 }
 
 static lsw_load load_of(lua_State *L) {
-  sw_error err = {""};
   lsw_load on;
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
   const lua_Integer k = lua_isinteger(L, 2) ? lua_tointeger(L, 2) : 0;
   if (k < 1)
     luaL_error(L, "join: the number of one of its ends is wanted, from 1; got %s",
                lsw_describe(L, 2));
-  lsw_must(L, sw_scene_join_force(j.scene, j.id, (size_t)k - 1, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_join_force, j.scene, j.id, (size_t)k - 1, &on.force, &on.moment);
   return on;
 }
 
@@ -71,10 +67,9 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L).mome
 
 /* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
 static int meth_read(lua_State *L) {
-  sw_error err = {""};
   sw_tie_state state;
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
-  lsw_must(L, sw_scene_tie_state(j.scene, j.id, &state, &err), &err);
+  LSW_DO(L, sw_scene_tie_state, j.scene, j.id, &state);
   lua_newtable(L);
   lsw_set_number(L, "distance", state.distance);
   lsw_set_number(L, "tension", state.tension);
@@ -86,49 +81,29 @@ static int meth_read(lua_State *L) {
 }
 
 /* join:log() of a tie -> flat rows of time, force on the first wire [s], [N]; their number */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_join, sw_scene_tie_log, SW_LOG_FORCE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_join, SW_LOG_FORCE_SIZE); }
 
 static int meth_release(lua_State *L) {
   return lsw_order(L, &lsw_class_join, sw_scene_release_join);
 }
 
-static const char *identity(lua_State *L, int *held) {
-  size_t ends;
-  const lsw_self j = lsw_check_self(L, &lsw_class_join);
-  const char *name = sw_scene_join_name(j.scene, j.id, held, &ends);
-  if (!name) lsw_not_there(L, &lsw_class_join, j.scene);
-  return name;
-}
-
-static int prop_name(lua_State *L) {
-  int held;
-  return lua_pushstring(L, identity(L, &held)), 1;
-}
-
-static int prop_held(lua_State *L) {
-  int held;
-  identity(L, &held);
-  return lua_pushboolean(L, held), 1;
-}
-
 static int describe(lua_State *L) {
   lsw_self j;
-  int held;
-  size_t ends;
   if (!lsw_find_self(L, &lsw_class_join, &j)) return 1;
-  const char *name = sw_scene_join_name(j.scene, j.id, &held, &ends);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_join);
-  return lsw_say(L, "join '%s' of %zu wires%s", name, ends, held ? "" : " (released)");
+  const sw_identity is = sw_scene_identify(j.scene, SW_OF_JOIN, j.id);
+  if (!is.name) return lsw_say_taken_back(L, &lsw_class_join);
+  return lsw_say(L, "join '%s' of %zu wires%s", is.name, sw_scene_join_ends(j.scene, j.id),
+                 is.alive ? "" : " (released)");
 }
 
 static const luaL_Reg methods[] = {{"force", meth_force},     {"moment", meth_moment},
                                    {"release", meth_release}, {"read", meth_read},
                                    {"log", meth_log},         {NULL, NULL}};
-static const luaL_Reg properties[] = {{"name", prop_name}, {"held", prop_held}, {NULL, NULL}};
+static const luaL_Reg properties[] = {
+    {"name", lsw_prop_name}, {"held", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_join = {.name = "join",
+                                  .kind = SW_OF_JOIN,
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
                                   .describe = describe,

@@ -6,8 +6,6 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "bind/module.h"
-
 enum { DIGITS = 16 }; /* of a sum, after a space */
 
 /* FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo): it is to find what went wrong, not who lies.
@@ -62,8 +60,5 @@ static int mod_line(lua_State *L) {
   return 4;
 }
 
-void lsw_open_journal(lua_State *L) {
-  static const luaL_Reg functions[] = {
-      {"checksum", mod_checksum}, {"journal_line", mod_line}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_journal[] = {
+    {"checksum", mod_checksum}, {"journal_line", mod_line}, {NULL, NULL}};

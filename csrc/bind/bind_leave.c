@@ -2,7 +2,6 @@
 /* What leaves a scene: see scene:remove, which is Lua's. */
 #include "bind/bind_shape.h"
 #include "bind/child.h"
-#include "bind/module.h"
 #include "bind/share.h"
 
 /* core.remove_body(wire or object of particles): what holds it lets go. */
@@ -18,17 +17,14 @@ static int mod_remove_tool(lua_State *L) {
 
 /* core.shape_of(obstacle) -> its shape, also of one that was removed, which frames still show */
 static int mod_shape_of(lua_State *L) {
-  sw_error err = {""};
   sw_shape *shape;
   const lsw_self o = lsw_check_self(L, &lsw_class_obstacle);
-  lsw_must(L, sw_scene_obstacle_shape(o.scene, o.id, &shape, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_shape, o.scene, o.id, &shape);
   lsw_push_shape(L, shape);
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"remove_body", mod_remove_body},
+const luaL_Reg lsw_module_leave[] = {{"remove_body", mod_remove_body},
                                      {"remove_tool", mod_remove_tool},
                                      {"shape_of", mod_shape_of},
                                      {NULL, NULL}};
-
-void lsw_open_leave(lua_State *L) { luaL_setfuncs(L, functions, 0); }

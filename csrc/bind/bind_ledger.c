@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The energy ledger of the last run. */
 #include "bind/child.h"
-#include "bind/module.h"
 
 static void set_retries(lua_State *L, const char *name, const sw_retries *r) {
   lua_createtable(L, 0, 5);
@@ -40,8 +39,7 @@ static void set_losses(lua_State *L, const sw_ledger *l) {
 /* core.ledger(scene) -> table; energies in J */
 static int mod_ledger(lua_State *L) {
   sw_ledger l;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_ledger(lsw_check_scene(L), &l, &err), &err);
+  LSW_DO(L, sw_scene_ledger, lsw_check_scene(L), &l);
   lua_createtable(L, 0, 14);
   lsw_set_number(L, "kinetic", l.kinetic);
   lsw_set_number(L, "stored", l.stored);
@@ -79,7 +77,5 @@ static int mod_end_run(lua_State *L) {
   return 2;
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_ledger[] = {
     {"ledger", mod_ledger}, {"energy_log", mod_energy_log}, {"end_run", mod_end_run}, {NULL, NULL}};
-
-void lsw_open_ledger(lua_State *L) { luaL_setfuncs(L, functions, 0); }

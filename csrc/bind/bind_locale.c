@@ -8,7 +8,6 @@
 #include <locale.h>
 
 #include "bind/locale.h"
-#include "bind/module.h"
 
 static _Thread_local locale_t own;
 
@@ -36,7 +35,7 @@ static int setlocale_and_renew(lua_State *L) {
   return lua_gettop(L);
 }
 
-void lsw_open_locale(lua_State *L) {
+void lsw_locale_open(lua_State *L) {
   lsw_locale_renew();
   if (lua_getglobal(L, "os") == LUA_TTABLE) {
     lua_getfield(L, -1, "setlocale");

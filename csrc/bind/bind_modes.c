@@ -30,7 +30,7 @@ int lsw_wire_frequencies(lua_State *L) {
   lua_settop(L, 2);
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   lsw_arguments(L, 2, "wire:frequencies", &sw_modes_params, &args);
-  lsw_must(L, sw_scene_wire_nodes(w.scene, w.id, &nodes, &err), &err);
+  LSW_DO(L, sw_scene_wire_nodes, w.scene, w.id, &nodes);
   const size_t modes = (size_t)args.modes, n = 3 * nodes;
   sw_modes_result r = {.frequencies = lua_newuserdatauv(L, modes * sizeof(double), 0)};
   if (args.shapes) r.shapes = lua_newuserdatauv(L, modes * n * sizeof(double), 0);

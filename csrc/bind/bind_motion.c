@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 typedef struct trajectory {
   lsw_handle handle; /* object: sw_motion, one reference */
@@ -221,13 +220,7 @@ static int f_trajectory_parameters(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"trajectory", f_trajectory},
-                                     {"trajectory_reader", f_trajectory_reader},
-                                     {"trajectory_parameters", f_trajectory_parameters},
-                                     {NULL, NULL}};
-
-void lsw_open_motion(lua_State *L) {
-  lsw_motion_open_functions(L);
-  lsw_motion_open_arguments(L);
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_motion[] = {{"trajectory", f_trajectory},
+                                      {"trajectory_reader", f_trajectory_reader},
+                                      {"trajectory_parameters", f_trajectory_parameters},
+                                      {NULL, NULL}};

@@ -50,6 +50,6 @@ sw_status lsw_motion_function(lua_State *L, int index, const lsw_motion_args *ar
  * (or nil) and the object's name, it returns the array of way-points. */
 void lsw_motion_keep_reader(lua_State *L);
 
-void lsw_motion_open_arguments(lua_State *L);
+void lsw_motion_open_arguments(void);
 
 #endif

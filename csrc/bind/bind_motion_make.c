@@ -47,8 +47,7 @@ static const sw_param rows[] = {
 
 const sw_params lsw_motion_params = SW_PARAMS("trajectory", rows);
 
-void lsw_motion_open_arguments(lua_State *L) {
-  (void)L;
+void lsw_motion_open_arguments(void) {
   const size_t most = sizeof law_names / sizeof law_names[0] - 1;
   for (size_t i = 0; i < most; i++) law_names[i] = sw_motion_law_at(i);
 }

@@ -1,35 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lua class obstacle and scene:obstacle. */
 
-#include "bind/bind_motion.h"
 #include "bind/bind_shape.h"
 #include "bind/child.h"
 #include "bind/share.h"
 
 int lsw_scene_obstacle(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_obstacle_args args;
   sw_error err = {""};
   const lsw_section extra = {&sw_obstacle_params, &args};
   lua_settop(L, 2);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_obstacle);
+  lsw_child *child = lsw_new_child(L, &lsw_class_obstacle);
   sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
-  const sw_status status = sw_scene_add_obstacle(owner->h.object, shape, &args, &child->id, &err);
-  if (status == SW_OK) {
-    child->h.object = owner;
-    lua_pushvalue(L, 3);
-    sw_shape_release(shape);
-    return 1;
-  }
+  const sw_status status = sw_scene_add_obstacle(scene, shape, &args, &child->id, &err);
   sw_shape_release(shape);
   lsw_must(L, status, &err);
-  return 0;
+  lua_pushvalue(L, 3);
+  return 1;
 }
 
 static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_obstacle); }
 
 static lsw_load load_of(lua_State *L, int with_point) {
-  sw_error err = {""};
   lsw_load on;
   sw_vec about = sw_v(0, 0, 0);
   static const sw_param rows[] = {{"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, 0, NULL, 0,
@@ -37,7 +30,7 @@ static lsw_load load_of(lua_State *L, int with_point) {
   static const sw_params params = SW_PARAMS("obstacle:moment", rows);
   const lsw_self o = check(L);
   if (with_point) lsw_arguments(L, 2, "obstacle:moment", &params, &about);
-  lsw_must(L, sw_scene_obstacle_force(o.scene, o.id, about, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_force, o.scene, o.id, about, &on.force, &on.moment);
   return on;
 }
 
@@ -45,22 +38,19 @@ static lsw_load load_of(lua_State *L, int with_point) {
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
-static const lsw_posed posed = {&lsw_class_obstacle,        "obstacle",
-                                "obstacle:follow",          sw_scene_obstacle_pose,
-                                sw_scene_obstacle_set_pose, sw_scene_obstacle_follow};
-
 /* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets; without a
  * rotation it keeps the one it has. */
-static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
+static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_obstacle); }
 
-static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
+static int meth_follow(lua_State *L) {
+  return lsw_follow(L, &lsw_class_obstacle, "obstacle:follow");
+}
 
 /* obstacle:get() -> a table of its rows, as it is now */
 static int meth_get(lua_State *L) {
-  sw_error err = {""};
   sw_obstacle_args args;
   const lsw_self o = check(L);
-  lsw_must(L, sw_scene_obstacle_args(o.scene, o.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_args, o.scene, o.id, &args);
   lsw_push_values(L, &sw_obstacle_params, &args);
   return 1;
 }
@@ -74,21 +64,20 @@ static int given(lua_State *L, const char *name) {
 /* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone is that
  * of what slides, too. */
 static int meth_set(lua_State *L) {
-  sw_error err = {""};
   sw_obstacle_args args;
   const lsw_self o = check(L);
   lua_settop(L, 2);
-  lsw_must(L, sw_scene_editable(o.scene, &err), &err);
-  lsw_must(L, sw_scene_obstacle_args(o.scene, o.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_editable, o.scene);
+  LSW_DO(L, sw_scene_obstacle_args, o.scene, o.id, &args);
   lsw_changes(L, 2, "obstacle:set", &sw_obstacle_params, &args);
   const int rubs = given(L, "friction"), slides = given(L, "kinetic_friction");
   if (rubs && !slides) args.kinetic = args.friction;
   if (given(L, "at") || given(L, "rotation")) {
     const sw_pose pose = {args.at, args.rotation};
-    lsw_must(L, sw_scene_obstacle_set_pose(o.scene, o.id, pose, &err), &err);
+    LSW_DO(L, sw_scene_object_put, o.scene, SW_OF_OBSTACLE, o.id, pose);
   }
   if (rubs || slides || given(L, "restitution"))
-    lsw_must(L, sw_scene_obstacle_set_surface(o.scene, o.id, &args, &err), &err);
+    LSW_DO(L, sw_scene_obstacle_set_surface, o.scene, o.id, &args);
   return 0;
 }
 
@@ -98,20 +87,15 @@ static int meth_remove(lua_State *L) {
 
 /* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an
  * equilibrium) [s, N, s]; number of rows. */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_obstacle, sw_scene_obstacle_log, SW_LOG_OBSTACLE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_obstacle, SW_LOG_OBSTACLE_SIZE); }
 
 /* obstacle.shape: the shape at the origin, in its own axes. */
 static int prop_shape(lua_State *L) {
-  sw_error err = {""};
   sw_shape *shape;
-  const char *kind;
-  int present = 0;
   const lsw_self o = check(L);
-  if (!sw_scene_obstacle_name(o.scene, o.id, &kind, &present) || !present)
+  if (!sw_scene_identify(o.scene, SW_OF_OBSTACLE, o.id).alive)
     return lsw_not_there(L, &lsw_class_obstacle, o.scene);
-  lsw_must(L, sw_scene_obstacle_shape(o.scene, o.id, &shape, &err), &err);
+  LSW_DO(L, sw_scene_obstacle_shape, o.scene, o.id, &shape);
   lsw_push_shape(L, shape);
   return 1;
 }
@@ -121,44 +105,25 @@ static const luaL_Reg methods[] = {
     {"follow", meth_follow}, {"remove", meth_remove}, {"log", meth_log},
     {"get", meth_get},       {"set", meth_set},       {NULL, NULL}};
 
-static int prop_name(lua_State *L) {
-  const char *kind;
-  int present;
-  const lsw_self o = check(L);
-  const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
-  if (!name) return lsw_not_there(L, &lsw_class_obstacle, o.scene);
-  lua_pushstring(L, name);
-  return 1;
-}
-
-static int prop_present(lua_State *L) {
-  const char *kind;
-  int present = 0;
-  const lsw_self o = check(L);
-  lua_pushboolean(L, sw_scene_obstacle_name(o.scene, o.id, &kind, &present) && present);
-  return 1;
-}
-
 static int describe(lua_State *L) {
   lsw_self o;
   sw_error err;
-  const char *kind;
   sw_vec force, moment;
-  int present;
   if (!lsw_find_self(L, &lsw_class_obstacle, &o)) return 1;
-  const char *name = sw_scene_obstacle_name(o.scene, o.id, &kind, &present);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_obstacle);
-  if (!present) return lsw_say(L, "%s '%s' (removed)", kind, name);
+  const sw_identity is = sw_scene_identify(o.scene, SW_OF_OBSTACLE, o.id);
+  if (!is.name) return lsw_say_taken_back(L, &lsw_class_obstacle);
+  if (!is.alive) return lsw_say(L, "%s '%s' (removed)", is.kind, is.name);
   if (sw_scene_obstacle_force(o.scene, o.id, sw_v(0, 0, 0), &force, &moment, &err) != SW_OK)
-    return lsw_say(L, "%s '%s'", kind, name);
-  return lsw_say(L, "%s '%s': force on it (%.4g, %.4g, %.4g) N", kind, name, force.x, force.y,
+    return lsw_say(L, "%s '%s'", is.kind, is.name);
+  return lsw_say(L, "%s '%s': force on it (%.4g, %.4g, %.4g) N", is.kind, is.name, force.x, force.y,
                  force.z);
 }
 
 static const luaL_Reg properties[] = {
-    {"shape", prop_shape}, {"name", prop_name}, {"present", prop_present}, {NULL, NULL}};
+    {"shape", prop_shape}, {"name", lsw_prop_name}, {"present", lsw_prop_alive}, {NULL, NULL}};
 
 const lsw_class lsw_class_obstacle = {.name = "obstacle",
+                                      .kind = SW_OF_OBSTACLE,
                                       .size = sizeof(lsw_child),
                                       .methods = methods,
                                       .describe = describe,

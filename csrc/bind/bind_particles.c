@@ -5,17 +5,15 @@
 #include "bind/share.h"
 
 int lsw_scene_particles(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_particles_args args;
   sw_particles_parts parts = {0};
-  sw_error err = {""};
   lua_settop(L, 2);
   lsw_check_table(L, 2, "scene:particles");
   lsw_arguments(L, 2, "particles", &sw_particles_params, &args);
   lsw_read_parts(L, 2, &parts);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_particles);
-  lsw_must(L, sw_scene_add_particles(owner->h.object, &args, &parts, &child->id, &err), &err);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_particles);
+  LSW_DO(L, sw_scene_add_particles, scene, &args, &parts, &child->id);
   return 1;
 }
 
@@ -34,42 +32,32 @@ int lsw_hold_particles(lua_State *L) {
     sw_vec at; /* [m] */
   } args;
   _Static_assert(offsetof(__typeof__(args), at) == SW_NAME_SIZE, "as in the row");
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
-  sw_error err = {""};
+  sw_scene *scene = lsw_check_scene(L);
   size_t count;
   lua_settop(L, 3);
-  const sw_handle object =
-      lsw_check_child_of(L, 2, &lsw_class_particles, owner->h.object, "scene:hold");
+  const sw_handle object = lsw_check_child_of(L, 2, &lsw_class_particles, scene, "scene:hold");
   lsw_arguments(L, 3, "scene:hold", &params, &args);
   lua_getfield(L, 3, "particles");
   const uint32_t *list = lsw_particle_numbers(L, 4, "particles to be held", &count);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_clamp);
-  lsw_must(L,
-           sw_scene_hold_particles(owner->h.object, object, args.name, list, count, args.at,
-                                   &child->id, &err),
-           &err);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_clamp);
+  LSW_DO(L, sw_scene_hold_particles, scene, object, args.name, list, count, args.at, &child->id);
   return 1;
 }
 
 /* --- read-outs ---------------------------------------------------------------- */
 
 static sw_particles_info info_of(lua_State *L, lsw_self *of) {
-  sw_error err = {""};
   sw_particles_info info;
   *of = lsw_check_self(L, &lsw_class_particles);
-  lsw_must(L, sw_scene_particles_info(of->scene, of->id, &info, &err), &err);
+  LSW_DO(L, sw_scene_particles_info, of->scene, of->id, &info);
   return info;
 }
 
 static int push_copy(lua_State *L, int velocities) {
   lsw_self p;
-  sw_error err = {""};
   const size_t n = 3 * info_of(L, &p).particles;
   double *x = lua_newuserdatauv(L, n * sizeof *x, 0);
-  lsw_must(
-      L, sw_scene_particles_copy(p.scene, p.id, velocities ? NULL : x, velocities ? x : NULL, &err),
-      &err);
+  LSW_DO(L, sw_scene_particles_copy, p.scene, p.id, velocities ? NULL : x, velocities ? x : NULL);
   lsw_push_flat(L, x, n);
   return 1;
 }
@@ -81,7 +69,6 @@ static int meth_velocities(lua_State *L) { return push_copy(L, 1); }
 /* object:particle(i) -> position [m], velocity [m/s] */
 static int meth_particle(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
   sw_vec x, v;
   info_of(L, &p);
   int whole;
@@ -89,7 +76,7 @@ static int meth_particle(lua_State *L) {
   if (!whole || i < 1)
     return luaL_error(L, "particles:particle takes the number of a particle, from 1 on, got %s",
                       lsw_describe(L, 2));
-  lsw_must(L, sw_scene_particle(p.scene, p.id, (size_t)i - 1, &x, &v, &err), &err);
+  LSW_DO(L, sw_scene_particle, p.scene, p.id, (size_t)i - 1, &x, &v);
   lsw_push_vector(L, x);
   lsw_push_vector(L, v);
   return 2;
@@ -98,11 +85,9 @@ static int meth_particle(lua_State *L) {
 /* object:links() -> flat lists of all links: force pulling [N], strain [-], plastic strain [-] */
 static int meth_links(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
   const size_t n = info_of(L, &p).links;
   double *values = lua_newuserdatauv(L, (3 * n + 1) * sizeof *values, 0);
-  lsw_must(L, sw_scene_particles_links(p.scene, p.id, values, values + n, values + 2 * n, &err),
-           &err);
+  LSW_DO(L, sw_scene_particles_links, p.scene, p.id, values, values + n, values + 2 * n);
   for (size_t k = 0; k < 3; k++) lsw_push_flat(L, values + k * n, n);
   return 3;
 }
@@ -110,17 +95,15 @@ static int meth_links(lua_State *L) {
 /* object:energy() -> { kinetic =, stretch =, ... } of it alone [J] */
 static int meth_energy(lua_State *L) {
   lsw_self p;
-  sw_error err = {""};
   sw_energy e;
   info_of(L, &p);
-  lsw_must(L, sw_scene_body_energy(p.scene, p.id, &e, &err), &err);
+  LSW_DO(L, sw_scene_body_energy, p.scene, p.id, &e);
   lsw_push_energy(L, &e);
   return 1;
 }
 
 /* A flat list of three numbers for each particle. */
 static int set_all(lua_State *L, lsw_self p, size_t count) {
-  sw_error err = {""};
   const size_t n = 3 * count;
   if (lua_rawlen(L, 2) != n)
     return luaL_error(L,
@@ -133,7 +116,7 @@ static int set_all(lua_State *L, lsw_self p, size_t count) {
     v[i] = lsw_number(L, -1, "particles:set_velocity: an item", "m/s");
     lua_pop(L, 1);
   }
-  lsw_must(L, sw_scene_particles_set_velocities(p.scene, p.id, v, &err), &err);
+  LSW_DO(L, sw_scene_particles_set_velocities, p.scene, p.id, v);
   return 0;
 }
 
@@ -153,8 +136,6 @@ static sw_particles_info info(lua_State *L) {
   return info_of(L, &p);
 }
 
-static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_particles); }
-static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_particles); }
 static int prop_count(lua_State *L) {
   return lua_pushinteger(L, (lua_Integer)info(L).particles), 1;
 }
@@ -182,11 +163,12 @@ static const luaL_Reg methods[] = {{"positions", meth_positions},
                                    {"energy", meth_energy},
                                    {"set_velocity", meth_set_velocity},
                                    {NULL, NULL}};
-static const luaL_Reg properties[] = {{"name", prop_name},     {"present", prop_present},
+static const luaL_Reg properties[] = {{"name", lsw_prop_name}, {"present", lsw_prop_alive},
                                       {"count", prop_count},   {"mass", prop_mass},
                                       {"radius", prop_radius}, {NULL, NULL}};
 
 const lsw_class lsw_class_particles = {.name = "particles",
+                                       .kind = SW_OF_BODY,
                                        .size = sizeof(lsw_child),
                                        .methods = methods,
                                        .describe = describe,

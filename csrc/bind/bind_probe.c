@@ -60,7 +60,7 @@ int lsw_scene_evaluate(lua_State *L) {
   lua_settop(L, 3);
   const sw_handle wire = lsw_check_body_of(L, 2, scene, "scene:evaluate");
   lsw_arguments(L, 3, "scene:evaluate", &params, &args);
-  lsw_must(L, sw_scene_wire_particles(scene, wire, &nodes, &err), &err);
+  LSW_DO(L, sw_scene_wire_particles, scene, wire, &nodes);
   const size_t n = 3 * nodes;
   const int table = lua_isnil(L, 3) ? 0 : 3;
   const sw_probe at = {.positions = read_flat(L, table, "positions", n),

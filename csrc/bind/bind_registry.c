@@ -2,7 +2,6 @@
 /* core.registry(): every registry and parameter table as Lua tables, for help,
  * the reference pages and the contract specs. */
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* Each pushes one entry and leaves it on the stack. */
 
@@ -149,7 +148,4 @@ static int mod_registry(lua_State *L) {
   return 1;
 }
 
-void lsw_open_registry(lua_State *L) {
-  lua_pushcfunction(L, mod_registry);
-  lua_setfield(L, -2, "registry");
-}
+const luaL_Reg lsw_module_registry[] = {{"registry", mod_registry}, {NULL, NULL}};

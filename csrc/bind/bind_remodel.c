@@ -32,7 +32,6 @@ static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *m
 /* -> { energy_before, energy_after, energy_change [J], before, after = { linear [N s], angular
  * [N m s] about the place `about` [m] } } */
 int lsw_wire_remodel(lua_State *L) {
-  sw_error err = {""};
   sw_wire_args args = {0};
   sw_wire_mesh_args mesh;
   sw_remodel_report r;
@@ -44,9 +43,7 @@ int lsw_wire_remodel(lua_State *L) {
     return luaL_error(L, "wire:remodel: segments = 1 is not allowed; it must be 2 or more");
   sw_params_default(&sw_section_params, &mesh.section);
   mesh.section.EI2 = (double)NAN;
-  lsw_must(
-      L, sw_scene_remodel(w.scene, w.id, &args, &mesh, isnan(region[0]) ? NULL : region, &r, &err),
-      &err);
+  LSW_DO(L, sw_scene_remodel, w.scene, w.id, &args, &mesh, isnan(region[0]) ? NULL : region, &r);
   lua_createtable(L, 0, 6);
   lsw_set_number(L, "energy_before", r.energy_before);
   lsw_set_number(L, "energy_after", r.energy_after);

@@ -6,7 +6,6 @@
 
 #include "bind/child.h"
 #include "bind/mesh_child.h"
-#include "bind/module.h"
 
 typedef struct block {
   unsigned char *bytes;
@@ -30,11 +29,10 @@ static int give_block(lua_State *L, block *b) {
 /* core.save(scene, note) -> string */
 static int mod_save(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   block b = {NULL, 0};
   size_t note_size;
   const char *note = luaL_checklstring(L, 2, &note_size);
-  lsw_must(L, sw_scene_save(scene, note, note_size, &b.bytes, &b.size, &err), &err);
+  LSW_DO(L, sw_scene_save, scene, note, note_size, &b.bytes, &b.size);
   return give_block(L, &b);
 }
 
@@ -50,9 +48,8 @@ static int mod_fields(lua_State *L) {
 static int mod_saved_note(lua_State *L) {
   size_t size, note_size;
   const void *note;
-  sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 1, &size);
-  lsw_must(L, sw_saved_note(bytes, size, &note, &note_size, &err), &err);
+  LSW_DO(L, sw_saved_note, bytes, size, &note, &note_size);
   lua_pushlstring(L, note, note_size);
   return 1;
 }
@@ -61,11 +58,10 @@ static int mod_saved_note(lua_State *L) {
 static int mod_load(lua_State *L) {
   size_t size;
   sw_scene *scene = NULL;
-  sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 1, &size);
   lsw_handle *h = lsw_new_scene(L);
   lsw_mesh_child_for(L);
-  lsw_must(L, sw_scene_load(bytes, size, &scene, &err), &err);
+  LSW_DO(L, sw_scene_load, bytes, size, &scene);
   h->object = scene;
   return 1;
 }
@@ -74,10 +70,9 @@ static int mod_load(lua_State *L) {
 static int mod_resume(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   size_t size;
-  sw_error err = {""};
   const char *bytes = luaL_checklstring(L, 2, &size);
   lsw_mesh_child_for(L);
-  lsw_must(L, sw_scene_resume(scene, bytes, size, &err), &err);
+  LSW_DO(L, sw_scene_resume, scene, bytes, size);
   lsw_forget_forces(L, 1, scene);
   return 0;
 }
@@ -103,9 +98,8 @@ enum { CHILDREN = sizeof children / sizeof children[0] };
 
 /* Its slot; of a wire or an object of particles, whose slots change, its number in frames. */
 static size_t slot_of(const lsw_class *c, const lsw_child *child) {
-  const lsw_scene_handle *owner = child->h.object;
-  const sw_scene *scene = owner ? owner->h.object : NULL;
-  if (!scene || (c != &lsw_class_wire && c != &lsw_class_particles)) return child->id.slot;
+  const sw_scene *scene = ((const lsw_scene_handle *)child->h.object)->h.object;
+  if (!scene || c->kind != SW_OF_BODY) return child->id.slot;
   const size_t number = sw_scene_body_number(scene, child->id);
   return number == SIZE_MAX ? UINT32_MAX : number;
 }
@@ -128,23 +122,20 @@ static int mod_number(lua_State *L) {
 /* core.numbered(scene, class, slot, generation) -> the object of that number, which the scene
  * may not have */
 static int mod_numbered(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  lsw_check_scene(L);
   const char *name = luaL_checkstring(L, 2);
   const lua_Integer slot = lsw_integer(L, 3, "numbered: the slot"),
                     generation = lsw_integer(L, 4, "numbered: the generation");
   for (int k = 0; k < CHILDREN; k++) {
     if (strcmp(children[k]->name, name) != 0) continue;
-    lsw_child *child = lsw_new_child(L, 1, children[k]);
+    lsw_child *child = lsw_new_child(L, children[k]);
     child->id = (sw_handle){(uint32_t)slot, (uint32_t)generation};
-    child->h.object = owner;
     return 1;
   }
   return luaL_error(L, "a scene has no objects of class '%s'", name);
 }
 
-static const luaL_Reg functions[] = {
+const luaL_Reg lsw_module_save[] = {
     {"save", mod_save},     {"fields", mod_fields},     {"saved_note", mod_saved_note},
     {"load", mod_load},     {"resume", mod_resume},     {"items", mod_items},
     {"number", mod_number}, {"numbered", mod_numbered}, {NULL, NULL}};
-
-void lsw_open_save(lua_State *L) { luaL_setfuncs(L, functions, 0); }

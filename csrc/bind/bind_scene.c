@@ -5,7 +5,6 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 lsw_handle *lsw_new_scene(lua_State *L) {
   lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);
@@ -18,12 +17,11 @@ lsw_handle *lsw_new_scene(lua_State *L) {
 
 static int mod_scene(lua_State *L) {
   sw_scene_args args;
-  sw_error err = {""};
   sw_scene *scene = NULL;
   lua_settop(L, 1);
   lsw_arguments(L, 1, "scene", &sw_scene_params, &args);
   lsw_handle *h = lsw_new_scene(L);
-  lsw_must(L, sw_scene_new(&args, &scene, &err), &err);
+  LSW_DO(L, sw_scene_new, &args, &scene);
   h->object = scene;
   return 1;
 }
@@ -57,26 +55,19 @@ static int mod_busy(lua_State *L) {
   return 1;
 }
 
-/* core.exists(object): does its scene still know it? */
+/* core.exists(object): does its scene still know it? What was released counts, what was taken away
+ * does not. */
 static int mod_exists(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
   const lsw_handle *h = lua_touserdata(L, 1);
-  const char *kind;
-  int alive;
-  size_t ends;
   int known = c && h->object;
-  if (known && !c->close) { /* a child */
+  if (known && c->kind) {
     const lsw_child *child = lua_touserdata(L, 1);
     const sw_scene *scene = ((lsw_scene_handle *)child->h.object)->h.object;
-    known =
-        scene &&
-        (c == &lsw_class_wire || c == &lsw_class_particles
-             ? sw_scene_wire_name(scene, sw_scene_body_now(scene, child->id)) != NULL
-         : c == &lsw_class_tool  ? sw_scene_tool_name(scene, child->id) != NULL
-         : c == &lsw_class_clamp ? sw_scene_hold_name(scene, child->id, &kind, &alive) != NULL
-         : c == &lsw_class_join  ? sw_scene_join_name(scene, child->id, &alive, &ends) != NULL
-         : c == &lsw_class_force ? sw_scene_force_class(scene, child->id) != NULL
-                                 : sw_scene_obstacle_name(scene, child->id, &kind, &alive) != NULL);
+    const int body = c->kind == SW_OF_BODY, leaves = body || c->kind == SW_OF_TOOL;
+    const sw_handle id = body && scene ? sw_scene_body_now(scene, child->id) : child->id;
+    const sw_identity is = scene ? sw_scene_identify(scene, c->kind, id) : (sw_identity){NULL};
+    known = is.name && (is.alive || !leaves);
   }
   lua_pushboolean(L, known);
   return 1;
@@ -128,8 +119,7 @@ static int mod_check_settle(lua_State *L) {
 
 /* core.begin_run(scene[, wear]): extremes start anew; is the wear of wires to be kept? */
 static int mod_begin_run(lua_State *L) {
-  sw_error err = {""};
-  lsw_must(L, sw_scene_begin_run(lsw_check_scene(L), lua_toboolean(L, 2), &err), &err);
+  LSW_DO(L, sw_scene_begin_run, lsw_check_scene(L), lua_toboolean(L, 2));
   return 0;
 }
 
@@ -145,7 +135,6 @@ static int mod_window(lua_State *L) {
 /* core.remesh(scene, { segments of each wire }) */
 static int mod_remesh(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   luaL_checktype(L, 2, LUA_TTABLE);
   const size_t count = lua_rawlen(L, 2);
   size_t *segments = lua_newuserdatauv(L, (count + 1) * sizeof *segments, 0);
@@ -155,28 +144,26 @@ static int mod_remesh(lua_State *L) {
     segments[w] = n > 0 ? (size_t)n : 0;
     lua_pop(L, 1);
   }
-  lsw_must(L, sw_scene_remesh(scene, segments, count, &err), &err);
+  LSW_DO(L, sw_scene_remesh, scene, segments, count);
   return 0;
 }
 
 /* core.redraw(wire, rolls, EA, EI, GJ): a rod with other stiffnesses (factors), or that rolls. */
 static int mod_redraw(lua_State *L) {
-  sw_error err = {""};
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_redrawing as = {.rolls = lua_toboolean(L, 2),
                            .EA = luaL_optnumber(L, 3, 1),
                            .EI = luaL_optnumber(L, 4, 1),
                            .GJ = luaL_optnumber(L, 5, 1)};
-  lsw_must(L, sw_scene_redraw(w.scene, w.id, &as, &err), &err);
+  LSW_DO(L, sw_scene_redraw, w.scene, w.id, &as);
   return 0;
 }
 
 /* core.segments(wire): even ones of its mesh, before holds added nodes. */
 static int mod_segments(lua_State *L) {
-  sw_error err = {""};
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_segments(w.scene, w.id, &n, &err), &err);
+  LSW_DO(L, sw_scene_wire_segments, w.scene, w.id, &n);
   lua_pushinteger(L, (lua_Integer)n);
   return 1;
 }
@@ -275,16 +262,14 @@ static int meth_settle(lua_State *L) {
 
 static int meth_energy(lua_State *L) {
   sw_energy e;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_energy(lsw_check_scene(L), &e, &err), &err);
+  LSW_DO(L, sw_scene_energy, lsw_check_scene(L), &e);
   lsw_push_energy(L, &e);
   return 1;
 }
 
 static int meth_stable_dt(lua_State *L) {
   double dt;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_stable_dt(lsw_check_scene(L), &dt, &err), &err);
+  LSW_DO(L, sw_scene_stable_dt, lsw_check_scene(L), &dt);
   lua_pushnumber(L, dt);
   return 1;
 }
@@ -293,9 +278,8 @@ static int meth_stable_dt(lua_State *L) {
 static int meth_gravity(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   if (lua_gettop(L) > 1) {
-    sw_error err = {""};
     const sw_vec g = lsw_vector(L, 2, "scene:gravity", "m/s2");
-    lsw_must(L, sw_scene_set_gravity(scene, g, &err), &err);
+    LSW_DO(L, sw_scene_set_gravity, scene, g);
     return 0;
   }
   lsw_push_vector(L, sw_scene_gravity(scene));
@@ -317,22 +301,20 @@ static int prop_name(lua_State *L) {
 static int meth_snapshot(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_snapshot *snapshot = NULL;
-  sw_error err = {""};
   lsw_handle *h = lsw_new(L, &lsw_class_snapshot, 2);
   lua_pushvalue(L, 1);
   lua_setiuservalue(L, -2, 1);
-  lsw_must(L, sw_scene_snapshot(scene, &snapshot, &err), &err);
+  LSW_DO(L, sw_scene_snapshot, scene, &snapshot);
   h->object = snapshot;
   return 1;
 }
 
 static int meth_restore(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   const lsw_handle *h = lsw_check(L, 2, &lsw_class_snapshot);
   lua_getiuservalue(L, 2, 1);
   if (!lua_rawequal(L, -1, 1)) return luaL_error(L, "restore: the snapshot is of another scene");
-  lsw_must(L, sw_scene_restore(scene, h->object, &err), &err);
+  LSW_DO(L, sw_scene_restore, scene, h->object);
   lsw_forget_forces(L, 1, scene);
   return 0;
 }
@@ -397,7 +379,7 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-static const luaL_Reg functions[] = {{"scene", mod_scene},
+const luaL_Reg lsw_module_scene[] = {{"scene", mod_scene},
                                      {"data", mod_data},
                                      {"type", mod_type},
                                      {"busy", mod_busy},
@@ -414,5 +396,3 @@ static const luaL_Reg functions[] = {{"scene", mod_scene},
                                      {"redraw", mod_redraw},
                                      {"segments", mod_segments},
                                      {NULL, NULL}};
-
-void lsw_open_scene(lua_State *L) { luaL_setfuncs(L, functions, 0); }

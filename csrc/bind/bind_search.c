@@ -8,7 +8,6 @@
 #include <math.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 static const char SEARCH[] = "softworld.search";
 
@@ -61,7 +60,6 @@ static const luaL_Reg methods[] = {
 
 static int mod_search(lua_State *L) {
   double start[SW_SEARCH_MOST];
-  sw_error err = {""};
   luaL_checktype(L, 2, LUA_TTABLE);
   const size_t n = lua_rawlen(L, 2);
   const lua_Integer count = luaL_checkinteger(L, 3);
@@ -79,7 +77,7 @@ static int mod_search(lua_State *L) {
   luaL_argcheck(L, args.tolerance > 0 && args.tolerance <= 0.5, 5, "above 0 to 0.5");
   holder *h = lsw_keep(L, sizeof *h, SEARCH, methods, meth_close);
   h->n = n, h->constraints = (size_t)count;
-  lsw_must(L, sw_search_new(&args, &h->search, &err), &err);
+  LSW_DO(L, sw_search_new, &args, &h->search);
   return 1;
 }
 
@@ -101,7 +99,4 @@ static int mod_eigen(lua_State *L) {
   return 2;
 }
 
-void lsw_open_search(lua_State *L) {
-  static const luaL_Reg functions[] = {{"search", mod_search}, {"eigen", mod_eigen}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_search[] = {{"search", mod_search}, {"eigen", mod_eigen}, {NULL, NULL}};

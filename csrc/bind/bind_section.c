@@ -19,10 +19,9 @@ static void set_stress(lua_State *L, double E, const double *strain, size_t coun
 static void set_height(lua_State *L, lsw_self w, double s, sw_vec tangent) {
   const sw_vec g = sw_scene_gravity(w.scene);
   const sw_vec up = sw_unit_or(sw_neg(g), sw_v(0, 0, 1));
-  sw_error err = {""};
   double height;
   if (fabs(sw_dot(up, tangent)) > 0.999) return; /* nothing across the wire points up */
-  lsw_must(L, sw_scene_wire_width(w.scene, w.id, s, up, &height, &err), &err);
+  LSW_DO(L, sw_scene_wire_width, w.scene, w.id, s, up, &height);
   lsw_set_number(L, "height", height);
 }
 
@@ -48,17 +47,16 @@ static void push_section(lua_State *L, const sw_section_shape *p) {
 
 /* wire:section(s) -> table */
 int lsw_wire_section(lua_State *L) {
-  sw_error err = {""};
   sw_beam beam;
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire:section: s", "m");
-  lsw_must(L, sw_scene_wire_outline(w.scene, w.id, &n, &err), &err);
-  lsw_must(L, sw_scene_wire_beam(w.scene, w.id, &beam, &err), &err);
+  LSW_DO(L, sw_scene_wire_outline, w.scene, w.id, &n);
+  LSW_DO(L, sw_scene_wire_beam, w.scene, w.id, &beam);
   double *room = lua_newuserdatauv(L, 8 * n * sizeof *room, 0);
   sw_section_shape p = {
       .particles = room, .surface = room + 3 * n, .axial = room + 6 * n, .hoop = room + 7 * n};
-  lsw_must(L, sw_scene_wire_section(w.scene, w.id, s, &p, &err), &err);
+  LSW_DO(L, sw_scene_wire_section, w.scene, w.id, s, &p);
   push_section(L, &p);
   lsw_set_number(L, "s", s);
   set_stress(L, beam.E, p.axial, n);
@@ -68,23 +66,21 @@ int lsw_wire_section(lua_State *L) {
 
 /* wire:width(s, direction) [m] */
 int lsw_wire_width(lua_State *L) {
-  sw_error err = {""};
   double width;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire:width: s", "m");
   const sw_vec direction = lsw_vector(L, 3, "wire:width: direction", "-");
-  lsw_must(L, sw_scene_wire_width(w.scene, w.id, s, direction, &width, &err), &err);
+  LSW_DO(L, sw_scene_wire_width, w.scene, w.id, s, direction, &width);
   lua_pushnumber(L, width);
   return 1;
 }
 
 /* The place at index 2, which must be on the wire; NAN: none is given. */
 static double read_place(lua_State *L, lsw_self w, const char *what) {
-  sw_error err = {""};
   sw_point_state any;
   if (lua_isnoneornil(L, 2)) return (double)NAN;
   const double s = lsw_number(L, 2, what, "m");
-  lsw_must(L, sw_scene_wire_at(w.scene, w.id, s, &any, &err), &err);
+  LSW_DO(L, sw_scene_wire_at, w.scene, w.id, s, &any);
   return s;
 }
 
@@ -97,14 +93,13 @@ typedef struct pressed {
 
 /* Arrays in a userdata on the stack. */
 static pressed read_pressed(lua_State *L, lsw_self w) {
-  sw_error err = {""};
   pressed p;
-  lsw_must(L, sw_scene_wire_particles(w.scene, w.id, &p.n, &err), &err);
+  LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &p.n);
   p.x = lua_newuserdatauv(L, 9 * p.n * sizeof *p.x, 0);
   p.force = p.x + 3 * p.n, p.arc = p.force + 3 * p.n;
   p.normal = p.arc + p.n, p.area = p.normal + p.n;
-  lsw_must(L, sw_scene_wire_pressed(w.scene, w.id, p.force, p.normal, p.area, p.arc, &err), &err);
-  lsw_must(L, sw_scene_wire_particle_copy(w.scene, w.id, p.x, p.arc, &err), &err);
+  LSW_DO(L, sw_scene_wire_pressed, w.scene, w.id, p.force, p.normal, p.area, p.arc);
+  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, p.x, p.arc);
   return p;
 }
 
@@ -153,15 +148,14 @@ int lsw_wire_contact_pressure(lua_State *L) {
 
 /* wire:von_mises([s]) -> list of the elements' stress, .largest [Pa] and where */
 int lsw_wire_von_mises(lua_State *L) {
-  sw_error err = {""};
   size_t n, best = 0;
   lua_Integer count = 0;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_elements(w.scene, w.id, &n, &err), &err);
+  LSW_DO(L, sw_scene_wire_elements, w.scene, w.id, &n);
   const double s = read_place(L, w, "wire:von_mises: s");
   double *mises = lua_newuserdatauv(L, 6 * n * sizeof *mises, 0);
   double *middle = mises + n, *arc = middle + 3 * n;
-  lsw_must(L, sw_scene_wire_mises(w.scene, w.id, mises, middle, arc, &err), &err);
+  LSW_DO(L, sw_scene_wire_mises, w.scene, w.id, mises, middle, arc);
   lua_newtable(L);
   for (size_t i = 0; i < n; i++) {
     if (!isnan(s) && (s < arc[2 * i] || s > arc[2 * i + 1])) continue;

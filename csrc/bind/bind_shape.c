@@ -6,7 +6,6 @@
 
 #include "bind/child.h"
 #include "bind/mesh_child.h"
-#include "bind/module.h"
 
 typedef struct shape_handle {
   lsw_handle handle; /* object: an sw_shape */
@@ -276,9 +275,5 @@ const lsw_class lsw_class_shape = {.name = "shape",
                                    .close = close,
                                    .gone = "the shape has been closed"};
 
-void lsw_open_shape(lua_State *L) {
-  static const luaL_Reg functions[] = {
-      {"shape", mod_shape}, {"shape_params", mod_shape_params}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-  lsw_mesh_child_open();
-}
+const luaL_Reg lsw_module_shape[] = {
+    {"shape", mod_shape}, {"shape_params", mod_shape_params}, {NULL, NULL}};

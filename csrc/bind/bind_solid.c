@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* core.solid: one solid element, for tests of it and by itself. */
 #include "bind/child.h"
-#include "bind/module.h"
 
 enum { NUMBERS = 3 * SW_SOLID_NODES };
 
@@ -45,7 +44,4 @@ static int mod_solid(lua_State *L) {
   return 7;
 }
 
-void lsw_open_solid(lua_State *L) {
-  static const luaL_Reg functions[] = {{"solid", mod_solid}, {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_solid[] = {{"solid", mod_solid}, {NULL, NULL}};

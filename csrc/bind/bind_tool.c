@@ -3,7 +3,6 @@
  * it as scene:gripper. */
 #include <math.h>
 
-#include "bind/bind_motion.h"
 #include "bind/child.h"
 #include "bind/share.h"
 
@@ -20,14 +19,12 @@ static const sw_param rows[] = {
 static const sw_params tool_params = SW_PARAMS("scene:tool", rows);
 
 int lsw_scene_tool(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_tool_args args;
-  sw_error err = {""};
   lua_settop(L, 2);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_tool);
+  lsw_child *child = lsw_new_child(L, &lsw_class_tool);
   lsw_arguments(L, 2, "scene:tool", &tool_params, &args);
-  lsw_must(L, sw_scene_add_tool(owner->h.object, &args, &child->id, &err), &err);
-  child->h.object = owner;
+  LSW_DO(L, sw_scene_add_tool, scene, &args, &child->id);
   return 1;
 }
 
@@ -35,40 +32,33 @@ static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_tool);
 
 /* tool:pad(obstacle, finger, opens): the obstacle goes with the tool from now on. */
 static int meth_pad(lua_State *L) {
-  sw_error err = {""};
   const lsw_self t = check(L);
   const sw_handle o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad");
   const lua_Integer finger = lsw_integer(L, 3, "tool: the number of the finger");
   luaL_argcheck(L, finger >= 0 && finger <= SW_TOOL_PADS, 3, "finger out of range");
   const sw_vec opens = lsw_vector(L, 4, "tool:pad: opens", "-");
-  lsw_must(L, sw_scene_tool_pad(t.scene, t.id, o, (int)finger - 1, opens, &err), &err);
+  LSW_DO(L, sw_scene_tool_pad, t.scene, t.id, o, (int)finger - 1, opens);
   return 0;
 }
 
 static int meth_hold(lua_State *L) {
-  sw_error err = {""};
   const lsw_self t = check(L);
   const sw_handle h = lsw_check_child_of(L, 2, &lsw_class_clamp, t.scene, "tool:hold");
-  lsw_must(L, sw_scene_tool_hold(t.scene, t.id, h, &err), &err);
+  LSW_DO(L, sw_scene_tool_hold, t.scene, t.id, h);
   return 0;
 }
 
 static int meth_pads_on(lua_State *L) {
-  sw_error err = {""};
   const lsw_self t = check(L);
   if (!lua_isboolean(L, 2))
     luaL_error(L, "tool:pads_on must be true or false, got %s", lsw_describe(L, 2));
-  lsw_must(L, sw_scene_tool_pads_on(t.scene, t.id, lua_toboolean(L, 2), &err), &err);
+  LSW_DO(L, sw_scene_tool_pads_on, t.scene, t.id, lua_toboolean(L, 2));
   return 0;
 }
 
-static const lsw_posed posed = {&lsw_class_tool,        "tool",
-                                "gripper:move",         sw_scene_tool_pose,
-                                sw_scene_tool_set_pose, sw_scene_tool_follow};
+static int meth_follow(lua_State *L) { return lsw_follow(L, &lsw_class_tool, "gripper:move"); }
 
-static int meth_follow(lua_State *L) { return lsw_follow(L, &posed); }
-
-static int meth_pose(lua_State *L) { return lsw_pose(L, &posed); }
+static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_tool); }
 
 static const char *const modes[] = {"still", "to", "force", NULL};
 static const sw_param jaw_rows[] = {
@@ -84,20 +74,18 @@ static const sw_param jaw_rows[] = {
 static const sw_params jaw_params = SW_PARAMS("tool:jaws", jaw_rows);
 
 static int meth_jaws(lua_State *L) {
-  sw_error err = {""};
   sw_jaw_args args;
   const lsw_self t = check(L);
   lsw_arguments(L, 2, "tool:jaws", &jaw_params, &args);
-  lsw_must(L, sw_scene_tool_jaws(t.scene, t.id, &args, &err), &err);
+  LSW_DO(L, sw_scene_tool_jaws, t.scene, t.id, &args);
   return 0;
 }
 
 /* tool:watch(slip [m], stops): slip beyond it is an event, which may end a run. */
 static int meth_watch(lua_State *L) {
-  sw_error err = {""};
   const lsw_self t = check(L);
   const double slip = lsw_number(L, 2, "tool:watch: slip", "m");
-  lsw_must(L, sw_scene_tool_watch(t.scene, t.id, slip, lua_toboolean(L, 3), &err), &err);
+  LSW_DO(L, sw_scene_tool_watch, t.scene, t.id, slip, lua_toboolean(L, 3));
   return 0;
 }
 
@@ -106,10 +94,9 @@ static const char *const statuses[] = {"rests", "moves", "holds", "stopped", "em
 /* tool:state() -> { opening, jaws, squeeze, normal, margin, sliding, slip, slipped, place } and,
  * when it slipped, slip_time, slip_place. */
 static int meth_state(lua_State *L) {
-  sw_error err = {""};
   sw_tool_state now;
   const lsw_self t = check(L);
-  lsw_must(L, sw_scene_tool_state(t.scene, t.id, &now, &err), &err);
+  LSW_DO(L, sw_scene_tool_state, t.scene, t.id, &now);
   lua_createtable(L, 0, 12);
   lsw_set_text(L, "jaws", statuses[now.status]);
   lsw_set_number(L, "opening", now.opening);
@@ -136,7 +123,6 @@ static int meth_state(lua_State *L) {
 
 /* tool:force([finger]), tool:moment([point [, finger]]): on wires [N], [N m]. */
 static lsw_load load_of(lua_State *L, int point, int finger) {
-  sw_error err = {""};
   lsw_load on;
   sw_vec about;
   const lsw_self t = check(L);
@@ -146,11 +132,11 @@ static lsw_load load_of(lua_State *L, int point, int finger) {
     at = &about;
   }
   if (lua_isnoneornil(L, finger)) {
-    lsw_must(L, sw_scene_tool_force(t.scene, t.id, at, &on.force, &on.moment, &err), &err);
+    LSW_DO(L, sw_scene_tool_force, t.scene, t.id, at, &on.force, &on.moment);
     return on;
   }
   const int k = (int)lsw_integer(L, finger, "tool: the number of the finger") - 1;
-  lsw_must(L, sw_scene_tool_finger(t.scene, t.id, k, at, &on.force, &on.moment, &err), &err);
+  LSW_DO(L, sw_scene_tool_finger, t.scene, t.id, k, at, &on.force, &on.moment);
   return on;
 }
 
@@ -160,18 +146,15 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 2, 3
 /* tool:log() -> flat rows of 15: t, force, moment, centre, span, opening, squeeze, margin, slip;
  * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at
  * whose end it is the force; 0 at an equilibrium [s]. */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_tool, sw_scene_tool_log, SW_LOG_TOOL_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_tool, SW_LOG_TOOL_SIZE); }
 
 /* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,
  * wire_name }, ... } */
 static int meth_touches(lua_State *L) {
-  sw_error err = {""};
   size_t count;
   lua_Integer found = 0;
   const lsw_self t = check(L);
-  lsw_must(L, sw_scene_tool_touches(t.scene, t.id, &count, &err), &err);
+  LSW_DO(L, sw_scene_tool_touches, t.scene, t.id, &count);
   lua_newtable(L);
   for (size_t k = 0; k < count; k++) {
     sw_tool_touch touch;
@@ -206,28 +189,25 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
 /* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N],
  * moment [N m] of the tool before, before, after = momentum { linear, angular } } */
 static int meth_freeze(lua_State *L) {
-  sw_error err = {""};
   sw_freeze_report r;
   const lsw_self t = check(L);
   const sw_handle w = lsw_check_child_of(L, 2, &lsw_class_wire, t.scene, "tool:freeze");
-  lsw_must(L, sw_scene_tool_freeze(t.scene, t.id, w, sw_scene_balance, &r, &err), &err);
+  LSW_DO(L, sw_scene_tool_freeze, t.scene, t.id, w, sw_scene_balance, &r);
   return push_report(L, &r);
 }
 
 static int meth_thaw(lua_State *L) {
-  sw_error err = {""};
   sw_freeze_report r;
   const lsw_self t = check(L);
-  lsw_must(L, sw_scene_tool_thaw(t.scene, t.id, sw_scene_balance, &r, &err), &err);
+  LSW_DO(L, sw_scene_tool_thaw, t.scene, t.id, sw_scene_balance, &r);
   return push_report(L, &r);
 }
 
 /* tool:limit(margin): at which a frozen grip is lost. */
 static int meth_limit(lua_State *L) {
-  sw_error err = {""};
   const lsw_self t = check(L);
   const double margin = lsw_number(L, 2, "tool:limit: margin", "-");
-  lsw_must(L, sw_scene_tool_limit(t.scene, t.id, margin, &err), &err);
+  LSW_DO(L, sw_scene_tool_limit, t.scene, t.id, margin);
   return 0;
 }
 
@@ -243,12 +223,13 @@ static const luaL_Reg methods[] = {{"pad", meth_pad},         {"hold", meth_hold
 static int describe(lua_State *L) {
   lsw_self t;
   if (!lsw_find_self(L, &lsw_class_tool, &t)) return 1;
-  const char *name = sw_scene_tool_name(t.scene, t.id);
-  if (!name) return lsw_say_taken_back(L, &lsw_class_tool);
-  return lsw_say(L, "tool '%s'", name);
+  const sw_identity is = sw_scene_identify(t.scene, SW_OF_TOOL, t.id);
+  if (!is.alive) return lsw_say_taken_back(L, &lsw_class_tool);
+  return lsw_say(L, "tool '%s'", is.name);
 }
 
 const lsw_class lsw_class_tool = {.name = "tool",
+                                  .kind = SW_OF_TOOL,
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
                                   .describe = describe,

@@ -27,22 +27,20 @@ static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count)
 int lsw_scene_wire_contact(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_wire_contact_args args;
-  sw_error err = {""};
   sw_handle *wires = NULL;
   size_t count = 0;
   lua_settop(L, 2);
   lsw_arguments(L, 2, "scene:wire_contact", &sw_wire_contact_params, &args);
   if (lua_istable(L, 2) && lua_getfield(L, 2, "between") != LUA_TNIL)
     wires = read_wires(L, scene, &count);
-  lsw_must(L, sw_scene_wire_contact(scene, &args, wires, count, &err), &err);
+  LSW_DO(L, sw_scene_wire_contact, scene, &args, wires, count);
   return 0;
 }
 
 int lsw_scene_touches(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   size_t count = 0;
-  lsw_must(L, sw_scene_wire_touch_count(scene, &count, &err), &err);
+  LSW_DO(L, sw_scene_wire_touch_count, scene, &count);
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {
     sw_wire_touch t;
@@ -68,8 +66,7 @@ int lsw_scene_touches(lua_State *L) {
 int lsw_scene_penetration(lua_State *L) {
   double now;
   sw_extreme deepest;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_penetration(lsw_check_scene(L), &now, &deepest, &err), &err);
+  LSW_DO(L, sw_scene_penetration, lsw_check_scene(L), &now, &deepest);
   lua_pushnumber(L, deepest.value);
   lua_pushnumber(L, deepest.s);
   lua_pushnumber(L, deepest.time);

@@ -6,7 +6,6 @@
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* The function is at stack index 2 of L, at which no one else looks. */
 typedef struct caller {
@@ -126,13 +125,12 @@ static int mod_minimise(lua_State *L) {
 
 /* quasi(kind, n, count): "sobol" or "halton" -> a flat list of n * count numbers in (0, 1) */
 static int mod_quasi(lua_State *L) {
-  sw_error err = {""};
   const int sobol = strcmp(luaL_checkstring(L, 1), "sobol") == 0;
   const lua_Integer n = luaL_checkinteger(L, 2), count = luaL_checkinteger(L, 3);
   luaL_argcheck(L, n >= 1 && n <= SW_QUASI_HALTON_MOST, 2, "1 to 100 parameters");
   luaL_argcheck(L, count >= 1 && count <= 10000000, 3, "1 to 1e7 points");
   double *out = lua_newuserdatauv(L, sizeof *out * (size_t)(n * count), 0);
-  lsw_must(L, sw_quasi(sobol, (size_t)n, (size_t)count, out, &err), &err);
+  LSW_DO(L, sw_quasi, sobol, (size_t)n, (size_t)count, out);
   lsw_push_flat(L, out, (size_t)(n * count));
   return 1;
 }
@@ -150,11 +148,8 @@ static int mod_normal_at(lua_State *L) {
   return 1;
 }
 
-void lsw_open_tune(lua_State *L) {
-  static const luaL_Reg functions[] = {{"minimise", mod_minimise},
-                                       {"quasi", mod_quasi},
-                                       {"normal_below", mod_normal_below},
-                                       {"normal_at", mod_normal_at},
-                                       {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_tune[] = {{"minimise", mod_minimise},
+                                    {"quasi", mod_quasi},
+                                    {"normal_below", mod_normal_below},
+                                    {"normal_at", mod_normal_at},
+                                    {NULL, NULL}};

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 
 static const char SERVER[] = "softworld.server";
 static const char FILM[] = "softworld.film_now";
@@ -85,10 +84,9 @@ static const luaL_Reg methods[] = {{"page", meth_page},   {"put", meth_put},   {
                                    {NULL, NULL}};
 
 static int mod_serve(lua_State *L) {
-  sw_error err = {""};
   const lua_Integer port = lsw_integer(L, 1, "view: port");
   holder *h = lsw_keep(L, sizeof *h, SERVER, methods, meth_stop);
-  lsw_must(L, sw_server_start((int)port, &h->server, &err), &err);
+  LSW_DO(L, sw_server_start, (int)port, &h->server);
   running++;
   lua_pushinteger(L, sw_server_port(h->server));
   lua_pushstring(L, sw_server_token(h->server));
@@ -102,16 +100,12 @@ static int free_film(lua_State *L) {
 
 static int mod_film_now(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   sw_film *film = lsw_keep(L, sizeof *film, FILM, NULL, free_film);
-  lsw_must(L, sw_film_now(scene, lua_toboolean(L, 2), film, &err), &err);
+  LSW_DO(L, sw_film_now, scene, lua_toboolean(L, 2), film);
   lua_pushlstring(L, (const char *)film->bytes, film->size);
   lua_pushinteger(L, (lua_Integer)film->frames);
   sw_film_free(film);
   return 2;
 }
 
-static const luaL_Reg functions[] = {
-    {"serve", mod_serve}, {"film_now", mod_film_now}, {NULL, NULL}};
-
-void lsw_open_view(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_view[] = {{"serve", mod_serve}, {"film_now", mod_film_now}, {NULL, NULL}};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run did to its wires, place by place; and the count of cycles alone, for specs. */
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* A flat list of range, mean, number. */
 static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
@@ -12,9 +11,8 @@ static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
 
 /* The wire at 1, and how many places of it are kept; partial: of a part of the run only. */
 static lsw_self wire_at(lua_State *L, size_t *places, int *partial) {
-  sw_error err = {""};
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_worn(w.scene, w.id, places, partial, &err), &err);
+  LSW_DO(L, sw_scene_worn, w.scene, w.id, places, partial);
   return w;
 }
 
@@ -82,10 +80,8 @@ static int mod_cycles(lua_State *L) {
   return push_cycles(L, list, sw_cycles_read(&c, list));
 }
 
-static const luaL_Reg functions[] = {{"worn", mod_worn},
-                                     {"worn_sidewall", mod_worn_sidewall},
-                                     {"worn_cycles", mod_worn_cycles},
-                                     {"cycles", mod_cycles},
-                                     {NULL, NULL}};
-
-void lsw_open_wear(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_wear[] = {{"worn", mod_worn},
+                                    {"worn_sidewall", mod_worn_sidewall},
+                                    {"worn_cycles", mod_worn_cycles},
+                                    {"cycles", mod_cycles},
+                                    {NULL, NULL}};

@@ -59,11 +59,10 @@ size_t lsw_mesh_sections(const sw_wire_class *cls, sw_wire_mesh_args *mesh, lsw_
 }
 
 int lsw_scene_wire(lua_State *L) {
-  lsw_scene_handle *owner = lsw_check(L, 1, &lsw_class_scene);
+  sw_scene *scene = lsw_check_scene(L);
   sw_wire_args args;
   sw_section section;
   sw_beam beam;
-  sw_error err = {""};
   size_t count;
   sw_wire_mesh_args mesh;
   lsw_section sections[4] = {{&sw_wire_params, &args}, {&sw_section_params, &section}};
@@ -81,29 +80,24 @@ int lsw_scene_wire(lua_State *L) {
   mesh.section = section;
   if (more) {
     const int kind = sw_calibrate_mesh(sw_wire_all()[model]->mesh);
-    lsw_must(L, sw_calibrate_materials(object, kind, mesh.body, &mesh.lattice, &section, &err),
-             &err);
+    LSW_DO(L, sw_calibrate_materials, object, kind, mesh.body, &mesh.lattice, &section);
   }
-  lsw_must(L, sw_section_beam(object, &section, &beam, &err), &err);
+  LSW_DO(L, sw_section_beam, object, &section, &beam);
   if (beam.EI == 0 && strcmp(sw_wire_all()[args.model]->name, "string") != 0)
     luaL_error(L, "%s: EI = 0 N m2 is allowed with model = 'string' only", object);
   const double *points = lsw_read_points(L, 2, "path", "wire", &count);
-  lsw_child *child = lsw_new_child(L, 1, &lsw_class_wire);
-  lsw_must(L,
-           sw_scene_add_wire(owner->h.object, &args, &beam, &mesh, points, count, &child->id, &err),
-           &err);
-  child->h.object = owner;
+  lsw_child *child = lsw_new_child(L, &lsw_class_wire);
+  LSW_DO(L, sw_scene_add_wire, scene, &args, &beam, &mesh, points, count, &child->id);
   return 1;
 }
 
 /* --- read-outs ---------------------------------------------------------------- */
 
 static sw_point_state at(lua_State *L) {
-  sw_error err = {""};
   sw_point_state p;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = lsw_number(L, 2, "wire: s", "m");
-  lsw_must(L, sw_scene_wire_at(w.scene, w.id, s, &p, &err), &err);
+  LSW_DO(L, sw_scene_wire_at, w.scene, w.id, s, &p);
   return p;
 }
 
@@ -112,11 +106,10 @@ static int meth_tangent(lua_State *L) { return lsw_push_vector(L, at(L).tangent)
 static int meth_velocity(lua_State *L) { return lsw_push_vector(L, at(L).velocity), 1; }
 
 static int push_readout(lua_State *L, const sw_readout *r) {
-  sw_error err = {""};
   double value;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = r->at_place ? lsw_number(L, 2, "wire: s", "m") : 0.0;
-  lsw_must(L, r->read(w.scene, w.id, s, &value, &err), &err);
+  LSW_DO(L, r->read, w.scene, w.id, s, &value);
   return lua_pushnumber(L, value), 1;
 }
 
@@ -126,10 +119,9 @@ SW_READOUTS(READOUT)
 #undef READOUT
 
 static double modulus(lua_State *L) {
-  sw_error err = {""};
   sw_beam b;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_beam(w.scene, w.id, &b, &err), &err);
+  LSW_DO(L, sw_scene_wire_beam, w.scene, w.id, &b);
   return b.E;
 }
 
@@ -146,18 +138,16 @@ static int meth_stress(lua_State *L) { return push_fibres(L, modulus(L)); }
 
 static size_t node_count(lua_State *L, lsw_self w) {
   size_t n;
-  sw_error err = {""};
-  lsw_must(L, sw_scene_wire_nodes(w.scene, w.id, &n, &err), &err);
+  LSW_DO(L, sw_scene_wire_nodes, w.scene, w.id, &n);
   return n;
 }
 
 /* Flat {x1, y1, z1, x2, ...} of all nodes [m], and their arc lengths [m]. */
 static int meth_positions(lua_State *L) {
-  sw_error err = {""};
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const size_t n = node_count(L, w);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
-  lsw_must(L, sw_scene_wire_copy(w.scene, w.id, x, x + 3 * n, NULL, &err), &err);
+  LSW_DO(L, sw_scene_wire_copy, w.scene, w.id, x, x + 3 * n, NULL);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
   return 2;
@@ -166,23 +156,21 @@ static int meth_positions(lua_State *L) {
 /* Flat {x1, y1, z1, x2, ...} of all particles of a mesh, ring by ring, and their arc lengths; of
  * any other wire its nodes [m]. */
 static int meth_particles(lua_State *L) {
-  sw_error err = {""};
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_particles(w.scene, w.id, &n, &err), &err);
+  LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &n);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
-  lsw_must(L, sw_scene_wire_particle_copy(w.scene, w.id, x, x + 3 * n, &err), &err);
+  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, x, x + 3 * n);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
   return 2;
 }
 
 static int meth_velocities(lua_State *L) {
-  sw_error err = {""};
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const size_t n = node_count(L, w);
   double *v = lua_newuserdatauv(L, 3 * n * sizeof *v, 0);
-  lsw_must(L, sw_scene_wire_copy(w.scene, w.id, NULL, NULL, v, &err), &err);
+  LSW_DO(L, sw_scene_wire_copy, w.scene, w.id, NULL, NULL, v);
   lsw_push_flat(L, v, 3 * n);
   return 1;
 }
@@ -192,7 +180,6 @@ static int meth_set_velocity(lua_State *L) { return lsw_set_velocity(L, &lsw_cla
 
 /* The options table { now = true } asks for the present value. */
 static sw_wire_extremes read_extremes(lua_State *L) {
-  sw_error err = {""};
   sw_wire_extremes present, run;
   int now = 0;
   static const sw_param rows[] = {{"now", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, 0,
@@ -200,7 +187,7 @@ static sw_wire_extremes read_extremes(lua_State *L) {
   static const sw_params params = SW_PARAMS("wire", rows);
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   lsw_arguments(L, 2, "wire", &params, &now);
-  lsw_must(L, sw_scene_wire_extremes(w.scene, w.id, &present, &run, &err), &err);
+  LSW_DO(L, sw_scene_wire_extremes, w.scene, w.id, &present, &run);
   return now ? present : run;
 }
 
@@ -234,7 +221,6 @@ static const sw_params tension_params = SW_PARAMS("wire:max_tension", tension_ro
 /* Largest tension [N], where [m], when [s]: of means over the run's window. { raw = true } or
  * { window = 0 }: of single steps, and how long that one was [s]. */
 static int meth_max_tension(lua_State *L) {
-  sw_error err = {""};
   sw_wire_extremes now, run;
   tension_args args;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
@@ -245,7 +231,7 @@ static int meth_max_tension(lua_State *L) {
                "wire:max_tension: window = %f s: of this run means over %f s are kept, and raw "
                "values (window = 0); give it to scene:run{ window = } to have others",
                args.window, kept);
-  lsw_must(L, sw_scene_wire_extremes(w.scene, w.id, &now, &run, &err), &err);
+  LSW_DO(L, sw_scene_wire_extremes, w.scene, w.id, &now, &run);
   if (args.now) return push_extreme(L, now.tension.value, &now.tension);
   if (!args.raw && args.window != 0) return push_extreme(L, run.tension.value, &run.tension);
   push_extreme(L, run.raw.value, &run.raw);
@@ -299,15 +285,12 @@ static int meth_folded(lua_State *L) {
 }
 
 /* wire:log() -> flat rows of 3: t, largest tension, largest curvature; number of rows */
-static int meth_log(lua_State *L) {
-  return lsw_log(L, &lsw_class_wire, sw_scene_wire_log, SW_LOG_WIRE_SIZE);
-}
+static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_wire, SW_LOG_WIRE_SIZE); }
 
 static int prop_length(lua_State *L) {
-  sw_error err = {""};
   double length;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_length(w.scene, w.id, &length, &err), &err);
+  LSW_DO(L, sw_scene_wire_length, w.scene, w.id, &length);
   lua_pushnumber(L, length);
   return 1;
 }
@@ -319,10 +302,9 @@ static int prop_segments(lua_State *L) {
 }
 
 static int push_beam(lua_State *L) {
-  sw_error err = {""};
   sw_beam b;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lsw_must(L, sw_scene_wire_beam(w.scene, w.id, &b, &err), &err);
+  LSW_DO(L, sw_scene_wire_beam, w.scene, w.id, &b);
   lua_createtable(L, 0, 5);
   lsw_set_number(L, "EA", b.EA);
   lsw_set_number(L, "EI", b.EI);
@@ -339,15 +321,6 @@ static int prop_radius(lua_State *L) {
   lua_getfield(L, -1, "radius");
   return 1;
 }
-
-static int prop_model(lua_State *L) {
-  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  lua_pushstring(L, sw_scene_wire_model(w.scene, w.id));
-  return 1;
-}
-
-static int prop_name(lua_State *L) { return lsw_body_name(L, &lsw_class_wire); }
-static int prop_present(lua_State *L) { return lsw_body_present(L, &lsw_class_wire); }
 
 static int describe(lua_State *L) {
   lsw_self w;
@@ -391,12 +364,13 @@ static const luaL_Reg methods[] = {{"position", meth_position},
                                    {"frequencies", lsw_wire_frequencies},
                                    {"remodel", lsw_wire_remodel},
                                    SW_READOUTS(READOUT){NULL, NULL}};
-static const luaL_Reg properties[] = {{"length", prop_length}, {"segments", prop_segments},
-                                      {"beam", push_beam},     {"radius", prop_radius},
-                                      {"name", prop_name},     {"present", prop_present},
-                                      {"model", prop_model},   {NULL, NULL}};
+static const luaL_Reg properties[] = {{"length", prop_length},  {"segments", prop_segments},
+                                      {"beam", push_beam},      {"radius", prop_radius},
+                                      {"name", lsw_prop_name},  {"present", lsw_prop_alive},
+                                      {"model", lsw_prop_kind}, {NULL, NULL}};
 
 const lsw_class lsw_class_wire = {.name = "wire",
+                                  .kind = SW_OF_BODY,
                                   .size = sizeof(lsw_child),
                                   .methods = methods,
                                   .describe = describe,

@@ -27,7 +27,6 @@
 #include <unistd.h>
 
 #include "bind/child.h"
-#include "bind/module.h"
 #include "bind/process.h"
 
 enum { LONGEST = 1 << 16, MOST = 1024 }; /* bytes of a text, workers [-] */
@@ -214,12 +213,9 @@ static int mod_processors(lua_State *L) {
   return 1;
 }
 
-void lsw_open_worker(lua_State *L) {
-  static const luaL_Reg functions[] = {{"fork", mod_fork},
-                                       {"ready", mod_ready},
-                                       {"limit_cpu", mod_limit_cpu},
-                                       {"limit_steps", mod_limit_steps},
-                                       {"processors", mod_processors},
-                                       {NULL, NULL}};
-  luaL_setfuncs(L, functions, 0);
-}
+const luaL_Reg lsw_module_worker[] = {{"fork", mod_fork},
+                                      {"ready", mod_ready},
+                                      {"limit_cpu", mod_limit_cpu},
+                                      {"limit_steps", mod_limit_steps},
+                                      {"processors", mod_processors},
+                                      {NULL, NULL}};

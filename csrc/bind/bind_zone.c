@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene:zone, and how near wires came to zones. */
-#include <math.h>
 
 #include "bind/bind_shape.h"
 #include "bind/child.h"
-#include "bind/module.h"
 
 /* core.zone(scene, { shape =, at =, name =, temperature = }) -> its name, shape, position, rotation
  */
@@ -48,6 +46,4 @@ static int mod_zones(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg functions[] = {{"zone", mod_zone}, {"zones", mod_zones}, {NULL, NULL}};
-
-void lsw_open_zone(lua_State *L) { luaL_setfuncs(L, functions, 0); }
+const luaL_Reg lsw_module_zone[] = {{"zone", mod_zone}, {"zones", mod_zones}, {NULL, NULL}};

@@ -11,23 +11,21 @@ sw_scene *lsw_check_scene(lua_State *L) {
   return ((lsw_handle *)lsw_check(L, 1, &lsw_class_scene))->object;
 }
 
-lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c) {
-  scene = lua_absindex(L, scene);
+lsw_child *lsw_new_child(lua_State *L, const lsw_class *c) {
   lsw_child *child = lsw_new(L, c, 2);
-  lua_pushvalue(L, scene);
+  child->h.object = lsw_check(L, 1, &lsw_class_scene);
+  lua_pushvalue(L, 1);
   lua_setiuservalue(L, -2, 1);
   return child;
 }
-
-/* Slots of bodies close up when one leaves. */
-static int is_body(const lsw_class *c) { return c == &lsw_class_wire || c == &lsw_class_particles; }
 
 static lsw_self check_at(lua_State *L, int index, const lsw_class *c) {
   lsw_child *child = lsw_check(L, index, c);
   const lsw_scene_handle *owner = child->h.object;
   sw_scene *scene = owner->h.object;
   if (!scene) luaL_error(L, "the scene of this %s has been closed", c->name);
-  if (is_body(c)) child->id = sw_scene_body_now(scene, child->id);
+  if (c->kind == SW_OF_BODY) /* slots close up when one leaves */
+    child->id = sw_scene_body_now(scene, child->id);
   return (lsw_self){scene, child->id};
 }
 

@@ -31,8 +31,8 @@ lsw_handle *lsw_new_scene(lua_State *L);
 /* The scene at index 1. */
 sw_scene *lsw_check_scene(lua_State *L);
 
-/* Push a child of the scene userdata at index scene. */
-lsw_child *lsw_new_child(lua_State *L, int scene, const lsw_class *c);
+/* Push a child of the scene at index 1; no object is there until its id is set. */
+lsw_child *lsw_new_child(lua_State *L, const lsw_class *c);
 
 /* The child at index 1, whose method is called; raises when it or its scene is gone. */
 lsw_self lsw_check_self(lua_State *L, const lsw_class *c);
@@ -58,6 +58,13 @@ int lsw_not_there(lua_State *L, const lsw_class *c, const sw_scene *scene);
 
 /* Raise unless status is SW_OK; callback errors keep their value. */
 void lsw_must(lua_State *L, sw_status status, const sw_error *err);
+
+/* Call a function of the core, whose last argument is an sw_error, and raise what it fails by. */
+#define LSW_DO(L, function, ...)                              \
+  do {                                                        \
+    sw_error lsw_err_ = {""};                                 \
+    lsw_must(L, function(__VA_ARGS__, &lsw_err_), &lsw_err_); \
+  } while (0)
 
 /* scene:<kind>(wire, {...}) for holds; scene:obstacle{...}; scene:force{...} */
 int lsw_scene_wire(lua_State *L);

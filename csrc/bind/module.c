@@ -2,7 +2,14 @@
 /* The Lua module softworld.core. */
 #include "bind/module.h"
 
+#include "bind/bind_motion.h"
 #include "bind/class.h"
+#include "bind/locale.h"
+#include "bind/mesh_child.h"
+
+#define X(name) extern const luaL_Reg lsw_module_##name[];
+#include "bind/modules.def"
+#undef X
 
 static int mod_allocated(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)sw_alloc_live());
@@ -27,7 +34,11 @@ int luaopen_softworld_core(lua_State *L) {
   lua_setfield(L, -2, "version");
   lsw_open_classes(L);
   lua_setfield(L, -2, "class");
-#define X(name) lsw_open_##name(L);
+  lsw_locale_open(L);
+  lsw_mesh_child_open();
+  lsw_motion_open_functions(L);
+  lsw_motion_open_arguments();
+#define X(name) luaL_setfuncs(L, lsw_module_##name, 0);
 #include "bind/modules.def"
 #undef X
   return 1;

@@ -7,8 +7,4 @@
 /* Push the module table softworld.core. */
 int luaopen_softworld_core(lua_State *L);
 
-#define X(name) void lsw_open_##name(lua_State *L);
-#include "bind/modules.def"
-#undef X
-
 #endif

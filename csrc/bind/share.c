@@ -7,28 +7,26 @@
 
 int lsw_order(lua_State *L, const lsw_class *c,
               sw_status (*order)(sw_scene *scene, sw_handle id, sw_error *err)) {
-  sw_error err = {""};
   const lsw_self self = lsw_check_self(L, c);
-  lsw_must(L, order(self.scene, self.id, &err), &err);
+  LSW_DO(L, order, self.scene, self.id);
   return 0;
 }
 
-int lsw_body_name(lua_State *L, const lsw_class *c) {
-  double length;
-  const lsw_self b = lsw_check_self(L, c);
-  const char *name = sw_scene_wire_name(b.scene, b.id);
-  return lua_pushstring(L, name ? name : sw_scene_gone_name(b.scene, b.id, &length)), 1;
+static sw_identity identify(lua_State *L, int must) {
+  const lsw_class *c = lsw_class_of(L, 1);
+  const lsw_self self = lsw_check_self(L, c);
+  const sw_identity is = sw_scene_identify(self.scene, c->kind, self.id);
+  if (must && !is.name) lsw_not_there(L, c, self.scene);
+  return is;
 }
 
-int lsw_body_present(lua_State *L, const lsw_class *c) {
-  const lsw_self b = lsw_check_self(L, c);
-  return lua_pushboolean(L, sw_scene_wire_name(b.scene, b.id) != NULL), 1;
-}
+int lsw_prop_name(lua_State *L) { return lua_pushstring(L, identify(L, 1).name), 1; }
+int lsw_prop_kind(lua_State *L) { return lua_pushstring(L, identify(L, 1).kind), 1; }
+int lsw_prop_alive(lua_State *L) { return lua_pushboolean(L, identify(L, 0).alive), 1; }
 
 int lsw_set_velocity(lua_State *L, const lsw_class *c) {
   static const char *const words[] = {"velocity", "omega", "about"};
   static const char *const units[] = {"m/s", "rad/s", "m"};
-  sw_error err = {""};
   sw_vec v[3] = {{0}};
   char what[64];
   const lsw_self b = lsw_check_self(L, c);
@@ -37,51 +35,49 @@ int lsw_set_velocity(lua_State *L, const lsw_class *c) {
     snprintf(what, sizeof what, "%s:set_velocity: %s", c->name, words[k]);
     v[k] = lsw_vector(L, 2 + k, what, units[k]);
   }
-  lsw_must(L, sw_scene_wire_set_velocity(b.scene, b.id, v[0], v[1], v[2], &err), &err);
+  LSW_DO(L, sw_scene_wire_set_velocity, b.scene, b.id, v[0], v[1], v[2]);
   return 0;
 }
 
-int lsw_pose(lua_State *L, const lsw_posed *of) {
-  sw_error err = {""};
+int lsw_pose(lua_State *L, const lsw_class *cls) {
   sw_pose pose;
-  const lsw_self c = lsw_check_self(L, of->cls);
+  const lsw_self c = lsw_check_self(L, cls);
   if (lua_gettop(L) > 1) {
     lua_settop(L, 3);
-    const sw_vec to = lsw_vector(L, 2, lua_pushfstring(L, "%s:pose: position", of->name), "m");
-    lsw_must(L, sw_scene_editable(c.scene, &err), &err);
+    const sw_vec to = lsw_vector(L, 2, lua_pushfstring(L, "%s:pose: position", cls->name), "m");
+    LSW_DO(L, sw_scene_editable, c.scene);
     if (lua_isnil(L, 3))
-      lsw_must(L, of->get(c.scene, c.id, &pose, &err), &err);
+      LSW_DO(L, sw_scene_object_pose, c.scene, cls->kind, c.id, &pose);
     else
-      pose.q = lsw_rotation(L, 3, lua_pushfstring(L, "%s:pose: rotation", of->name));
+      pose.q = lsw_rotation(L, 3, lua_pushfstring(L, "%s:pose: rotation", cls->name));
     pose.p = to;
-    lsw_must(L, of->set(c.scene, c.id, pose, &err), &err);
+    LSW_DO(L, sw_scene_object_put, c.scene, cls->kind, c.id, pose);
     return 0;
   }
-  lsw_must(L, of->get(c.scene, c.id, &pose, &err), &err);
+  LSW_DO(L, sw_scene_object_pose, c.scene, cls->kind, c.id, &pose);
   lsw_push_vector(L, pose.p);
   lsw_push_quaternion(L, pose.q);
   return 2;
 }
 
-int lsw_follow(lua_State *L, const lsw_posed *of) {
+int lsw_follow(lua_State *L, const lsw_class *cls, const char *mover) {
   sw_error err = {""};
-  const lsw_self c = lsw_check_self(L, of->cls);
+  const lsw_self c = lsw_check_self(L, cls);
   if (lua_isnone(L, 2))
-    return luaL_error(L, "%s:follow: a trajectory is needed, or nil to stop", of->name);
-  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, of->mover);
-  const sw_status status = of->follow(c.scene, c.id, motion, 0, &err);
+    return luaL_error(L, "%s:follow: a trajectory is needed, or nil to stop", cls->name);
+  sw_motion *motion = lua_isnil(L, 2) ? NULL : lsw_motion_from(L, 2, mover);
+  const sw_status status = sw_scene_object_follow(c.scene, cls->kind, c.id, motion, 0, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);
   lsw_must(L, status, &err);
   return 1;
 }
 
-int lsw_log(lua_State *L, const lsw_class *c, lsw_log_reader read, size_t size) {
-  sw_error err = {""};
+int lsw_log(lua_State *L, const lsw_class *c, size_t size) {
   const double *rows;
   size_t count;
   const lsw_self child = lsw_check_self(L, c);
-  lsw_must(L, read(child.scene, child.id, &rows, &count, &err), &err);
+  LSW_DO(L, sw_scene_log, child.scene, c->kind, child.id, &rows, &count);
   lsw_push_flat(L, rows, count * size);
   lua_pushinteger(L, (lua_Integer)count);
   return 2;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "body/body.h"
 #include "body/history.h"
@@ -100,21 +101,16 @@ static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *ne
 static sw_status inherit_contact(sw_scene *s) {
   if (!sw_scene_has_contact(s) || !s->kept.memory) return SW_OK;
   const size_t old_nodes = s->kept.first[s->kept.wires];
-  size_t *new_node = sw_alloc(2 * old_nodes, sizeof *new_node);
+  size_t *new_node SW_LOCAL = sw_alloc(2 * old_nodes, sizeof *new_node);
   if (!new_node) return SW_ENOMEM;
   size_t *new_edge = new_node + old_nodes;
   for (size_t w = 0; w < s->kept.wires; w++) find_again(s, w, new_node, new_edge);
-  sw_status status = SW_OK;
   if (s->contact)
-    status = sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node,
-                                new_edge);
-  if (s->pairs && status == SW_OK)
-    status = sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node);
-  if (s->grains && status == SW_OK)
-    status =
-        sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
-  sw_free(new_node);
-  return status;
+    SW_TRY(sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node,
+                              new_edge));
+  if (s->pairs) SW_TRY(sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node));
+  if (!s->grains) return SW_OK;
+  return sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
 }
 
 /* Twist by stretch of wire, for the spans of the next system. */
@@ -169,8 +165,7 @@ static void inherit_twist(sw_scene *s) {
       const double s1 = b->plan->s[b->plan->spans[k].first];
       const double s2 = b->plan->s[b->plan->spans[k].last + 1];
       double *twist = &s->system.twist[b->first_span + k], unwound = s2 - s1;
-      for (size_t j = 0; j < wire->twisted_count; j++) {
-        const sw_twisted *old = &wire->twisted[j];
+      SW_ITEMS(const sw_twisted, old, wire->twisted, wire->twisted_count) {
         const double common = fmin(s2, old->s2) - fmax(s1, old->s1);
         if (!(common > 0)) continue;
         *twist += old->twist * common / (old->s2 - old->s1);
@@ -199,27 +194,24 @@ static sw_status stopped(const sw_scene *s) {
 }
 
 static sw_status new_plans(sw_scene *s, sw_plan **plans) {
-  sw_hold_place *places = sw_alloc(s->hold_count, sizeof *places);
+  sw_hold_place *places SW_LOCAL = sw_alloc(s->hold_count, sizeof *places);
   if (!places) return SW_ENOMEM;
-  sw_status status = SW_OK;
-  for (size_t w = 0; w < s->wire_count && status == SW_OK; w++) {
+  for (size_t w = 0; w < s->wire_count; w++) {
     const sw_scene_wire *wire = &s->wires[w];
     size_t n = 0;
     int number = 0;
-    for (size_t k = 0; k < s->hold_count; k++) {
-      const sw_hold *h = &s->holds[k];
+    SW_EACH(hold, h, s) {
       if (!h->alive) continue;
       if (h->wire == w)
         places[n++] = (sw_hold_place){
             h->s1, h->s2, h->cls->hold->direction, number, {h->give[0], h->give[1]}};
       number++;
     }
-    status = sw_body_class_of(wire)->plan(s, w, places, n, &plans[w]);
-    if (status == SW_OK) status = stopped(s);
-    if (status == SW_OK && wire->mesh.rest) status = sw_scene_unloaded(s, w, plans[w]);
+    SW_TRY(sw_body_class_of(wire)->plan(s, w, places, n, &plans[w]));
+    SW_TRY(stopped(s));
+    if (wire->mesh.rest) SW_TRY(sw_scene_unloaded(s, w, plans[w]));
   }
-  sw_free(places);
-  return status;
+  return SW_OK;
 }
 
 static sw_status add_terms(sw_scene *s, size_t w) {
@@ -276,10 +268,8 @@ static sw_status put_holds(sw_scene *s, sw_rail *rails) {
 static sw_status add_holds(sw_scene *s, size_t alive) {
   s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
   s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
-  sw_rail *rails = sw_alloc(alive, sizeof *rails);
-  const sw_status status = s->hold_slot && s->hold_loads && rails ? put_holds(s, rails) : SW_ENOMEM;
-  sw_free(rails);
-  return status;
+  sw_rail *rails SW_LOCAL = sw_alloc(alive, sizeof *rails);
+  return s->hold_slot && s->hold_loads && rails ? put_holds(s, rails) : SW_ENOMEM;
 }
 
 static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {
@@ -309,7 +299,7 @@ static sw_status place_obstacle(void *user, int o, double t, sw_motion_state *ou
 
 static sw_status add_contact(sw_scene *s) {
   size_t n = 0;
-  sw_contact_obstacle *list = sw_alloc(s->obstacle_count, sizeof *list);
+  sw_contact_obstacle *list SW_LOCAL = sw_alloc(s->obstacle_count, sizeof *list);
   if (!list) return SW_ENOMEM;
   for (size_t k = 0; k < s->obstacle_count; k++) {
     const sw_scene_obstacle *o = &s->obstacles[k];
@@ -318,9 +308,7 @@ static sw_status add_contact(sw_scene *s) {
       list[n++] = (sw_contact_obstacle){o->shape, o->friction, o->kinetic, o->restitution,
                                         grips,    (int)k,      0};
   }
-  sw_status status = n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
-  sw_free(list);
-  return status;
+  return n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
 }
 
 /* Strains and their rates go on; where they are not known, springs change as their ends move. */
@@ -367,9 +355,9 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
   if (!s->built) {
     size_t alive = 0, rails = 0;
     SW_TRY(sw_scene_check_holds(s, err));
-    for (size_t k = 0; k < s->hold_count; k++) {
-      alive += s->holds[k].alive != 0;
-      rails += s->holds[k].alive && s->holds[k].cls->hold->rail;
+    SW_EACH(hold, h, s) {
+      alive += h->alive != 0;
+      rails += h->alive && h->cls->hold->rail;
     }
     sw_plan **plans = sw_alloc(s->wire_count, sizeof(sw_plan *));
     sw_status status = plans ? new_plans(s, plans) : SW_ENOMEM;

@@ -6,8 +6,8 @@
 #include "body/body.h"
 #include "body/hold.h"
 #include "link/hold.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 
 static const double SAME_PLACE = 1e-9; /* of the wire's length: rounding [-] */
 
@@ -21,11 +21,10 @@ static sw_status say_held(const sw_scene_wire *w, const sw_hold *by, const char 
 
 sw_status sw_scene_check_clear(const sw_scene *s, size_t wire, const sw_hold *self,
                                const char *what, double s1, double s2, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
   const double apart = sw_body_class_of(w)->apart;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != wire || h == self) continue;
     const double between = fmax(s1 - h->s2, h->s1 - s2);
     if (!(between > SAME_PLACE * length)) return say_held(w, h, what, err);
@@ -40,7 +39,7 @@ sw_status sw_scene_check_clear(const sw_scene *s, size_t wire, const sw_hold *se
 
 sw_status sw_scene_held_twice(const sw_scene *s, const sw_hold *a, const sw_hold *b,
                               sw_error *err) {
-  const sw_scene_wire *w = &s->wires[a->wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, a->wire);
   const double start = w->mesh.s[0];
   return sw_fail(err, SW_EINVAL,
                  "wire '%s': '%s' (s = %.6g to %.6g m) and '%s' (s = %.6g to %.6g m) hold the same "
@@ -50,7 +49,7 @@ sw_status sw_scene_held_twice(const sw_scene *s, const sw_hold *a, const sw_hold
 }
 
 sw_status sw_scene_check_holds(const sw_scene *s, sw_error *err) {
-  for (size_t w = 0; w < s->wire_count; w++)
-    SW_TRY(sw_body_class_of(&s->wires[w])->check_holds(s, w, err));
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
+    SW_TRY(sw_body_class_of(sw_scene_wire_in(s, w))->check_holds(s, w, err));
   return SW_OK;
 }

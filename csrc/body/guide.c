@@ -9,7 +9,6 @@
 #include "contact/grains.h"
 #include "link/hold.h"
 #include "link/spool.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/hinge.h"
 
@@ -23,8 +22,7 @@ static const double LARGEST_SHARE = 0.4; /* of an edge, fed in one step [-] */
 enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and another hold */
 
 double sw_feed_step(const sw_scene *s, double h) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *o = &s->holds[k];
+  SW_EACH(hold, o, s) {
     if (!o->alive || !sw_hold_passes(o)) continue;
     const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, s->time).fed;
     double way = fabs(sw_feed_at(o, s->time + h).fed - now);
@@ -39,8 +37,7 @@ double sw_feed_step(const sw_scene *s, double h) {
 sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err) {
   const sw_hold *fastest = NULL;
   double most = -1;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *o = &s->holds[k];
+  SW_EACH(hold, o, s) {
     if (!o->alive || !sw_hold_passes(o)) continue;
     const double speed = fabs(sw_feed_at(o, s->time).speed);
     if (speed > most) most = speed, fastest = o;
@@ -78,8 +75,7 @@ static size_t edges_left(const sw_scene *s, const guide *g, const sw_hold **next
   const double from = g->h->s1;
   double to = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
   *next = NULL;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *o = &s->holds[k];
+  SW_EACH(hold, o, s) {
     if (!o->alive || o == g->h || o->wire != g->h->wire) continue;
     const double near = g->side > 0 ? o->s1 : o->s2;
     if ((near - from) * g->side < 0 || (near - to) * g->side > 0) continue;
@@ -333,8 +329,7 @@ static sw_status tend(sw_scene *s, sw_hold *h, double fed, int edit, const sw_ve
 /* Every hold's; axes: director and normal of each of the system's holds, or NULL to look. */
 static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted, sw_error *err) {
   static const sw_vec looking[2] = {{1, 0, 0}, {0, 1, 0}};
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (!h->alive || !sw_hold_passes(h)) continue;
     const double fed = sw_feed_at(h, t).fed - sw_feed_at(h, s->time).fed;
     SW_TRY(tend(s, h, fed, axes != NULL, axes ? axes + 2 * h->number : looking, wanted, err));
@@ -348,7 +343,7 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
   if (!*changed) return SW_OK;
   const size_t count = s->system.hold_count;
   SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
-  sw_vec *axes = sw_alloc(2 * count, sizeof *axes);
+  sw_vec *axes SW_LOCAL = sw_alloc(2 * count, sizeof *axes);
   if (!axes) return sw_fail(err, SW_ENOMEM, "feed: out of memory");
   for (size_t k = 0; k < count; k++) {
     axes[2 * k] = sw_vec_at(s->system.directors_now, 2 * k + 1);
@@ -358,7 +353,6 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
   /* a shift may have put nodes a little way into what they touch: let out slowly, not thrown */
   if (status == SW_OK && !s->kept.fresh) s->kept.fresh = SW_CONTACT_EMERGING;
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
-  sw_free(axes);
   if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");
   if (status != SW_OK) return status;
   return sw_scene_build(s, err);

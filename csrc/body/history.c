@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "contact/grains.h"
 #include "force/solid.h"
 #include "scene/forces.h"
@@ -48,8 +49,7 @@ sw_status sw_scene_keep_histories(sw_scene *s) {
   s->kept_histories = sw_alloc(count, sizeof *s->kept_histories);
   if (!s->kept_histories) return SW_ENOMEM;
   for (size_t b = 0; b < s->system.body_count; b++)
-    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
-      const sw_term *term = &s->system.bodies[b].terms[k];
+    SW_ITEMS(const sw_term, term, s->system.bodies[b].terms, s->system.bodies[b].term_count) {
       if (!term->history) continue;
       SW_TRY(keep(s, b, term, &s->kept_histories[s->kept_history_count]));
       s->kept_history_count++;
@@ -58,8 +58,7 @@ sw_status sw_scene_keep_histories(sw_scene *s) {
 }
 
 static const sw_kept_history *find(const sw_scene *s, size_t wire, const sw_term *term) {
-  for (size_t k = 0; k < s->kept_history_count; k++) {
-    const sw_kept_history *h = &s->kept_histories[k];
+  SW_ITEMS(const sw_kept_history, h, s->kept_histories, s->kept_history_count) {
     if (h->wire != wire || (long)h->force != term->id) continue;
     if (term->id < 0 ? h->inner == term->cls : h->generation == s->forces[term->id].generation)
       return h;
@@ -78,8 +77,7 @@ void sw_scene_inherit_histories(sw_scene *s) {
   if (!s->kept_history_count && !any_begins(s)) return;
   sw_system_refresh(&s->system);
   for (size_t b = 0; b < s->system.body_count; b++)
-    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
-      const sw_term *term = &s->system.bodies[b].terms[k];
+    SW_ITEMS(const sw_term, term, s->system.bodies[b].terms, s->system.bodies[b].term_count) {
       if (!term->history) continue;
       const sw_kept_history *old = find(s, b, term);
       const sw_field *field = &s->system.bodies[b].field;

@@ -6,7 +6,9 @@
 
 #include "body/hold.h"
 #include "link/hold.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
+#include "system/system.h"
 
 static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec first) {
   return sw_madd(sw_madd(sw_scale(now, b->own), before, b->start), first, b->first);
@@ -14,11 +16,12 @@ static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec firs
 
 /* Methods that look back would have to know the sums of the step before. */
 void sw_hold_book(sw_scene *s, const sw_booking *b) {
-  sw_system_hold_loads(&s->system, s->hold_loads);
-  for (size_t k = 0; k < s->system.hold_count; k++) {
-    sw_hold *h = &s->holds[s->hold_slot[k]];
+  sw_system *system = sw_scene_system(s);
+  sw_system_hold_loads(system, sw_scene_hold_loads(s));
+  for (size_t k = 0; k < system->hold_count; k++) {
+    sw_hold *h = sw_scene_held_by(s, k);
     sw_hold_sums *sums = &h->sums;
-    const sw_hold_load *now = &s->hold_loads[k];
+    const sw_hold_load *now = &sw_scene_hold_loads(s)[k];
     sums->force[b->stage] = booked(b, now->force, h->force, sums->force[0]);
     sums->moment[b->stage] = booked(b, now->moment, h->moment, sums->moment[0]);
     sums->last = b->stage;
@@ -31,27 +34,30 @@ void sw_hold_book(sw_scene *s, const sw_booking *b) {
 static const double JERK = 0.05, SHARP = 0.1;
 
 static double usual_force(const sw_scene *s, size_t wire) {
-  const sw_plan *p = s->system.bodies[wire].plan;
-  const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->system.gravity));
+  sw_system *system = sw_scene_system(s);
+  const sw_plan *p = system->bodies[wire].plan;
+  const double weight = p->beam.mass * p->length * sw_norm(sw_load(system->gravity));
   return fmax(weight, p->beam.EI / (p->length * p->length));
 }
 
 /* A method that only looks on from the middle of a step rings after a jerk: what rings counts as
  * values at the steps' ends, whose mean over two steps is right. */
 double sw_hold_span(const sw_scene *s, int mean) {
-  const int rings = s->course.has_stepper && (s->course.method->flags & SW_INTEGRATOR_ONWARDS);
-  return mean && !rings ? s->course.span : -s->course.span;
+  sw_course *c = sw_scene_course(s);
+  const int rings = c->has_stepper && (c->method->flags & SW_INTEGRATOR_ONWARDS);
+  return mean && !rings ? c->span : -c->span;
 }
 
 int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *moment) {
+  sw_course *c = sw_scene_course(s);
   const sw_hold_sums *sums = &h->sums;
-  if (!sums->known || !(s->course.span > 0) || sw_hold_passes(h)) return 0;
-  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / s->course.span);
+  if (!sums->known || !(c->span > 0) || sw_hold_passes(h)) return 0;
+  const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / c->span);
   const double off = sw_norm(sw_sub(h->force, mean));
   const int sharp =
       off > JERK * fmax(sw_norm(h->force), sw_norm(mean)) && off > SHARP * usual_force(s, h->wire);
-  if (!sharp && !s->course.jerks) return 0;
+  if (!sharp && !c->jerks) return 0;
   *force = mean;
-  *moment = sw_scale(sums->moment[sums->last], 1.0 / s->course.span);
+  *moment = sw_scale(sums->moment[sums->last], 1.0 / c->span);
   return 1;
 }

@@ -16,8 +16,7 @@ static int is_on(const sw_hold *h, size_t wire) { return h->alive && h->wire == 
 /* Arc lengths that holds and joins need as nodes; their number. */
 static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   size_t n = 0;
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *h = sw_scene_hold_in(s, k);
+  SW_EACH(hold, h, s) {
     if (is_on(h, wire)) out[n++] = h->s1, out[n++] = h->s2;
   }
   return n + sw_scene_join_places(s, wire, out + n);
@@ -47,8 +46,7 @@ static sw_vec local_of(const sw_hold *h, double s) {
 
 /* What a hold has formed is as long as it lies there. */
 static void form(const sw_scene *s, size_t w, sw_plan *plan) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *h = sw_scene_hold_in(s, k);
+  SW_EACH(hold, h, s) {
     if (!is_on(h, w) || !h->formed) continue;
     for (size_t e = sw_plan_first(plan, h->s1); e < plan->edges && plan->s[e + 1] <= h->s2; e++)
       plan->rest[e] = sw_dist(local_of(h, plan->s[e]), local_of(h, plan->s[e + 1]));
@@ -93,20 +91,17 @@ enum { LEAST_EDGES = 4 };
 /* Halve every edge between the nodes at arc lengths low and high. */
 static sw_status halve_edges(sw_mesh *m, double low, double high) {
   const size_t first = sw_mesh_node(m, low), count = sw_mesh_node(m, high) - first + 1;
-  double placed, *nodes = sw_alloc(count, sizeof *nodes);
+  double placed, *nodes SW_LOCAL = sw_alloc(count, sizeof *nodes);
   if (!nodes) return SW_ENOMEM;
   memcpy(nodes, m->s + first, count * sizeof *nodes);
-  sw_status status = SW_OK;
-  for (size_t i = 0; i + 1 < count && status == SW_OK; i++)
-    status = sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed);
-  sw_free(nodes);
-  return status;
+  for (size_t i = 0; i + 1 < count; i++)
+    SW_TRY(sw_mesh_place(m, 0.5 * (nodes[i] + nodes[i + 1]), nodes, count, &placed));
+  return SW_OK;
 }
 
 /* Enough edges between h and the holds beside it. */
 static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *o = sw_scene_hold_in(s, k);
+  SW_EACH(hold, o, s) {
     if (!o->alive || o->wire != h->wire || o == h) continue;
     const double low = o->s2 < h->s1 ? o->s2 : h->s2, high = o->s2 < h->s1 ? h->s1 : o->s1;
     for (size_t before = 0; low < high && before < m->n;) { /* ends when nothing is halved */

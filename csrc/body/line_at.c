@@ -4,10 +4,12 @@
 
 #include "body/body.h"
 #include "body/spin.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/clamp.h"
+#include "system/system.h"
 
 /* The clamp hinge at a node that looks along edge, or NULL. */
 static const sw_clamp_hinge *clamp_at(const sw_plan *p, size_t node, size_t edge) {
@@ -113,13 +115,14 @@ double sw_scene_torque(const sw_system *s, const sw_body *b, double at) {
 
 void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, double at,
                 sw_point_state *out) {
+  sw_system *system = sw_scene_system(s);
   sw_vec t0, t1;
   double k0, k1, f;
   const size_t e = sw_plan_locate(b->plan, at, &f);
-  const double *x = s->system.x + 3 * (b->first_node + e);
-  const double *v = s->system.v + 3 * (b->first_node + e);
-  node_state(&s->system, b, e, e, &t0, &k0);
-  node_state(&s->system, b, e + 1, e, &t1, &k1);
+  const double *x = system->x + 3 * (b->first_node + e);
+  const double *v = system->v + 3 * (b->first_node + e);
+  node_state(system, b, e, e, &t0, &k0);
+  node_state(system, b, e + 1, e, &t1, &k1);
   /* cubic through both ends with their tangents; the chord keeps its length */
   const double l = b->field.length[e], h00 = (1 + 2 * f) * (1 - f) * (1 - f);
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
@@ -128,15 +131,15 @@ void sw_line_at(const sw_scene *s, const sw_scene_wire *w, const sw_body *b, dou
   out->velocity = sw_lerp(sw_load(v), sw_load(v + 3), f);
   out->tangent = sw_unit_or(sw_lerp(t0, t1, f), t0);
   out->curvature = k0 + f * (k1 - k0);
-  out->elastic = between_middles(b->plan, s->system.tension + b->first_edge, at);
-  out->tension = between_middles(b->plan, sw_system_pull(&s->system, b), at);
-  out->spin = spin_at(&s->system, b, at);
+  out->elastic = between_middles(b->plan, system->tension + b->first_edge, at);
+  out->tension = between_middles(b->plan, sw_system_pull(system, b), at);
+  out->spin = spin_at(system, b, at);
   if (b->spin_block) {
-    k0 = node_flexure(&s->system, b, e, e);
-    k1 = node_flexure(&s->system, b, e + 1, e);
+    k0 = node_flexure(system, b, e, e);
+    k1 = node_flexure(system, b, e + 1, e);
   }
   const double bent = (k0 + f * (k1 - k0)) * w->beam.radius;
   out->strain = out->elastic / w->beam.EA + bent;
   out->least_strain = out->elastic / w->beam.EA - bent;
-  out->twist_moment = sw_scene_torque(&s->system, b, at);
+  out->twist_moment = sw_scene_torque(system, b, at);
 }

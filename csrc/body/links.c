@@ -5,43 +5,44 @@
 #include "body/spin.h"
 #include "link/hold.h"
 #include "link/joint.h"
+#include "scene/course.h"
+#include "scene/ledger.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "system/system.h"
 
 static void reshaped(void *user, size_t wire, size_t node) {
   const sw_scene *s = user;
-  sw_scene_unloaded_near(s, wire, s->system.bodies[wire].plan, node);
+  sw_scene_unloaded_near(s, wire, sw_scene_system(s)->bodies[wire].plan, node);
 }
 
 sw_link_wire sw_scene_link_wire(const sw_scene *s, size_t wire) {
-  sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   return (sw_link_wire){.name = w->name,
                         .mesh = &w->mesh,
                         .beam = &w->beam,
-                        .time = s->time,
-                        .system = (sw_system *)&s->system,
+                        .time = sw_scene_time(s),
+                        .system = (sw_system *)sw_scene_system(s),
                         .body = wire,
                         .user = (void *)s,
                         .reshaped = reshaped};
 }
 
 void sw_scene_follow_holds(sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  sw_books *b = sw_scene_books(s);
+  SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->follow) continue; /* a wire of one released may be gone */
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-    const double before = s->books.step.to.kinetic;
+    const double before = b->step.to.kinetic;
     if (!h->cls->hold->follow(h, &w)) continue;
-    sw_course_jump(&s->course);
-    s->books.step.to.kinetic = sw_system_kinetic(&s->system, 0);
-    s->books.step.impact += before - s->books.step.to.kinetic;
+    sw_course_jump(sw_scene_course(s));
+    b->step.to.kinetic = sw_system_kinetic(sw_scene_system(s), 0);
+    b->step.impact += before - b->step.to.kinetic;
   }
 }
 
 void sw_scene_undo_holds(sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->undo) continue;
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
     h->cls->hold->undo(h, &w);
@@ -55,18 +56,18 @@ sw_hold_way sw_hold_way_of(const sw_scene *s, const sw_hold *h, double t, const 
 
 /* All arc lengths of a wire that other holds and joins need as nodes. */
 const sw_joint *sw_scene_joined(const sw_scene *s, size_t wire) {
-  for (size_t k = 0; k < s->join_count; k++)
-    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count; i++)
-      if (s->joins[k].ends[i].wire == wire) return &s->joins[k];
+  SW_EACH(join, j, s)
+    for (size_t i = 0; j->alive && i < j->count; i++)
+      if (j->ends[i].wire == wire) return j;
   return NULL;
 }
 
 size_t sw_scene_join_places(const sw_scene *s, size_t wire, double *out) {
   size_t n = 0;
-  for (size_t k = 0; k < s->join_count; k++)
-    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count; i++) {
-      if (s->joins[k].ends[i].wire != wire) continue;
-      if (out) out[n] = s->joins[k].ends[i].s;
+  SW_EACH(join, j, s)
+    for (size_t i = 0; j->alive && i < j->count; i++) {
+      if (j->ends[i].wire != wire) continue;
+      if (out) out[n] = j->ends[i].s;
       n++;
     }
   return n;
@@ -74,7 +75,7 @@ size_t sw_scene_join_places(const sw_scene *s, size_t wire, double *out) {
 
 void sw_scene_joint_wires(const sw_scene *s, const sw_joint *j, sw_link_wire out[SW_JOIN_ENDS]) {
   for (size_t k = 0; k < j->count; k++) {
-    const sw_scene_wire *w = &s->wires[j->ends[k].wire];
+    const sw_scene_wire *w = sw_scene_wire_in(s, j->ends[k].wire);
     sw_recipe recipe;
     w->cls->recipe(&w->beam, &recipe);
     out[k] = sw_scene_link_wire(s, j->ends[k].wire);
@@ -84,10 +85,10 @@ void sw_scene_joint_wires(const sw_scene *s, const sw_joint *j, sw_link_wire out
 
 sw_status sw_scene_add_joins(sw_scene *s) {
   sw_link_wire wires[SW_JOIN_ENDS];
-  for (size_t k = 0; k < s->join_count; k++) {
-    if (!s->joins[k].alive) continue;
-    sw_scene_joint_wires(s, &s->joins[k], wires);
-    SW_TRY(s->joins[k].cls->joint->add(&s->joins[k], wires));
+  SW_EACH(join, j, s) {
+    if (!j->alive) continue;
+    sw_scene_joint_wires(s, j, wires);
+    SW_TRY(j->cls->joint->add(j, wires));
   }
   return SW_OK;
 }

@@ -8,28 +8,35 @@
 #include "base/alloc.h"
 #include "body/body.h"
 #include "contact/grains.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
+#include "system/system.h"
 
 sw_live sw_live_of(const sw_scene *s) {
-  sw_live p = {.state = s->system.state, .state_size = s->system.state_size};
-  if (s->contact) {
-    p.fresh = sw_contact_is_fresh(s->contact);
-    p.memory = sw_contact_memory(s->contact, &p.memory_size);
-    p.seen[0] = sw_contact_seen(s->contact, &p.seen_size[0]);
+  sw_grains *grains = sw_scene_grains(s);
+  sw_pairs *pairs = sw_scene_pairs(s);
+  sw_contact *contact = sw_scene_contact(s);
+  sw_course *c = sw_scene_course(s);
+  sw_system *system = sw_scene_system(s);
+  sw_live p = {.state = system->state, .state_size = system->state_size};
+  if (contact) {
+    p.fresh = sw_contact_is_fresh(contact);
+    p.memory = sw_contact_memory(contact, &p.memory_size);
+    p.seen[0] = sw_contact_seen(contact, &p.seen_size[0]);
   }
-  if (s->pairs) {
-    p.pairs = sw_pairs_memory(s->pairs, &p.pairs_size);
-    sw_pairs_seen(s->pairs, p.seen + 1, p.seen_size + 1);
+  if (pairs) {
+    p.pairs = sw_pairs_memory(pairs, &p.pairs_size);
+    sw_pairs_seen(pairs, p.seen + 1, p.seen_size + 1);
   }
-  if (s->grains) p.grains = sw_grains_memory(s->grains, &p.grains_size);
-  if (!s->course.has_stepper) return p;
-  p.method = s->course.method;
-  p.last_h = s->course.stepper.last_h;
-  p.restart = s->course.stepper.restart;
-  if (!(s->course.method->flags & SW_INTEGRATOR_HISTORY)) return p;
-  p.history_size = sw_stepper_history(&s->course.stepper, &s->system);
-  p.history = s->course.stepper.xp;
+  if (grains) p.grains = sw_grains_memory(grains, &p.grains_size);
+  if (!c->has_stepper) return p;
+  p.method = c->method;
+  p.last_h = c->stepper.last_h;
+  p.restart = c->stepper.restart;
+  if (!(c->method->flags & SW_INTEGRATOR_HISTORY)) return p;
+  p.history_size = sw_stepper_history(&c->stepper, system);
+  p.history = c->stepper.xp;
   return p;
 }
 
@@ -45,16 +52,15 @@ static sw_status copy_out(const sw_live *p, size_t from, size_t n, double **to) 
 
 sw_status sw_live_place(sw_scene *s, const sw_live *p) {
   size_t freedoms = 0, node = 0, edge = 0;
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_scene_wire *wire = &s->wires[w];
+  SW_EACH(wire, wire, s) {
     freedoms += 3 * sw_body_state_of(wire).points + (wire->beam.rolls ? wire->mesh.n - 1 : 0);
   }
-  for (size_t k = 0; k < s->hold_count; k++)
-    freedoms += s->holds[k].alive && s->holds[k].cls->hold->rail;
-  for (size_t w = 0; w < s->wire_count; w++) {
-    sw_strand *strand = &s->wires[w].strand;
+  SW_EACH(hold, h, s) freedoms += h->alive && h->cls->hold->rail;
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
+    sw_strand *strand = &sw_scene_wire_in(s, w)->strand;
     const sw_web *web = strand->web;
-    const size_t n = sw_body_state_of(&s->wires[w]).points, edges = web ? web->links : n - 1;
+    const size_t n = sw_body_state_of(sw_scene_wire_in(s, w)).points,
+                 edges = web ? web->links : n - 1;
     if (web) {
       SW_TRY(copy_out(p, 3 * node, 3 * n, &strand->x));
       SW_TRY(copy_out(p, freedoms + 3 * node, 3 * n, &strand->v));
@@ -67,40 +73,46 @@ sw_status sw_live_place(sw_scene *s, const sw_live *p) {
 }
 
 static sw_status put_contact(sw_scene *s, const sw_live *p) {
-  if (s->contact) {
-    SW_TRY(sw_contact_set_memory(s->contact, p->memory, p->memory_size, p->fresh));
-    SW_TRY(sw_contact_set_seen(s->contact, p->seen[0], p->seen_size[0], s->system.nodes));
+  sw_grains *grains = sw_scene_grains(s);
+  sw_pairs *pairs = sw_scene_pairs(s);
+  sw_contact *contact = sw_scene_contact(s);
+  sw_system *system = sw_scene_system(s);
+  if (contact) {
+    SW_TRY(sw_contact_set_memory(contact, p->memory, p->memory_size, p->fresh));
+    SW_TRY(sw_contact_set_seen(contact, p->seen[0], p->seen_size[0], system->nodes));
   }
-  if (s->grains) SW_TRY(sw_grains_set_memory(s->grains, p->grains, p->grains_size));
-  if (!s->pairs) return SW_OK;
+  if (grains) SW_TRY(sw_grains_set_memory(grains, p->grains, p->grains_size));
+  if (!pairs) return SW_OK;
   const void *const seen[2] = {p->seen[1], p->seen[2]};
-  SW_TRY(sw_pairs_set_memory(s->pairs, p->pairs, p->pairs_size));
-  return sw_pairs_set_seen(s->pairs, seen, p->seen_size + 1, &s->system);
+  SW_TRY(sw_pairs_set_memory(pairs, p->pairs, p->pairs_size));
+  return sw_pairs_set_seen(pairs, seen, p->seen_size + 1, system);
 }
 
 sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
-  memcpy(s->system.state, p->state, p->state_size * sizeof(double));
+  sw_course *c = sw_scene_course(s);
+  sw_system *system = sw_scene_system(s);
+  memcpy(system->state, p->state, p->state_size * sizeof(double));
   const sw_status status = put_contact(s, p);
   if (status == SW_EINVAL)
     return sw_fail(err, SW_EFORMAT, "its contact does not go with its objects");
   SW_TRY(status);
-  if (p->method && (!s->course.has_stepper || s->course.method != p->method)) {
-    sw_stepper_free(&s->course.stepper);
-    s->course.has_stepper = 0;
-    SW_TRY(sw_stepper_new(&s->course.stepper, p->method, &s->system));
-    s->course.has_stepper = 1;
-    s->course.method = p->method;
+  if (p->method && (!c->has_stepper || c->method != p->method)) {
+    sw_stepper_free(&c->stepper);
+    c->has_stepper = 0;
+    SW_TRY(sw_stepper_new(&c->stepper, p->method, system));
+    c->has_stepper = 1;
+    c->method = p->method;
   }
   if (p->method) {
-    s->course.stepper.last_h = p->last_h;
-    s->course.stepper.restart = p->restart;
-    if (p->history_size) memcpy(s->course.stepper.xp, p->history, p->history_size * sizeof(double));
-  } else if (s->course.has_stepper) { /* taken before the first run */
-    sw_stepper_free(&s->course.stepper);
-    s->course.has_stepper = 0;
-    s->course.method = NULL;
+    c->stepper.last_h = p->last_h;
+    c->stepper.restart = p->restart;
+    if (p->history_size) memcpy(c->stepper.xp, p->history, p->history_size * sizeof(double));
+  } else if (c->has_stepper) { /* taken before the first run */
+    sw_stepper_free(&c->stepper);
+    c->has_stepper = 0;
+    c->method = NULL;
   }
-  return sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err);
+  return sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err);
 }
 
 size_t sw_live_size(const sw_live *p) {
@@ -124,23 +136,24 @@ sw_status sw_live_back(sw_scene *s, const sw_tape *taken, sw_error *err) {
 }
 
 static int grains_fit(const sw_scene *s, const sw_live *p) {
-  const size_t n = s->system.body_count;
+  sw_system *system = sw_scene_system(s);
+  const size_t n = system->body_count;
   if (!p->grains_size) return 1;
-  size_t *first = sw_alloc(n + 1, sizeof *first);
+  size_t *first SW_LOCAL = sw_alloc(n + 1, sizeof *first);
   if (!first) return 0;
-  for (size_t b = 0; b < n; b++) first[b] = s->system.bodies[b].first_node;
-  first[n] = s->system.nodes;
-  const int fits = sw_grains_memory_fits(p->grains, p->grains_size, first, n);
-  sw_free(first);
-  return fits;
+  for (size_t b = 0; b < n; b++) first[b] = system->bodies[b].first_node;
+  first[n] = system->nodes;
+  return sw_grains_memory_fits(p->grains, p->grains_size, first, n);
 }
 
 int sw_live_fits(const sw_scene *s, const sw_live *p) {
-  const size_t n = 2 * s->system.freedoms + (s->system.strain ? s->system.edges : 0);
+  sw_system *system = sw_scene_system(s);
+  const size_t n = 2 * system->freedoms + (system->strain ? system->edges : 0);
   const int history = p->method && (p->method->flags & SW_INTEGRATOR_HISTORY);
-  return p->state_size == s->system.state_size && p->history_size == (history ? n : 0) &&
-         sw_contact_memory_fits(p->memory, p->memory_size, s->system.nodes, s->obstacle_count) &&
-         sw_pairs_memory_fits(p->pairs, p->pairs_size, s->system.nodes) && grains_fit(s, p);
+  return p->state_size == system->state_size && p->history_size == (history ? n : 0) &&
+         sw_contact_memory_fits(p->memory, p->memory_size, system->nodes,
+                                sw_scene_obstacle_slots(s)) &&
+         sw_pairs_memory_fits(p->pairs, p->pairs_size, system->nodes) && grains_fit(s, p);
 }
 
 /* --- on a tape ------------------------------------------------------------------------ */

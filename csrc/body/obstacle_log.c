@@ -3,21 +3,20 @@
  * a force are added when something does, or when the series is read. */
 #include "body/obstacle_log.h"
 
-#include <string.h>
-
 #include "body/touching.h"
+#include "scene/course.h"
 #include "scene/obstacle.h"
+#include "scene/parts.h"
 #include "scene/values.h"
-#include "scene/world.h"
 
 enum { TIME, SPAN, STEP }; /* a row of the scene's steps with contact */
 
-static size_t steps_of(const sw_scene *s) { return s->contact_steps.count / STEP; }
+static size_t steps_of(const sw_scene *s) { return sw_scene_contact_steps(s)->count / STEP; }
 
 void sw_obstacle_log_begin(const sw_scene *s, sw_scene_obstacle *o) { o->logged = steps_of(s); }
 
 static sw_status add(sw_scene *s, sw_scene_obstacle *o, sw_vec force) {
-  const double *step = s->contact_steps.rows + STEP * o->logged;
+  const double *step = sw_scene_contact_steps(s)->rows + STEP * o->logged;
   double row[SW_LOG_OBSTACLE_SIZE] = {step[TIME]};
   sw_store(row + 1, force);
   row[4] = step[SPAN];
@@ -36,14 +35,15 @@ sw_status sw_obstacle_log_fill(sw_scene *s, sw_scene_obstacle *o) {
 }
 
 sw_status sw_obstacle_log_state(sw_scene *s) {
-  const double step[STEP] = {[TIME] = s->time, [SPAN] = s->course.span};
+  sw_contact *contact = sw_scene_contact(s);
+  const double step[STEP] = {[TIME] = sw_scene_time(s), [SPAN] = sw_scene_course(s)->span};
   size_t count;
-  if (!s->contact) return SW_OK;
-  if (!sw_contact_informed(s->contact)) sw_scene_inform_contact(s);
-  SW_TRY(sw_log_add(&s->contact_steps, step, STEP));
-  const int *busy = sw_contact_busy(s->contact, &count);
+  if (!contact) return SW_OK;
+  if (!sw_contact_informed(contact)) sw_scene_inform_contact(s);
+  SW_TRY(sw_log_add(sw_scene_contact_steps(s), step, STEP));
+  const int *busy = sw_contact_busy(contact, &count);
   for (size_t i = 0; i < count; i++) {
-    sw_scene_obstacle *o = &s->obstacles[sw_contact_id(s->contact, (size_t)busy[i])];
+    sw_scene_obstacle *o = sw_scene_obstacle_in(s, sw_contact_id(contact, (size_t)busy[i]));
     sw_vec force, moment;
     if (!o->alive) continue;
     SW_TRY(fill(s, o, steps_of(s) - 1));

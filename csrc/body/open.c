@@ -3,17 +3,19 @@
 
 #include "body/build.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
+#include "system/system.h"
 
 sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   *body = sw_scene_find_body(s, h, err);
   if (!*body) return SW_EDEAD;
-  if (s->running) return sw_scene_still(s, err);
+  SW_TRY(sw_scene_still(s, err));
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
-  sw_system_refresh(&s->system);
+  SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));
+  sw_system_refresh(system);
   return SW_OK;
 }
 
@@ -39,5 +41,5 @@ sw_status sw_scene_check_speed(const sw_scene *s, const sw_scene_wire *w, double
   return sw_fail(err, SW_EINVAL,
                  "'%s' of scene '%s': set_velocity: a speed of %.6g m/s; at most %.9g m/s, that of "
                  "light",
-                 w->name, s->name, speed, LIGHT);
+                 w->name, sw_scene_name(s), speed, LIGHT);
 }

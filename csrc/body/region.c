@@ -31,14 +31,12 @@ static size_t find_parts(const sw_scene *s, size_t wire, const double region[2],
                          double length, part *out) {
   size_t n = 0, kept = 0;
   out[n++] = (part){region[0], region[1], (double)NAN};
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *hold = sw_scene_hold_in(s, k);
+  SW_EACH(hold, hold, s) {
     if (!hold->alive || hold->wire != wire || !hold->cls->hold->direction) continue;
     out[n++] = (part){hold->s1 - BESIDE * h, hold->s2 + BESIDE * h, hold->s1};
   }
   qsort(out, n, sizeof *out, before);
-  for (size_t k = 0; k < n; k++) {
-    const part *p = &out[k];
+  SW_ITEMS(const part, p, out, n) {
     part *last = kept ? &out[kept - 1] : NULL;
     if (!last || p->from > last->to + NARROW * h) {
       out[kept++] = *p;
@@ -100,12 +98,11 @@ sw_status sw_region_plan(const sw_scene *s, size_t wire, const double region[2],
                          double line, sw_stations *out, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double length = w->mesh.s[w->mesh.n - 1];
-  part *parts = sw_alloc(sw_scene_hold_slots(s) + 1, sizeof *parts);
+  part *parts SW_LOCAL = sw_alloc(sw_scene_hold_slots(s) + 1, sizeof *parts);
   *out = (sw_stations){.spacing = spacing};
   if (!parts) return sw_fail(err, SW_ENOMEM, "remodel: out of memory");
   const size_t count = find_parts(s, wire, region, spacing, length, parts);
   if (parts[0].from <= 0 && parts[count - 1].to >= length && count == 1) {
-    sw_free(parts);
     return sw_fail(err, SW_EINVAL,
                    "remodel: region = {%.6g, %.6g} m, with what is meshed round clamps, is all of "
                    "wire '%s'; leave region out",
@@ -115,7 +112,6 @@ sw_status sw_region_plan(const sw_scene *s, size_t wire, const double region[2],
   out->s = sw_alloc(out->n, sizeof *out->s);
   out->ring = sw_alloc(out->n, sizeof *out->ring);
   if (out->s && out->ring) lay_out(parts, count, length, line, out);
-  sw_free(parts);
   if (out->s && out->ring) return SW_OK;
   sw_region_free(out);
   return sw_fail(err, SW_ENOMEM, "remodel: out of memory");

@@ -6,10 +6,11 @@
 #include <math.h>
 
 #include "force/solid.h"
+#include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "strand/ring.h"
+#include "system/system.h"
 
 /* --- sections -------------------------------------------------------------------- */
 
@@ -93,8 +94,9 @@ static slice slice_at(const sw_plan *p, const double *x, size_t r, double f) {
 
 void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b, double place,
                   sw_point_state *out) {
+  sw_system *system = sw_scene_system(s);
   const sw_web *w = wire->strand.web;
-  const double *x = s->system.x + 3 * b->first_node, *v = s->system.v + 3 * b->first_node;
+  const double *x = system->x + 3 * b->first_node, *v = system->v + 3 * b->first_node;
   double f;
   const size_t r = sw_plan_locate(b->plan, place, &f);
   const sw_vec x0 = sw_strand_middle(w, x, r), x1 = sw_strand_middle(w, x, r + 1);
@@ -116,9 +118,10 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
 }
 
 void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire_extremes *now) {
-  const sw_body *b = &s->system.bodies[wire];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[wire];
   const sw_web *w = b->plan->web;
-  const double *x = s->system.x + 3 * b->first_node, EA = b->plan->beam.EA;
+  const double *x = system->x + 3 * b->first_node, EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
   *now = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
   if (!w->rings) return; /* an object of particles */

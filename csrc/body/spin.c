@@ -18,8 +18,8 @@ static sw_edge_frame edge_frame(const double *nodes, const double *normals, size
 
 /* The scene's hold with this number among the living. */
 static const sw_hold *hold_number(const sw_scene *s, int number) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
-    if (sw_scene_hold_in(s, k)->alive && number-- == 0) return sw_scene_hold_in(s, k);
+  SW_EACH(hold, h, s)
+    if (h->alive && number-- == 0) return h;
   return NULL;
 }
 

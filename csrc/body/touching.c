@@ -10,6 +10,7 @@
 #include "scene/drive.h"
 #include "scene/obstacle.h"
 #include "scene/world.h"
+#include "system/linear.h"
 #include "system/system.h"
 
 static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table) {
@@ -25,14 +26,13 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
   int any = 0;
   const size_t n = s->wire_count;
   if (!s->rule_count) return SW_OK;
-  sw_pair_rule *table = sw_alloc(n * n, sizeof *table);
+  sw_pair_rule *table SW_LOCAL = sw_alloc(n * n, sizeof *table);
   if (!table) return SW_ENOMEM;
   for (size_t k = 0; k < s->rule_count; k++) state_rule(&s->rules[k], n, table);
   for (size_t k = 0; k < n * n; k++) any |= table[k].on;
-  sw_status status = any ? sw_pairs_new(table, n, &s->pairs) : SW_OK;
-  if (any && status == SW_OK) status = sw_grains_new(&s->system, table, &s->grains);
-  sw_free(table);
-  return status;
+  if (!any) return SW_OK;
+  SW_TRY(sw_pairs_new(table, n, &s->pairs));
+  return sw_grains_new(&s->system, table, &s->grains);
 }
 
 /* --- the system's coupling ------------------------------------------------------- */
@@ -113,8 +113,8 @@ static int may_move(void *user, int o) {
 
 /* What nothing touches now remembers nothing of when something did. */
 void sw_scene_inform_contact(sw_scene *s) {
-  for (size_t k = 0; k < s->obstacle_count; k++)
-    if (!s->obstacles[k].alive || s->obstacles[k].off) s->obstacles[k].past = (sw_contact_past){0};
+  SW_EACH(obstacle, o, s)
+    if (!o->alive || o->off) o->past = (sw_contact_past){0};
   sw_contact_recall(s->contact, past_of, may_move);
 }
 
@@ -175,6 +175,30 @@ void sw_scene_commit_contact(sw_scene *s) {
   }
   if (s->pairs) sw_pairs_commit(s->pairs, &s->system);
   if (s->grains) sw_grains_commit(s->grains);
+}
+
+/* With contact as it presses now; other wires stay where they are. */
+sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
+  sw_contact *const own = s->contact;
+  sw_pairs *const pairs = s->pairs;
+  sw_grains *const grains = s->grains;
+  sw_status status = SW_OK;
+  s->contact = NULL, s->pairs = NULL, s->grains = NULL;
+  if (own) status = sw_contact_copy(own, &s->contact);
+  if (pairs && status == SW_OK) status = sw_pairs_copy(pairs, &s->pairs);
+  if (grains && status == SW_OK) status = sw_grains_copy(grains, &s->system, &s->grains);
+  if (status != SW_OK) sw_fail(err, status, "out of memory");
+  if (own && only && status == SW_OK) sw_contact_keep(s->contact, only, count);
+  if (own && status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
+  if (pairs && status == SW_OK) status = sw_pairs_begin_look(s->pairs, &s->system, err);
+  if (grains && !pairs && status == SW_OK) status = sw_system_begin_plan(&s->system);
+  if (grains && status == SW_OK) status = sw_grains_begin_look(s->grains, &s->system, err);
+  if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
+  sw_contact_free(s->contact);
+  sw_pairs_free(s->pairs);
+  sw_grains_free(s->grains);
+  s->contact = own, s->pairs = pairs, s->grains = grains;
+  return status;
 }
 
 /* --- read-outs ------------------------------------------------------------------- */

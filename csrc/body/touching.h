@@ -35,6 +35,9 @@ sw_contact_verdict sw_scene_review_contact(sw_scene *scene, const double *x1, co
                                            double h);
 int sw_scene_review_static(sw_scene *scene, const double *x1);
 void sw_scene_commit_contact(sw_scene *scene);
+/* The built system's stiffness at its state, with contact as it presses now: of these obstacles
+ * (count), or NULL: of all. */
+sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
 double sw_scene_deepest(const sw_scene *scene, size_t *node); /* [m] */
 double sw_scene_contact_energy(const sw_scene *scene);        /* [J] */
 

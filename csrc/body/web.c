@@ -23,16 +23,13 @@ static sw_status plan(const sw_scene *s, size_t w, const sw_hold_place *places, 
                       sw_plan **out) {
   (void)places, (void)count; /* its holds know their particles */
   sw_web *web = sw_scene_wire_in(s, w)->strand.web;
-  int *held = sw_alloc(web->particles, sizeof *held);
+  int *held SW_LOCAL = sw_alloc(web->particles, sizeof *held);
   if (!held) return SW_ENOMEM;
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    const sw_hold *h = sw_scene_hold_in(s, k);
+  SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != w) continue;
     for (size_t i = 0; i < h->count; i++) held[h->particle[i]] = SW_HELD;
   }
-  const sw_status status = sw_plan_of_web(&sw_scene_wire_in(s, w)->beam, web, held, out);
-  sw_free(held);
-  return status;
+  return sw_plan_of_web(&sw_scene_wire_in(s, w)->beam, web, held, out);
 }
 
 static sw_status take(sw_scene *scene, size_t w) {

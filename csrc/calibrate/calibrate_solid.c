@@ -131,7 +131,7 @@ static sw_status round_voxels(const task *t, sw_lattice *l, sw_error *err) {
   const double r = t->beam->radius;
   const double inner =
       t->mesh->cubic.section == SW_SECTION_ANNULUS ? t->mesh->cubic.inner : -r; /* never nearer */
-  int *elements = sw_alloc(l->particles, sizeof *elements);
+  int *elements SW_LOCAL = sw_alloc(l->particles, sizeof *elements);
   if (!elements) return sw_fail(err, SW_ENOMEM, "calibrate: out of memory");
   for (size_t m = 0; m < l->solids; m++)
     for (int a = 0; a < 4; a++) elements[l->solid[m].particle[a]]++;
@@ -142,7 +142,6 @@ static sw_status round_voxels(const task *t, sw_lattice *l, sw_error *err) {
     at[0] *= goal / out;
     at[1] *= goal / out;
   }
-  sw_free(elements);
   sw_lattice_share(l);
   return SW_OK;
 }

@@ -168,7 +168,7 @@ sw_status sw_cell_stiffness(const sw_cell *c, const double *k, sw_cell_result *o
                             sw_error *err) {
   SW_TRY(check(c, k, err));
   const size_t n = 3 * c->particles, size = SW_CELL_SIZE + 1;
-  double left[SIDES], *K = sw_alloc(n * n + SIDES * n + c->groups * size, sizeof *K);
+  double left[SIDES], *K SW_LOCAL = sw_alloc(n * n + SIDES * n + c->groups * size, sizeof *K);
   if (!K) return sw_fail(err, SW_ENOMEM, "cell: out of memory");
   double *right = K + n * n, *own = right + SIDES * n;
   assemble(c, k, K, right);
@@ -182,7 +182,6 @@ sw_status sw_cell_stiffness(const sw_cell *c, const double *k, sw_cell_result *o
       own[g * size + SW_CELL_SIZE] *= resists ? 1 / compliance : 0;
     if (parts) memcpy(parts, own, c->groups * size * sizeof *parts);
   }
-  sw_free(K);
   return status == SW_OK ? SW_OK
                          : sw_fail(err, status, "cell: %s",
                                    status == SW_ENOMEM ? "out of memory" : "not a finite matrix");
@@ -214,7 +213,7 @@ sw_status sw_cell_warp(const sw_cell *c, const double *k, const double *share, d
                        sw_error *err) {
   SW_TRY(check(c, k, err));
   const size_t n = 3 * c->particles;
-  double left[SIDES], *K = sw_alloc(n * n + SIDES * n, sizeof *K);
+  double left[SIDES], *K SW_LOCAL = sw_alloc(n * n + SIDES * n, sizeof *K);
   if (!K) return sw_fail(err, SW_ENOMEM, "cell: out of memory");
   assemble(c, k, K, K + n * n);
   const sw_status status = sw_dense_semidefinite(K, n, K + n * n, SIDES, left);
@@ -222,7 +221,6 @@ sw_status sw_cell_warp(const sw_cell *c, const double *k, const double *share, d
     memcpy(warp, K + n * n, SW_CELL_STRAINS * n * sizeof *warp);
     for (size_t s = 0; s < SW_CELL_STRAINS; s++) remove_motion(c, share, warp + s * n);
   }
-  sw_free(K);
   return status == SW_OK ? SW_OK : sw_fail(err, status, "cell: not a finite matrix");
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cholesky of the matrix with a small shift, and the error of the shift taken out by
- * repetition: x <- x + (A + d)^-1 (b - A x) multiplies it by d / (lambda + d) for every
- * eigenvalue lambda > 0, and leaves what belongs to lambda = 0 alone. No rank to decide. */
+/* GSL's dense matrices. */
+#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -10,6 +9,11 @@
 #include "base/alloc.h"
 #include "calibrate/dense.h"
 
+/* --- that may be singular ---------------------------------------------------- */
+
+/* Cholesky of the matrix with a small shift, and the error of the shift taken out by
+ * repetition: x <- x + (A + d)^-1 (b - A x) multiplies it by d / (lambda + d) for every
+ * eigenvalue lambda > 0, and leaves what belongs to lambda = 0 alone. No rank to decide. */
 static const double SHIFT = 1e-11;  /* of the matrix scaled to a diagonal of 1 [-] */
 enum { REPEATS = 8 };               /* at most [-] */
 static const double ENOUGH = 1e-12; /* share of the right side that may be left [-] */
@@ -50,7 +54,7 @@ static double solve_one(const double *a, const double *s, const gsl_matrix *fact
 }
 
 sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, double *left) {
-  double *work = sw_alloc(n * n + 4 * n, sizeof *work);
+  double *work SW_LOCAL = sw_alloc(n * n + 4 * n, sizeof *work);
   if (!work) return SW_ENOMEM;
   double *s = work + n * n;
   int finite = 1;
@@ -68,6 +72,42 @@ sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, 
     if (left) left[k] = share;
   }
   gsl_set_error_handler(before);
-  sw_free(work);
   return failed ? SW_ESINGULAR : SW_OK;
+}
+
+sw_status sw_symmetric_eigen(const double *a, size_t n, double *values, double *vectors) {
+  for (size_t k = 0; k < n * n; k++)
+    if (!isfinite(a[k])) return SW_EDIVERGED;
+  gsl_error_handler_t *before = gsl_set_error_handler_off();
+  gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);
+  gsl_matrix *m = gsl_matrix_alloc(n, n), *z = gsl_matrix_alloc(n, n);
+  gsl_vector_view w = gsl_vector_view_array(values, n);
+  sw_status status = SW_ENOMEM;
+  if (work && m && z) {
+    memcpy(m->data, a, n * n * sizeof *a);
+    status = gsl_eigen_symmv(m, &w.vector, z, work) ? SW_EDIVERGED : SW_OK;
+    gsl_eigen_symmv_sort(&w.vector, z, GSL_EIGEN_SORT_VAL_ASC);
+    for (size_t k = 0; k < n; k++)
+      for (size_t i = 0; i < n; i++) vectors[k * n + i] = gsl_matrix_get(z, i, k);
+  }
+  if (work) gsl_eigen_symmv_free(work);
+  gsl_matrix_free(m);
+  gsl_matrix_free(z);
+  gsl_set_error_handler(before);
+  return status;
+}
+
+sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err) {
+  double *copy SW_LOCAL = sw_alloc(rows * n, sizeof *copy);
+  if (!copy) return sw_fail(err, SW_ENOMEM, "singular values: out of memory");
+  memcpy(copy, a, rows * n * sizeof *copy);
+  gsl_error_handler_t *before = gsl_set_error_handler_off();
+  gsl_matrix_view left = gsl_matrix_view_array(copy, rows, n),
+                  right = gsl_matrix_view_array(v, n, n);
+  gsl_vector_view values = gsl_vector_view_array(s, n);
+  const int status = gsl_linalg_SV_decomp_jacobi(&left.matrix, &right.matrix, &values.vector);
+  gsl_set_error_handler(before);
+  if (status != GSL_SUCCESS)
+    return sw_fail(err, SW_ESINGULAR, "singular values: %s", gsl_strerror(status));
+  return SW_OK;
 }

@@ -201,7 +201,7 @@ sw_status sw_minimise_simplex(sw_objective f, void *user, size_t n, double *x, c
                      "finite, the step not 0",
                      i + 1, x[i], step[i]);
   gsl_set_error_handler_off();
-  double *work = sw_alloc(2 * n, sizeof *work);
+  double *work SW_LOCAL = sw_alloc(2 * n, sizeof *work);
   gsl_vector *u = gsl_vector_alloc(n), *size = gsl_vector_alloc(n);
   sw_status status = SW_OK;
   if (!work || !u || !size) {
@@ -215,6 +215,5 @@ sw_status sw_minimise_simplex(sw_objective f, void *user, size_t n, double *x, c
   }
   gsl_vector_free(u);
   gsl_vector_free(size);
-  sw_free(work);
   return status;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* NLopt's minimisers without derivatives (S. G. Johnson, The NLopt nonlinear-optimization package).
  */
-#include <math.h>
 #include <nlopt.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a fit's errors are made of. */
+/* Distributions, and points that fill a cube more evenly than random ones do. */
 #ifndef SW_CALIBRATE_STATISTICS_H
 #define SW_CALIBRATE_STATISTICS_H
 
@@ -14,8 +14,15 @@ double sw_student(double p, double freedom);
 /* The probability that chi squared of so many degrees of freedom is above x. */
 double sw_chi2_above(double x, double freedom);
 
-/* Singular values s (n, falling) of a (rows x n, rows >= n) and directions v (n x n, one a column);
- * one-sided Jacobi, exact to the last digits for small values as well. */
-sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err);
+enum { SW_QUASI_SOBOL_MOST = 40, SW_QUASI_HALTON_MOST = 100 }; /* dimensions [-] */
+
+/* count points of n coordinates in (0, 1), one after the other in out [-]. sobol: Sobol's sequence
+ * (Antonov, Saleev 1979), else Halton's, in which each coordinate has a prime as its base. */
+sw_status sw_quasi(int sobol, size_t n, size_t count, double *out, sw_error *err);
+
+/* Share of normally distributed numbers below x (mean 0, deviation 1); and x of a share, 0 to 1
+ * [-]. */
+double sw_normal_below(double x);
+double sw_normal_at(double share);
 
 #endif

@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL's distributions and singular values. */
+/* GSL's distributions and quasi-random sequences. */
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_qrng.h>
 #include <math.h>
-#include <string.h>
 
-#include "base/alloc.h"
 #include "calibrate/statistics.h"
 
 double sw_student(double p, double freedom) {
@@ -15,18 +12,18 @@ double sw_student(double p, double freedom) {
 
 double sw_chi2_above(double x, double freedom) { return gsl_cdf_chisq_Q(x, freedom); }
 
-sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err) {
-  double *copy = sw_alloc(rows * n, sizeof *copy);
-  if (!copy) return sw_fail(err, SW_ENOMEM, "singular values: out of memory");
-  memcpy(copy, a, rows * n * sizeof *copy);
-  gsl_error_handler_t *before = gsl_set_error_handler_off();
-  gsl_matrix_view left = gsl_matrix_view_array(copy, rows, n),
-                  right = gsl_matrix_view_array(v, n, n);
-  gsl_vector_view values = gsl_vector_view_array(s, n);
-  const int status = gsl_linalg_SV_decomp_jacobi(&left.matrix, &right.matrix, &values.vector);
-  gsl_set_error_handler(before);
-  sw_free(copy);
-  if (status != GSL_SUCCESS)
-    return sw_fail(err, SW_ESINGULAR, "singular values: %s", gsl_strerror(status));
+sw_status sw_quasi(int sobol, size_t n, size_t count, double *out, sw_error *err) {
+  const size_t most = sobol ? SW_QUASI_SOBOL_MOST : SW_QUASI_HALTON_MOST;
+  if (n < 1 || n > most)
+    return sw_fail(err, SW_EINVAL, "kind = '%s' is for 1 to %zu parameters, not %zu",
+                   sobol ? "sobol" : "halton", most, n);
+  gsl_qrng *q = gsl_qrng_alloc(sobol ? gsl_qrng_sobol : gsl_qrng_halton, (unsigned)n);
+  if (!q) return sw_fail(err, SW_ENOMEM, "out of memory");
+  for (size_t k = 0; k < count; k++) gsl_qrng_get(q, out + k * n);
+  gsl_qrng_free(q);
   return SW_OK;
 }
+
+double sw_normal_below(double x) { return gsl_cdf_ugaussian_P(x); }
+
+double sw_normal_at(double share) { return gsl_cdf_ugaussian_Pinv(share); }

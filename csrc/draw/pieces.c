@@ -2,6 +2,7 @@
 #include "draw/pieces.h"
 
 #include "base/alloc.h"
+#include "base/each.h"
 
 enum { MOST_STEPS = 20000 };
 static const double STEP = 2.0;       /* [samples] */
@@ -21,8 +22,7 @@ static double near_around(const sw_layer *l, double x, double y) {
 
 static int below_floor(const sw_pieces *p, double x, double y, double near) {
   const sw_vec at = sw_madd(p->view->camera.at, sw_view_ray(p->view, x, y), 1 / (near * LENIENT));
-  for (size_t k = 0; k < p->d->floor_count; k++) {
-    const sw_floor *f = &p->d->floors[k];
+  SW_ITEMS(const sw_floor, f, p->d->floors, p->d->floor_count) {
     if (sw_dot(f->normal, sw_sub(p->view->camera.at, f->point)) > 0 &&
         sw_dot(f->normal, sw_sub(at, f->point)) < 0)
       return 1;

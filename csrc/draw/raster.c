@@ -2,6 +2,7 @@
 #include "draw/raster.h"
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 
 static const double NEAREST = 1e-4; /* of the drawing's size [-] */
@@ -190,8 +191,7 @@ void sw_raster_lamp(const sw_drawing *d, const sw_lamp *l, sw_layer *layer) {
     }
     fill(layer, p, 0);
   }
-  for (size_t i = 0; i < d->ball_count; i++) {
-    const sw_ball *b = &d->balls[i];
+  SW_ITEMS(const sw_ball, b, d->balls, d->ball_count) {
     const sw_vec c = sw_vec_of(b->p);
     const double x = (sw_dot(c, l->right) - l->left) * l->scale, r = (double)b->radius * l->scale;
     const double y = (sw_dot(c, l->up) - l->bottom) * l->scale,

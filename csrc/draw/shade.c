@@ -2,6 +2,7 @@
 /* A drawing on a canvas: four samples a dot, each face or ball among them lit once. */
 #include <string.h>
 
+#include "base/each.h"
 #include "base/simd.h"
 #include "draw/light.h"
 #include "draw/show.h"
@@ -97,8 +98,7 @@ static tile tile_of(const stage *g, const sw_floor *f) {
 INSIDE const tile *floor_at(const stage *g, sw_vec ray, float near, double *ahead) {
   const tile *first = NULL;
   *ahead = near > 0 ? 1 / (double)near : HUGE_VAL;
-  for (size_t k = 0; k < g->tile_count; k++) {
-    const tile *t = &g->tiles[k];
+  SW_ITEMS(const tile, t, g->tiles, g->tile_count) {
     const double down = -sw_dot(t->normal, ray);
     if (!(down > 0 && t->height < *ahead * down)) continue;
     *ahead = t->height / down, first = t;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "draw/light.h"
 #include "draw/pieces.h"
 
@@ -154,7 +155,7 @@ static double area_of(const paper *g, const sw_face *f) {
 }
 
 static void list_faces(paper *g) {
-  uint32_t *seen = sw_alloc(g->d->face_count, sizeof *seen);
+  uint32_t *seen SW_LOCAL = sw_alloc(g->d->face_count, sizeof *seen);
   if (!seen) g->status = SW_ENOMEM;
   for (size_t i = 0; seen && i < g->layer.width * g->layer.height; i++) {
     const uint32_t id = g->layer.id[i];
@@ -167,7 +168,6 @@ static void list_faces(paper *g) {
     if (seen[i] && (double)seen[i] > -0.5 * GLIMPSE * area_of(g, f))
       g->status = add_item(g, depth, i, 0);
   }
-  sw_free(seen);
 }
 
 static void put_face(paper *g, const sw_face *f) {
@@ -221,8 +221,7 @@ static void put_lines(paper *g, const sw_line *lines, size_t count, int hidden, 
     if (!sw_line_shows(&lines[i], g->view.camera.at)) continue;
     g->status = sw_line_stretches(&g->pieces, lines[i].p[0], lines[i].p[1], 0);
     for (int c = 0; c < 3; c++) linear[c] = sw_linear(pale + (1 - pale) * lines[i].colour[c]);
-    for (size_t k = 0; k < g->pieces.count; k++) {
-      const sw_stretch *s = &g->pieces.list[k];
+    SW_ITEMS(const sw_stretch, s, g->pieces.list, g->pieces.count) {
       if (s->hidden == hidden) put_stretch(g, s->from, s->to, linear, (double)lines[i].width);
     }
   }
@@ -240,8 +239,7 @@ static void put_piece(paper *g, const sw_piece *q) {
     const float x = sw_linear(q->colour[c]);
     body[c] = 0.86f * x, rim[c] = 0.38f * x, shine[c] = 0.75f * x + 0.25f;
   }
-  for (size_t k = 0; k < g->pieces.count; k++) {
-    const sw_stretch *s = &g->pieces.list[k];
+  SW_ITEMS(const sw_stretch, s, g->pieces.list, g->pieces.count) {
     if (s->hidden) continue;
     put_stretch(g, s->from, s->to, rim, width + 0.9);
     put(g, "<g stroke-linecap=\"round\">");

@@ -18,6 +18,9 @@ sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_e
 /* May the wire, as it is given, be in the scene with its forces and rules? */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);
+/* May it touch others, as rules of contact ask of it? */
+sw_status sw_scene_check_touched(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
+                                 sw_error *err);
 /* Free what these slots own. */
 void sw_scene_clear_body(sw_scene_wire *body);
 void sw_scene_clear_obstacle(sw_scene_obstacle *obstacle);

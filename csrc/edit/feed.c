@@ -72,8 +72,7 @@ sw_status sw_scene_feed_length(sw_scene *s, sw_handle hold, sw_motion *motion, d
 
 sw_status sw_scene_feed_state(sw_scene *s, sw_handle hold, sw_feed_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_hold *h = feeding(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, feeding(s, hold, err));
   const sw_feed_now now = sw_feed_at(h, sw_scene_time(s));
   *out = (sw_feed_state){now.fed, now.speed, h->feed.drive, h->feed.limit};
   return SW_OK;

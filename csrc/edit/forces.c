@@ -7,13 +7,14 @@
 
 #include "base/alloc.h"
 #include "body/build.h"
-#include "body/touching.h"
 #include "edit/edit.h"
 #include "edit/forces.h"
+#include "scene/course.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/mesh.h"
+#include "system/system.h"
 
 /* Can the force act on the wire? */
 static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
@@ -61,25 +62,18 @@ static int passes_by(const sw_force_class *cls, const sw_scene_wire *w) {
 
 sw_status sw_scene_check_rules(const sw_scene *s, size_t wire, const sw_scene_wire *as,
                                sw_error *err) {
-  for (size_t k = 0; k < s->force_count; k++) {
-    const sw_scene_force *f = &s->forces[k];
+  SW_EACH(force, f, s) {
     if (f->alive && (f->wire < 0 ? !passes_by(f->cls, as) : f->wire == (long)wire))
       SW_TRY(check_wire(f->cls, as, f->args, err));
   }
-  for (size_t k = 0; k < s->rule_count; k++) {
-    const sw_scene_rule *r = &s->rules[k];
-    int mine = r->count == 0;
-    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
-    if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
-  }
-  return SW_OK;
+  return sw_scene_check_touched(s, wire, as, err);
 }
 
 static sw_status check_force(const sw_scene *s, const sw_force_class *cls, sw_handle wire,
                              const void *args, sw_error *err) {
-  for (size_t w = 0; w < s->wire_count; w++) {
-    if (wire.generation ? w == wire.slot : !passes_by(cls, &s->wires[w]))
-      SW_TRY(check_wire(cls, &s->wires[w], args, err));
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
+    if (wire.generation ? w == wire.slot : !passes_by(cls, sw_scene_wire_in(s, w)))
+      SW_TRY(check_wire(cls, sw_scene_wire_in(s, w), args, err));
   }
   return SW_OK;
 }
@@ -115,7 +109,7 @@ static sw_status own_list(sw_scene_force *f) {
 static sw_status place_force(const sw_scene *s, const sw_scene_wire *w, const sw_force_class *cls,
                              void *args, sw_error *err) {
   if (!cls->place) return SW_OK;
-  if (!w && s->wire_count == 1) w = &s->wires[0];
+  if (!w && sw_scene_wire_slots(s) == 1) w = sw_scene_wire_in(s, 0);
   if (!w) return cls->place(args, 0, NULL, NULL, err);
   const sw_web *web = w->strand.web;
   return web ? cls->place(args, web->particles, w->strand.x, web->s, err)
@@ -140,42 +134,36 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   SW_TRY(check_force(s, cls, wire, args, err));
   if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->forces, &s->force_capacity, s->force_count + 1, sizeof *s->forces));
-  sw_scene_force *f = &s->forces[s->force_count];
-  *f = (sw_scene_force){.generation = s->serial + 1,
-                        .alive = 1,
-                        .cls = cls,
-                        .wire = wire.generation ? (long)wire.slot : -1,
-                        .scale = w ? w->mesh.scale : 1.0};
-  if (args_size) memcpy(f->args, args, args_size);
-  SW_TRY(place_force(s, w, cls, f->args, err));
-  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(f));
-  if (w && cls->flags & SW_FORCE_AT_PLACE) f->args[0] += w->mesh.s[0]; /* stays with the wire */
-  *out = (sw_handle){(uint32_t)s->force_count++, ++s->serial};
-  return SW_OK;
+  sw_scene_force f = {.alive = 1,
+                      .cls = cls,
+                      .wire = wire.generation ? (long)wire.slot : -1,
+                      .scale = w ? w->mesh.scale : 1.0};
+  if (args_size) memcpy(f.args, args, args_size);
+  SW_TRY(place_force(s, w, cls, f.args, err));
+  if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(own_list(&f));
+  if (w && cls->flags & SW_FORCE_AT_PLACE) f.args[0] += w->mesh.s[0]; /* stays with the wire */
+  const sw_status status = sw_scene_add(s, SW_OF_FORCE, &f, out);
+  if (status != SW_OK) sw_scene_clear_force(&f);
+  return status;
 }
 
 const sw_force_class *sw_scene_force_class(const sw_scene *s, sw_handle h) {
-  const int known = h.slot < s->force_count && s->forces[h.slot].generation == h.generation;
-  return known ? s->forces[h.slot].cls : NULL;
-}
-
-int sw_scene_force_acts(const sw_scene *s, sw_handle h) {
-  return sw_scene_force_class(s, h) && s->forces[h.slot].alive;
+  const sw_scene_force *f = sw_scene_find_force(s, h, NULL);
+  return f ? f->cls : NULL;
 }
 
 sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, double *out,
                               sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
-  const sw_force_class *cls = sw_scene_force_class(s, force);
-  if (!cls) return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  const sw_scene_wire *w = sw_scene_find_body(s, wire, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_force, f, sw_scene_find_force(s, force, err));
+  const sw_force_class *cls = f->cls;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_body(s, wire, err));
   if (!cls->read) return sw_fail(err, SW_EINVAL, "force %s: there is nothing to read", cls->name);
   SW_TRY(sw_scene_build(s, err));
-  sw_system_refresh(&s->system);
-  const sw_body *b = &s->system.bodies[wire.slot];
+  sw_system_refresh(system);
+  const sw_body *b = &system->bodies[wire.slot];
   for (size_t k = 0; k < b->term_count; k++)
     if (b->terms[k].id == (long)force.slot) {
       cls->read(b->terms[k].args, &b->field, b->terms[k].history, out);
@@ -185,23 +173,22 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
 }
 
 sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw_error *err) {
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  snprintf(s->forces[force.slot].name, SW_NAME_SIZE, "%s", name);
+  SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
+  snprintf(f->name, SW_NAME_SIZE, "%s", name);
   return SW_OK;
 }
 
 /* Where it acts, from the wire's start: its own place counts from where the wire was first begun.
  */
 static double place_of(const sw_scene *s, const sw_scene_force *f) {
-  const sw_mesh *m = &s->wires[f->wire].mesh;
+  const sw_mesh *m = &sw_scene_wire_in(s, f->wire)->mesh;
   return f->args[0] * m->scale / f->scale - m->s[0];
 }
 
 sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw_error *err) {
   if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  const sw_scene_force *f = &s->forces[force.slot];
+    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", sw_scene_name(s));
+  const sw_scene_force *f = sw_scene_force_in(s, force.slot);
   memcpy(args, f->args, sizeof f->args);
   if (!(f->cls->flags & SW_FORCE_AT_PLACE) || f->wire < 0) return SW_OK;
   const double place = place_of(s, f);
@@ -211,11 +198,10 @@ sw_status sw_scene_force_args(const sw_scene *s, sw_handle force, void *args, sw
 
 sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  sw_scene_force *f = &s->forces[force.slot];
-  const sw_handle wire = f->wire < 0 ? (sw_handle){0, 0}
-                                     : (sw_handle){(uint32_t)f->wire, s->wires[f->wire].generation};
+  SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
+  const sw_handle wire =
+      f->wire < 0 ? (sw_handle){0, 0}
+                  : (sw_handle){(uint32_t)f->wire, sw_scene_wire_in(s, f->wire)->generation};
   if (!f->alive)
     return sw_fail(err, SW_EINVAL, "force %s: it was released; make another one", f->cls->name);
   SW_TRY(check_force(s, f->cls, wire, args, err));
@@ -223,16 +209,15 @@ sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_
   const double place = f->args[0];
   memcpy(f->args, args, sizeof f->args);
   if (f->cls->flags & SW_FORCE_AT_PLACE) f->args[0] = place;
-  sw_course_jump(&s->course);
+  sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 
 sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  if (!s->forces[force.slot].alive) return SW_OK;
+  SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
+  if (!f->alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
-  s->forces[force.slot].alive = 0;
+  f->alive = 0;
   return SW_OK;
 }

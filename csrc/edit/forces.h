@@ -22,7 +22,5 @@ sw_status sw_scene_read_force(sw_scene *scene, sw_handle force, sw_handle wire, 
 const sw_force_class *sw_scene_force_class(const sw_scene *scene, sw_handle force);
 /* What its events call it. */
 sw_status sw_scene_name_force(sw_scene *scene, sw_handle force, const char *name, sw_error *err);
-/* 0 once released, or when the scene does not know it. */
-int sw_scene_force_acts(const sw_scene *scene, sw_handle force);
 
 #endif

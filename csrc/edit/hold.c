@@ -11,22 +11,21 @@
 #include "body/build.h"
 #include "body/hold.h"
 #include "body/join.h"
-#include "body/obstacle_log.h"
 #include "edit/edit.h"
 #include "edit/links.h"
 #include "link/joint.h"
 #include "scene/drive.h"
+#include "scene/driven.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
-#include "scene/values.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 
 static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t wire,
                              const sw_hold_args *a, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const double start = w->mesh.s[0], length = w->mesh.s[w->mesh.n - 1] - start;
   if (a->s - start > length * (1 + 1e-9))
     return sw_fail(err, SW_EINVAL, "%s: s = %.6g m is not on wire '%s', which ends at %.6g m",
@@ -55,7 +54,7 @@ static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a)
 }
 
 static sw_status take_places(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
-  sw_scene_wire *w = &s->wires[h->wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
   const sw_body_class *body = sw_body_class_of(w);
   SW_TRY(body->place(s, h, a));
   SW_TRY(body->grasp(w, h, a));
@@ -80,37 +79,36 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
-  own.s += s->wires[wire.slot].mesh.s[0];
+  own.s += sw_scene_wire_in(s, wire.slot)->mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
-  if (acts->lines) SW_TRY(sw_scene_check_line(&s->wires[wire.slot], cls->name, err));
-  SW_TRY(check_axis(&s->wires[wire.slot], cls, cls->name, err));
+  if (acts->lines) SW_TRY(sw_scene_check_line(sw_scene_wire_in(s, wire.slot), cls->name, err));
+  SW_TRY(check_axis(sw_scene_wire_in(s, wire.slot), cls, cls->name, err));
   const sw_link_wire on_wire = sw_scene_link_wire(s, wire.slot);
   if (acts->check) SW_TRY(acts->check(&on_wire, &own, err));
   const sw_joint *join = acts->passes ? sw_scene_joined(s, wire.slot) : NULL;
   if (join)
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
-                   s->wires[wire.slot].name, join->name);
+                   sw_scene_wire_in(s, wire.slot)->name, join->name);
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds));
-  sw_hold h = {.generation = s->serial + 1, .alive = 1, .cls = cls, .wire = wire.slot};
-  h.args = *args, h.scale = s->wires[wire.slot].mesh.scale, h.shape = s->serial + 1;
+  sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot};
+  h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
   if (args->name[0])
     memcpy(h.name, args->name, sizeof h.name);
   else
-    snprintf(h.name, sizeof h.name, "%s%zu", cls->name, s->hold_count + 1);
-  take_directions(&s->wires[wire.slot].mesh, &h, args);
+    snprintf(h.name, sizeof h.name, "%s%zu", cls->name, sw_scene_hold_slots(s) + 1);
+  take_directions(&sw_scene_wire_in(s, wire.slot)->mesh, &h, args);
   sw_status status = take_places(s, &h, args);
   if (status == SW_OK && acts->begin) {
     const sw_link_wire of = sw_scene_link_wire(s, wire.slot);
     status = acts->begin(&h, &of);
   }
   sw_hold_forget(&h.args);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);
   if (status != SW_OK) {
     sw_hold_clear(&h);
     return sw_fail(err, status, "%s: out of memory", cls->name);
   }
-  *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
-  s->holds[s->hold_count++] = h;
+  sw_scene_hold_in(s, out->slot)->shape = out->generation;
   return SW_OK;
 }
 
@@ -129,9 +127,8 @@ static void seen_from(sw_hold *h, sw_pose pose) {
 }
 
 void sw_scene_frame_holds(sw_scene *s, size_t wire) {
-  const sw_mesh *m = &s->wires[wire].mesh;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  const sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
+  SW_EACH(hold, h, s) {
     if (!h->alive || h->wire != wire) continue;
     for (int side = 0; side < 2; side++) {
       const sw_vec held = sw_rotate(h->turn, h->director[side]);
@@ -140,14 +137,14 @@ void sw_scene_frame_holds(sw_scene *s, size_t wire) {
       f->normal = sw_unrotate(h->turn, sw_carry_unit(f->normal, f->tangent, held));
       f->tangent = h->director[side];
     }
-    h->shape = ++s->serial;
+    h->shape = sw_scene_number(s);
   }
 }
 
 /* Can a hold take the wire that has become another one? Those that are alive have done so. */
 static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_args *a,
                              sw_error *err) {
-  const sw_scene_wire *w = &s->wires[h->wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
   char what[4 * SW_NAME_SIZE];
   double s1, s2;
   sw_body_interval(&w->mesh, a, &s1, &s2);
@@ -158,7 +155,7 @@ static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_
 }
 
 sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[h->wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
   sw_hold_args a = h->args;
   sw_hold new = *h;
   a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
@@ -179,7 +176,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) 
   if (h->cls->hold->direction) /* what it holds it holds as before, however edges lie */
     memcpy(new.director, h->director, sizeof new.director);
   new.alive = 1, new.drive = h->drive, new.last_pose = h->last_pose, new.turn = pose.q;
-  new.shape = ++s->serial;
+  new.shape = sw_scene_number(s);
   sw_free(h->s);
   sw_free(h->local);
   sw_free(h->particle);
@@ -211,7 +208,7 @@ sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to) {
 }
 
 sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
-  sw_mesh *m = &s->wires[h->wire].mesh;
+  sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   sw_hold_args a = h->args;
   sw_hold new = *h;
   a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
@@ -224,7 +221,7 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
     return status;
   }
   new.drive = h->drive, new.last_pose = h->last_pose, new.turn = h->turn;
-  new.alive = 1, new.shape = ++s->serial;
+  new.alive = 1, new.shape = sw_scene_number(s);
   sw_free(h->s);
   sw_free(h->local);
   *h = new;
@@ -233,11 +230,10 @@ sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
 
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(sw_hold, h, sw_scene_find_hold(s, hold, err));
   if (!h->alive) return SW_OK;
   sw_motion_state now;
-  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
   SW_TRY(sw_scene_thaw(s));
   h->last_pose = now.pose;
   h->alive = 0;
@@ -245,40 +241,12 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   return SW_OK;
 }
 
-sw_status sw_scene_follow(sw_scene *s, sw_handle hold, sw_motion *motion, int relative,
-                          sw_error *err) {
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(s, &h->drive, h->name, motion, relative, err));
-  sw_course_jump(&s->course);
-  return SW_OK;
-}
-
-sw_status sw_scene_set_pose(sw_scene *s, sw_handle hold, sw_pose pose, sw_error *err) {
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  return sw_drive_put(s, &h->drive, h->name, pose, err);
-}
-
-sw_status sw_scene_hold_pose(sw_scene *s, sw_handle hold, sw_pose *out, sw_error *err) {
-  sw_motion_state now;
-  sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  *out = h->last_pose;
-  if (!h->alive) return SW_OK;
-  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
-  *out = now.pose;
-  return SW_OK;
-}
-
 sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, sw_vec *force,
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  if (about) SW_TRY(sw_scene_hold_pose(s, hold, &pose, err));
+  SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
+  if (about) SW_TRY(sw_scene_object_pose(s, SW_OF_HOLD, hold, &pose, err));
   *force = h->force;
   *moment = about ? sw_add(h->moment, sw_cross(sw_sub(pose.p, *about), h->force)) : h->moment;
   return SW_OK;
@@ -286,11 +254,10 @@ sw_status sw_scene_hold_force(sw_scene *s, sw_handle hold, const sw_vec *about, 
 
 sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params **rows,
                              sw_hold_args *out, sw_error *err) {
-  const sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, sw_scene_living_hold(s, hold, err));
   *rows = &h->cls->params;
   *out = h->args;
-  out->s -= s->wires[h->wire].mesh.s[0];
+  out->s -= sw_scene_wire_in(s, h->wire)->mesh.s[0];
   memcpy(out->name, h->name, sizeof out->name);
   if (h->cls->hold->get) h->cls->hold->get(h, out);
   return SW_OK;
@@ -298,8 +265,7 @@ sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params 
 
 sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
   SW_TRY(sw_scene_thaw(s));
   if (h->cls->hold->set) h->cls->hold->set(h, args);
   return SW_OK;
@@ -307,36 +273,10 @@ sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *arg
 
 sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_hold *h = sw_scene_living_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, sw_scene_living_hold(s, hold, err));
   if (!h->cls->hold->rail)
     return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
                    h->cls->name, h->name);
   *out = (sw_slide_state){h->slider.p, h->slider.v, h->slider.force};
-  return SW_OK;
-}
-
-sw_status sw_scene_hold_log(sw_scene *s, sw_handle hold, const double **rows, size_t *count,
-                            sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  const sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
-  *rows = h->log.rows;
-  *count = h->log.count / SW_LOG_SIZE;
-  return SW_OK;
-}
-
-sw_status sw_scene_obstacle_log(sw_scene *s, sw_handle obstacle, const double **rows, size_t *count,
-                                sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  const char *kind;
-  int present; /* a removed obstacle's series can still be read */
-  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
-    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
-  sw_scene_obstacle *o = &s->obstacles[obstacle.slot];
-  if (sw_obstacle_log_fill(s, o) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
-  *rows = o->log.rows;
-  *count = o->log.count / SW_LOG_OBSTACLE_SIZE;
   return SW_OK;
 }

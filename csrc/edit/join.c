@@ -13,8 +13,8 @@
 #include "link/hold.h"
 #include "link/joint.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/mesh.h"
 
 /* How far from each other the ends may be, of the shortest segment there [-]. */
@@ -28,19 +28,18 @@ static void measure(const sw_scene *s, sw_joint *j) {
 }
 
 void sw_scene_measure_joins(sw_scene *s) {
-  for (size_t k = 0; k < s->join_count; k++) {
-    int drawn = s->joins[k].alive;
-    for (size_t i = 0; i < s->joins[k].count && drawn; i++)
-      drawn &= s->wires[s->joins[k].ends[i].wire].mesh.drawn;
-    if (drawn) measure(s, &s->joins[k]);
+  SW_EACH(join, j, s) {
+    int drawn = j->alive;
+    for (size_t i = 0; i < j->count && drawn; i++)
+      drawn &= sw_scene_wire_in(s, j->ends[i].wire)->mesh.drawn;
+    if (drawn) measure(s, j);
   }
 }
 
 /* --- making ----------------------------------------------------------------------- */
 
 static sw_status check_end(const sw_scene *s, const sw_join_end *ends, size_t k, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, ends[k].wire, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, ends[k].wire, err));
   const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
   if (!(ends[k].s >= 0 && ends[k].s <= length * (1 + 1e-9)))
     return sw_fail(err, SW_EINVAL,
@@ -53,10 +52,10 @@ static sw_status check_end(const sw_scene *s, const sw_join_end *ends, size_t k,
                      "scene:join: wire '%s' is joined to itself at s = %.6g and %.6g m, less than "
                      "three segments apart",
                      w->name, ends[i].s, ends[k].s);
-  for (size_t h = 0; h < s->hold_count; h++)
-    if (s->holds[h].alive && s->holds[h].wire == ends[k].wire.slot && sw_hold_passes(&s->holds[h]))
+  SW_EACH(hold, hold, s)
+    if (hold->alive && hold->wire == ends[k].wire.slot && sw_hold_passes(hold))
       return sw_fail(err, SW_EINVAL, "scene:join: wire '%s' is fed by '%s': it cannot be joined",
-                     w->name, s->holds[h].name);
+                     w->name, hold->name);
   return SW_OK;
 }
 
@@ -73,13 +72,13 @@ static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_
                                sw_error *err) {
   double least = HUGE_VAL;
   for (size_t k = 0; k < count; k++) {
-    const sw_mesh *m = &s->wires[ends[k].wire.slot].mesh;
+    const sw_mesh *m = &sw_scene_wire_in(s, ends[k].wire.slot)->mesh;
     least = fmin(least, (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1));
   }
-  const sw_scene_wire *first = &s->wires[ends[0].wire.slot];
+  const sw_scene_wire *first = sw_scene_wire_in(s, ends[0].wire.slot);
   const sw_vec at = point_at(&first->mesh, first->mesh.s[0] + ends[0].s);
   for (size_t k = 1; k < count; k++) {
-    const sw_scene_wire *w = &s->wires[ends[k].wire.slot];
+    const sw_scene_wire *w = sw_scene_wire_in(s, ends[k].wire.slot);
     const double gap = sw_dist(at, point_at(&w->mesh, w->mesh.s[0] + ends[k].s));
     if (!(gap <= LARGEST_GAP * least))
       return sw_fail(err, SW_EINVAL,
@@ -93,13 +92,13 @@ static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_
 /* Arc lengths that holds and joins of the wire need as nodes, with room for some more. */
 static double *places_of(const sw_scene *s, size_t wire, size_t *count) {
   const size_t joins = sw_scene_join_places(s, wire, NULL);
-  double *keep = sw_alloc(2 * s->hold_count + joins + SW_JOIN_ENDS, sizeof *keep);
+  double *keep = sw_alloc(2 * sw_scene_hold_slots(s) + joins + SW_JOIN_ENDS, sizeof *keep);
   *count = 0;
   if (!keep) return NULL;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
-    keep[(*count)++] = s->holds[k].s1;
-    keep[(*count)++] = s->holds[k].s2;
+  SW_EACH(hold, h, s) {
+    if (!h->alive || h->wire != wire) continue;
+    keep[(*count)++] = h->s1;
+    keep[(*count)++] = h->s2;
   }
   *count += sw_scene_join_places(s, wire, keep + *count);
   return keep;
@@ -113,7 +112,8 @@ static sw_status place_ends(sw_scene *s, sw_joint *j) {
     if (!keep) return SW_ENOMEM;
     for (size_t i = 0; i < k; i++)
       if (j->ends[i].wire == e->wire) keep[count++] = j->ends[i].s;
-    const sw_status status = sw_mesh_place(&s->wires[e->wire].mesh, e->asked, keep, count, &e->s);
+    const sw_status status =
+        sw_mesh_place(&sw_scene_wire_in(s, e->wire)->mesh, e->asked, keep, count, &e->s);
     sw_free(keep);
     if (status != SW_OK) return status;
   }
@@ -129,7 +129,7 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
                    count, SW_JOIN_ENDS);
   for (size_t k = 0; k < count; k++) {
     SW_TRY(check_end(s, ends, k, err));
-    SW_TRY(sw_scene_check_line(&s->wires[ends[k].wire.slot], "scene:join", err));
+    SW_TRY(sw_scene_check_line(sw_scene_wire_in(s, ends[k].wire.slot), "scene:join", err));
   }
   const sw_link_class *cls = sw_joint_class(args->slack);
   if (cls->joint->apart && count != 2)
@@ -145,7 +145,7 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
                 .stiffness = args->stiffness,
                 .strength = args->strength};
   for (size_t k = 0; k < count; k++) {
-    const sw_mesh *m = &s->wires[ends[k].wire.slot].mesh;
+    const sw_mesh *m = &sw_scene_wire_in(s, ends[k].wire.slot)->mesh;
     j.ends[k] = (end){.wire = ends[k].wire.slot,
                       .asked = sw_mesh_snap(m, m->s[0] + ends[k].s),
                       .scale = m->scale};
@@ -153,30 +153,26 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
   if (args->name[0])
     memcpy(j.name, args->name, sizeof j.name);
   else
-    snprintf(j.name, sizeof j.name, "join%zu", s->join_count + 1);
-  if (sw_grow((void **)&s->joins, &s->join_capacity, s->join_count + 1, sizeof *s->joins) !=
-          SW_OK ||
-      place_ends(s, &j) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "scene:join: out of memory");
-  measure(s, &j);
-  j.generation = ++s->serial;
-  *out = (sw_handle){(uint32_t)s->join_count, j.generation};
-  s->joins[s->join_count++] = j;
+    snprintf(j.name, sizeof j.name, "join%zu", sw_scene_join_slots(s) + 1);
+  sw_status status = place_ends(s, &j);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_JOIN, &j, out);
+  if (status != SW_OK) return sw_fail(err, status, "scene:join: out of memory");
+  measure(s, sw_scene_join_in(s, out->slot));
   return SW_OK;
 }
 
 /* --- another mesh ----------------------------------------------------------------- */
 
 sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
-  sw_mesh *m = &s->wires[wire].mesh;
+  sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
   size_t count;
   double *keep = places_of(s, wire, &count);
   if (!keep) return SW_ENOMEM;
   sw_status status = SW_OK;
   count -= sw_scene_join_places(s, wire, NULL); /* those are of the mesh before */
-  for (size_t k = 0; k < s->join_count; k++)
-    for (size_t i = 0; s->joins[k].alive && i < s->joins[k].count && status == SW_OK; i++) {
-      end *e = &s->joins[k].ends[i];
+  SW_EACH(join, j, s)
+    for (size_t i = 0; j->alive && i < j->count && status == SW_OK; i++) {
+      end *e = &j->ends[i];
       if (e->wire != wire) continue;
       const double at = sw_mesh_snap(m, e->asked * m->scale / e->scale);
       status = sw_mesh_place(m, at, keep, count, &e->s);
@@ -188,18 +184,14 @@ sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
 
 /* --- handles ---------------------------------------------------------------------- */
 
-const char *sw_scene_join_name(const sw_scene *s, sw_handle h, int *held, size_t *ends) {
+size_t sw_scene_join_ends(const sw_scene *s, sw_handle h) {
   const sw_joint *j = sw_scene_find_join(s, h, NULL);
-  if (!j) return NULL;
-  *held = j->alive;
-  *ends = j->count;
-  return j->name;
+  return j ? j->count : 0;
 }
 
 sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_joint *j = sw_scene_find_join(s, h, err);
-  if (!j) return SW_EDEAD;
+  SW_FIND(sw_joint, j, sw_scene_find_join(s, h, err));
   if (!j->alive) return SW_OK;
   SW_TRY(sw_scene_thaw(s));
   j->alive = 0;
@@ -210,8 +202,7 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
                               sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err));
-  const sw_joint *j = sw_scene_find_join(s, h, err);
-  if (!j) return SW_EDEAD;
+  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
   *force = *moment = sw_v(0, 0, 0);
   if (k >= j->count)
     return sw_fail(err, SW_EINVAL, "join '%s': end %zu is not one of its %zu", j->name, k + 1,

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "body/build.h"
 #include "body/history.h"
 #include "body/obstacle_log.h"
@@ -40,8 +41,7 @@ static void release_hold(sw_hold *h) {
 /* Where holds are when they let go: the only part that may fail, for it may call a user's function.
  */
 static sw_status note_poses(sw_scene *s, size_t wire, size_t tool, sw_error *err) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     sw_motion_state now;
     if (!h->alive || (h->wire != wire && h->drive.tool != tool)) continue;
     SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
@@ -51,25 +51,22 @@ static sw_status note_poses(sw_scene *s, size_t wire, size_t tool, sw_error *err
 }
 
 static void leave_holds(sw_scene *s, size_t wire) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (h->alive && h->wire == wire) release_hold(h);
     h->wire = less(h->wire, wire);
   }
 }
 
 static void leave_joins(sw_scene *s, size_t wire) {
-  for (size_t k = 0; k < s->join_count; k++)
-    for (size_t i = 0; i < s->joins[k].count; i++) {
-      sw_joint_end *e = &s->joins[k].ends[i];
-      if (e->wire == wire) s->joins[k].alive = 0;
+  SW_EACH(join, j, s)
+    SW_ITEMS(sw_joint_end, e, j->ends, j->count) {
+      if (e->wire == wire) j->alive = 0;
       e->wire = less(e->wire, wire);
     }
 }
 
 static void leave_forces(sw_scene *s, size_t wire) {
-  for (size_t k = 0; k < s->force_count; k++) {
-    sw_scene_force *f = &s->forces[k];
+  SW_EACH(force, f, s) {
     if (f->wire == (long)wire) f->alive = 0, f->wire = -1;
     f->wire -= f->wire > (long)wire;
   }
@@ -78,8 +75,7 @@ static void leave_forces(sw_scene *s, size_t wire) {
 /* A rule of no wires is one of all: what spoke of this wire alone goes. */
 static void leave_rules(sw_scene *s, size_t wire) {
   size_t kept = 0;
-  for (size_t k = 0; k < s->rule_count; k++) {
-    sw_scene_rule *r = &s->rules[k];
+  SW_ITEMS(sw_scene_rule, r, s->rules, s->rule_count) {
     const int of_all = r->count == 0;
     size_t n = 0;
     for (size_t i = 0; i < r->count; i++)
@@ -97,8 +93,7 @@ static void leave_memory(sw_scene *s, size_t wire) {
   size_t kept = 0;
   for (size_t w = 0; s->kept.memory && w < s->kept.wires; w++)
     s->kept.now[w] = less(s->kept.now[w], wire);
-  for (size_t k = 0; k < s->kept_history_count; k++) {
-    sw_kept_history *h = &s->kept_histories[k];
+  SW_ITEMS(sw_kept_history, h, s->kept_histories, s->kept_history_count) {
     if (h->wire == wire) {
       sw_plan_release(h->plan);
       sw_free(h->data);
@@ -116,8 +111,7 @@ static void pads_on(sw_scene *s, const sw_tool *t) {
 
 /* Tools that hold the wire rigidly have their pads again. */
 static void leave_tools(sw_scene *s, uint32_t generation) {
-  for (size_t k = 0; k < s->tool_count; k++) {
-    sw_tool *t = &s->tools[k];
+  SW_EACH(tool, t, s) {
     if (!t->frozen || t->frozen->wire.generation != generation) continue;
     if (t->alive) pads_on(s, t);
     sw_frozen_release(t->frozen);
@@ -171,8 +165,8 @@ sw_status sw_scene_remove_tool(sw_scene *s, sw_handle tool, sw_error *err) {
   for (size_t k = 0; k < t->pads && status == SW_OK; k++)
     status = sw_obstacle_log_fill(s, &s->obstacles[t->pad[k].obstacle]);
   if (status != SW_OK) return sw_fail(err, status, "scene:remove: %s", sw_status_text(status));
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) release_hold(&s->holds[k]);
+  SW_EACH(hold, h, s)
+    if (h->alive && h->drive.tool == 1 + tool.slot) release_hold(h);
   for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].alive = 0;
   sw_drive_free(&t->drive); /* it stays where it was, for its pads name it in frames */
   t->drive = (sw_drive){.pose = now.pose};
@@ -197,7 +191,7 @@ void sw_tape_gone(sw_tape *t, sw_gone *x) {
 /* Numbers of frames are those of all that were ever made, each once. */
 void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
   const size_t made = sw_scene_bodies_made(s);
-  unsigned char *taken = sw_alloc(made, 1);
+  unsigned char *taken SW_LOCAL = sw_alloc(made, 1);
   if (!taken) sw_tape_fail(t, SW_ENOMEM);
   for (size_t k = 0; k < made && sw_tape_good(t); k++) {
     const size_t number =
@@ -205,5 +199,4 @@ void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
     const int in_order = !k || k >= s->wire_count || s->wires[k - 1].number < number;
     sw_tape_expect(t, number < made && in_order && !taken[number]++, "the numbers of wires");
   }
-  sw_free(taken);
 }

@@ -19,6 +19,8 @@ typedef struct sw_join_end {
 sw_status sw_scene_add_join(sw_scene *scene, const sw_join_args *args, const sw_join_end *ends,
                             size_t count, sw_handle *out, sw_error *err);
 sw_status sw_scene_release_join(sw_scene *scene, sw_handle join, sw_error *err);
+/* How many wires it joins [-]. */
+size_t sw_scene_join_ends(const sw_scene *scene, sw_handle join);
 /* Force and moment about its place that a living join puts on its end number k [N], [N m]. */
 sw_status sw_scene_join_force(sw_scene *scene, sw_handle join, size_t k, sw_vec *force,
                               sw_vec *moment, sw_error *err);
@@ -31,22 +33,12 @@ typedef struct sw_tie_state {
 } sw_tie_state;
 /* SW_EINVAL when the join is none. */
 sw_status sw_scene_tie_state(sw_scene *scene, sw_handle join, sw_tie_state *out, sw_error *err);
-/* NULL when the scene does not know it any more; held: 0 once released. */
-const char *sw_scene_join_name(const sw_scene *scene, sw_handle join, int *held, size_t *ends);
 
 /* --- holds ------------------------------------------------------------------ */
 
 sw_status sw_scene_add_hold(sw_scene *scene, const sw_link_class *cls, sw_handle wire,
                             const sw_hold_args *args, sw_handle *out, sw_error *err);
 sw_status sw_scene_release_hold(sw_scene *scene, sw_handle hold, sw_error *err);
-
-/* Let the hold follow a motion from now on (retains it); relative: on top of
- * its present pose. An absolute motion that does not start at the present pose
- * is refused. NULL stops it where it is. */
-sw_status sw_scene_follow(sw_scene *scene, sw_handle hold, sw_motion *motion, int relative,
-                          sw_error *err);
-sw_status sw_scene_set_pose(sw_scene *scene, sw_handle hold, sw_pose pose, sw_error *err);
-sw_status sw_scene_hold_pose(sw_scene *scene, sw_handle hold, sw_pose *out, sw_error *err);
 
 /* Force and moment on the wire about the held point, or about *about [N, N m]. */
 sw_status sw_scene_hold_force(sw_scene *scene, sw_handle hold, const sw_vec *about, sw_vec *force,
@@ -100,11 +92,6 @@ extern const sw_params sw_obstacle_params;
 /* Retains the shape. */
 sw_status sw_scene_add_obstacle(sw_scene *scene, sw_shape *shape, const sw_obstacle_args *args,
                                 sw_handle *out, sw_error *err);
-sw_status sw_scene_obstacle_follow(sw_scene *scene, sw_handle obstacle, sw_motion *motion,
-                                   int relative, sw_error *err);
-sw_status sw_scene_obstacle_pose(sw_scene *scene, sw_handle obstacle, sw_pose *out, sw_error *err);
-sw_status sw_scene_obstacle_set_pose(sw_scene *scene, sw_handle obstacle, sw_pose pose,
-                                     sw_error *err);
 /* What it is like now, by its rows. */
 sw_status sw_scene_obstacle_args(sw_scene *scene, sw_handle obstacle, sw_obstacle_args *out,
                                  sw_error *err);
@@ -118,11 +105,5 @@ sw_status sw_scene_remove_obstacle(sw_scene *scene, sw_handle obstacle, sw_error
 /* The shape, still the scene's: retain it to keep it. */
 sw_status sw_scene_obstacle_shape(sw_scene *scene, sw_handle obstacle, sw_shape **out,
                                   sw_error *err);
-
-sw_status sw_scene_hold_log(sw_scene *scene, sw_handle hold, const double **rows, size_t *count,
-                            sw_error *err);
-
-sw_status sw_scene_obstacle_log(sw_scene *scene, sw_handle obstacle, const double **rows,
-                                size_t *count, sw_error *err);
 
 #endif

@@ -3,15 +3,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "body/build.h"
 #include "body/obstacle_log.h"
 #include "edit/edit.h"
 #include "edit/links.h"
+#include "scene/course.h"
 #include "scene/drive.h"
+#include "scene/driven.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 static const sw_param obstacle_rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
@@ -34,75 +35,40 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
                                 sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->obstacles, &s->obstacle_capacity, s->obstacle_count + 1,
-                 sizeof *s->obstacles));
-  sw_scene_obstacle *o = &s->obstacles[s->obstacle_count];
-  *o = (sw_scene_obstacle){.generation = ++s->serial,
-                           .alive = 1,
-                           .drive = {.pose = {args->at, args->rotation}},
-                           .friction = args->friction,
-                           .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
-                           .restitution = args->restitution};
-  sw_scene_give_name(o->name, args->name, sw_shape_kind(shape), s->obstacle_count);
-  o->shape = sw_shape_retain(shape);
-  sw_obstacle_log_begin(s, o);
-  *out = (sw_handle){(uint32_t)s->obstacle_count++, s->serial};
+  sw_scene_obstacle o = {.alive = 1,
+                         .shape = shape,
+                         .drive = {.pose = {args->at, args->rotation}},
+                         .friction = args->friction,
+                         .kinetic = isnan(args->kinetic) ? args->friction : args->kinetic,
+                         .restitution = args->restitution};
+  sw_scene_give_name(o.name, args->name, sw_shape_kind(shape), sw_scene_obstacle_slots(s));
+  sw_obstacle_log_begin(s, &o);
+  SW_TRY(sw_scene_add(s, SW_OF_OBSTACLE, &o, out));
+  sw_shape_retain(shape);
   return SW_OK;
 }
 
 sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
+  SW_FIND(sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
   SW_TRY(sw_scene_thaw(s));
   if (sw_obstacle_log_fill(s, o) != SW_OK) return sw_fail(err, SW_ENOMEM, "out of memory");
   o->alive = 0;
   return SW_OK;
 }
 
-sw_status sw_scene_obstacle_follow(sw_scene *s, sw_handle obstacle, sw_motion *motion, int relative,
-                                   sw_error *err) {
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_drive_follow(s, &o->drive, o->name, motion, relative, err));
-  sw_course_jump(&s->course);
-  if (s->contact) sw_contact_ask_again(s->contact);
-  return SW_OK;
-}
-
-sw_status sw_scene_obstacle_pose(sw_scene *s, sw_handle obstacle, sw_pose *out, sw_error *err) {
-  sw_motion_state now;
-  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
-  *out = now.pose;
-  return SW_OK;
-}
-
 sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **out, sw_error *err) {
-  const char *kind;
-  int present; /* frames of before show one that was removed */
-  if (!sw_scene_obstacle_name(s, obstacle, &kind, &present))
-    return sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
-  *out = s->obstacles[obstacle.slot].shape;
-  return SW_OK;
-}
-
-sw_status sw_scene_obstacle_set_pose(sw_scene *s, sw_handle obstacle, sw_pose pose, sw_error *err) {
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_drive_put(s, &o->drive, o->name, pose, err));
-  if (s->contact) sw_contact_ask_again(s->contact);
+  const sw_scene_obstacle *o = sw_scene_any_obstacle(s, obstacle, err);
+  if (!o) return SW_EDEAD; /* frames of before show one that was removed */
+  *out = o->shape;
   return SW_OK;
 }
 
 sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_args *out,
                                  sw_error *err) {
   sw_pose pose;
-  const sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
-  SW_TRY(sw_scene_obstacle_pose(s, obstacle, &pose, err));
+  SW_FIND(const sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
+  SW_TRY(sw_scene_object_pose(s, SW_OF_OBSTACLE, obstacle, &pose, err));
   *out = (sw_obstacle_args){.at = pose.p,
                             .rotation = pose.q,
                             .friction = o->friction,
@@ -114,12 +80,11 @@ sw_status sw_scene_obstacle_args(sw_scene *s, sw_handle obstacle, sw_obstacle_ar
 
 sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
                                         const sw_obstacle_args *args, sw_error *err) {
-  sw_scene_obstacle *o = sw_scene_find_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD;
+  SW_FIND(sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_thaw(s));
   o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;
-  sw_course_jump(&s->course);
+  sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 
@@ -127,7 +92,7 @@ sw_status sw_scene_obstacle_force(sw_scene *s, sw_handle obstacle, sw_vec about,
                                   sw_vec *moment, sw_error *err) {
   if (!sw_scene_find_obstacle(s, obstacle, err)) return SW_EDEAD;
   SW_TRY(sw_scene_readable(s, err));
-  sw_obstacle_mean(&s->obstacles[obstacle.slot], about, force, moment);
+  sw_obstacle_mean(sw_scene_obstacle_in(s, obstacle.slot), about, force, moment);
   return SW_OK;
 }
 

@@ -13,9 +13,9 @@
 #include "edit/edit.h"
 #include "edit/forces.h"
 #include "force/solid.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/mesh.h"
 
 static const sw_param rows[] = {
@@ -161,22 +161,20 @@ static int by_nodes(const void *left, const void *right) {
 /* Two springs between the same particles are a slip more often than a wish. */
 static sw_status check_twins(const maker *m) {
   const sw_particles_parts *p = m->parts;
-  numbered *list = sw_alloc(p->links, sizeof *list);
+  numbered *list SW_LOCAL = sw_alloc(p->links, sizeof *list);
   if (!list) return SW_ENOMEM;
   for (size_t i = 0; i < p->links; i++) {
     const uint32_t a = p->link[i].a, b = p->link[i].b;
     list[i] = (numbered){a < b ? a : b, a < b ? b : a, i};
   }
   qsort(list, p->links, sizeof *list, by_nodes);
-  sw_status status = SW_OK;
-  for (size_t i = 1; i < p->links && status == SW_OK; i++)
+  for (size_t i = 1; i < p->links; i++)
     if (list[i].a == list[i - 1].a && list[i].b == list[i - 1].b)
-      status = sw_fail(m->err, SW_EINVAL,
-                       "particles '%s': links %zu and %zu both join particles %lu and %lu", m->name,
-                       list[i - 1].number + 1, list[i].number + 1, (unsigned long)list[i].a + 1,
-                       (unsigned long)list[i].b + 1);
-  sw_free(list);
-  return status;
+      return sw_fail(m->err, SW_EINVAL,
+                     "particles '%s': links %zu and %zu both join particles %lu and %lu", m->name,
+                     list[i - 1].number + 1, list[i].number + 1, (unsigned long)list[i].a + 1,
+                     (unsigned long)list[i].b + 1);
+  return SW_OK;
 }
 
 static sw_status check_fold(const maker *m, size_t i) {
@@ -265,7 +263,7 @@ static sw_status fill_solids(const maker *m) {
   sw_web *w = m->web;
   if (!w->solids) return SW_OK;
   sw_solid *shape = sw_alloc(w->solids, sizeof *shape);
-  double *sums = sw_alloc(3 * w->particles, sizeof *sums);
+  double *sums SW_LOCAL = sw_alloc(3 * w->particles, sizeof *sums);
   w->shapes = shape, w->shape_count = w->solids;
   sw_status status = shape && sums ? SW_OK : SW_ENOMEM;
   for (size_t i = 0; i < w->solids && status == SW_OK; i++) {
@@ -288,7 +286,6 @@ static sw_status fill_solids(const maker *m) {
     w->solid_rate2 = fmax(w->solid_rate2, sums[k] / w->mass[k / 3]);
     w->behind[k / 3] += 0.5 * sums[k] / 3.0;
   }
-  sw_free(sums);
   return status;
 }
 
@@ -359,23 +356,20 @@ static sw_status add_yield(sw_scene *s, const sw_web *web, sw_handle body, sw_er
 sw_status sw_scene_add_particles(sw_scene *s, const sw_particles_args *args,
                                  const sw_particles_parts *parts, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_scene_wire w = {.generation = s->serial + 1, .cls = &particles_class};
-  sw_scene_give_name(w.name, args->name, "particles", s->wire_count);
+  sw_scene_wire w = {.cls = &particles_class};
+  sw_scene_give_name(w.name, args->name, "particles", sw_scene_wire_slots(s));
   maker m = {.name = w.name, .parts = parts, .err = err};
   sw_error text = {""};
   m.err = &text;
   sw_status status = check(&m, args);
   if (status == SW_OK) status = sw_scene_thaw(s);
-  if (status == SW_OK)
-    status = sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires);
   if (status == SW_OK) status = make_body(&m, &w);
-  if (status == SW_OK) status = sw_scene_check_rules(s, s->wire_count, &w, &text);
+  if (status == SW_OK) status = sw_scene_check_rules(s, sw_scene_wire_slots(s), &w, &text);
+  w.number = sw_scene_bodies_made(s);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_BODY, &w, out);
   if (status == SW_OK) {
-    w.number = sw_scene_bodies_made(s);
-    *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
-    s->wires[s->wire_count++] = w;
     status = add_yield(s, m.web, *out, &text);
-    if (status != SW_OK) s->wire_count--;
+    if (status != SW_OK) sw_scene_unmake_body(s);
   }
   sw_web_release(m.web);
   if (status == SW_OK) return SW_OK;

@@ -94,16 +94,12 @@ static size_t boundary_edges(face *faces, size_t count, edge *out) {
 
 static sw_status outside_of_elements(sw_web *w) {
   enum { FACES = 6, EDGES = 4 * FACES };
-  face *faces = sw_alloc(FACES * w->solids, sizeof *faces);
-  edge *edges = sw_alloc(EDGES * w->solids, sizeof *edges);
-  sw_status status = faces && edges ? SW_OK : SW_ENOMEM;
+  face *faces SW_LOCAL = sw_alloc(FACES * w->solids, sizeof *faces);
+  edge *edges SW_LOCAL = sw_alloc(EDGES * w->solids, sizeof *edges);
   size_t count = 0;
-  for (size_t i = 0; i < w->solids && status == SW_OK; i++)
-    count += faces_of(&w->solid[i], faces + count);
-  if (status == SW_OK) status = take_edges(w, edges, boundary_edges(faces, count, edges));
-  sw_free(faces);
-  sw_free(edges);
-  return status;
+  if (!faces || !edges) return SW_ENOMEM;
+  for (size_t i = 0; i < w->solids; i++) count += faces_of(&w->solid[i], faces + count);
+  return take_edges(w, edges, boundary_edges(faces, count, edges));
 }
 
 sw_status sw_particles_add_surface(const maker *m) {
@@ -116,13 +112,12 @@ sw_status sw_particles_add_surface(const maker *m) {
     memset(w->outer, 1, w->particles);
     return SW_OK;
   }
-  edge *list = sw_alloc(count, sizeof *list);
+  edge *list SW_LOCAL = sw_alloc(count, sizeof *list);
   if (!list) return SW_ENOMEM;
   for (size_t i = 0; i < count; i++)
     list[i] =
         given ? (edge){p->edge[2 * i], p->edge[2 * i + 1]} : (edge){w->link[i].a, w->link[i].b};
   const sw_status status = take_edges(w, list, count);
   if (!given) memset(w->outer, 1, w->particles);
-  sw_free(list);
   return status;
 }

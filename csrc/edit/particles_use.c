@@ -9,9 +9,11 @@
 #include "body/build.h"
 #include "edit/objects.h"
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
+#include "system/system.h"
 
 static sw_scene_wire *find(const sw_scene *s, sw_handle h, sw_error *err) {
   sw_scene_wire *w = sw_scene_find_body(s, h, err);
@@ -26,8 +28,7 @@ static sw_status open_particles(sw_scene *s, sw_handle h, sw_scene_wire **out, s
 }
 
 sw_status sw_scene_particles_info(sw_scene *s, sw_handle h, sw_particles_info *out, sw_error *err) {
-  const sw_scene_wire *w = find(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, find(s, h, err));
   const sw_web *web = w->strand.web;
   *out = (sw_particles_info){.particles = web->particles,
                              .links = web->links,
@@ -40,41 +41,44 @@ sw_status sw_scene_particles_info(sw_scene *s, sw_handle h, sw_particles_info *o
 
 sw_status sw_scene_particles_copy(sw_scene *s, sw_handle h, double *positions, double *velocities,
                                   sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   SW_TRY(open_particles(s, h, &w, err));
-  const sw_body *b = &s->system.bodies[h.slot];
+  const sw_body *b = &system->bodies[h.slot];
   const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
-  if (positions) memcpy(positions, s->system.x + at, size);
-  if (velocities) memcpy(velocities, s->system.v + at, size);
+  if (positions) memcpy(positions, system->x + at, size);
+  if (velocities) memcpy(velocities, system->v + at, size);
   return SW_OK;
 }
 
 sw_status sw_scene_particle(sw_scene *s, sw_handle h, size_t particle, sw_vec *position,
                             sw_vec *velocity, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   SW_TRY(open_particles(s, h, &w, err));
-  const sw_body *b = &s->system.bodies[h.slot];
+  const sw_body *b = &system->bodies[h.slot];
   if (particle >= b->plan->nodes)
     return sw_fail(err, SW_EINVAL,
                    "particles '%s': there is no particle %zu; there are %zu, from 1 on", w->name,
                    particle + 1, b->plan->nodes);
-  *position = sw_vec_at(s->system.x, b->first_node + particle);
-  *velocity = sw_vec_at(s->system.v, b->first_node + particle);
+  *position = sw_vec_at(system->x, b->first_node + particle);
+  *velocity = sw_vec_at(system->v, b->first_node + particle);
   return SW_OK;
 }
 
 sw_status sw_scene_particles_set_velocities(sw_scene *s, sw_handle h, const double *velocities,
                                             sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(open_particles(s, h, &w, err));
-  const sw_body *b = &s->system.bodies[h.slot];
+  const sw_body *b = &system->bodies[h.slot];
   for (size_t i = 0; i < b->plan->nodes; i++)
     SW_TRY(sw_scene_check_speed(s, w, sw_norm(sw_vec_at(velocities, i)), err));
   for (size_t i = 0; i < b->plan->nodes; i++)
     if (b->plan->held[i] == SW_FREE)
-      sw_store(s->system.v + 3 * (b->first_node + i), sw_vec_at(velocities, i));
-  sw_course_jump(&s->course);
+      sw_store(system->v + 3 * (b->first_node + i), sw_vec_at(velocities, i));
+  sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 
@@ -98,10 +102,11 @@ static const double *plastic_of(const sw_body *b) {
 
 sw_status sw_scene_particles_links(sw_scene *s, sw_handle h, double *force, double *strain,
                                    double *plastic, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   SW_TRY(open_particles(s, h, &w, err));
-  const sw_body *b = &s->system.bodies[h.slot];
-  const double *x = s->system.x + 3 * b->first_node, *flown = plastic_of(b);
+  const sw_body *b = &system->bodies[h.slot];
+  const double *x = system->x + 3 * b->first_node, *flown = plastic_of(b);
   for (size_t e = 0; e < w->strand.web->links; e++) {
     const sw_web_link *l = &w->strand.web->link[e];
     const double longer = sw_dist(sw_vec_at(x, l->a), sw_vec_at(x, l->b)) - l->rest;
@@ -119,28 +124,24 @@ static sw_status check_hold(const sw_scene *s, const sw_scene_wire *w, size_t sl
                             const uint32_t *particles, size_t count, sw_error *err) {
   const size_t n = w->strand.web->particles;
   if (!count) return sw_fail(err, SW_EINVAL, "clamp: particles of '%s' to be held: none", w->name);
-  unsigned char *taken = sw_alloc(n, 1);
+  unsigned char *taken SW_LOCAL = sw_alloc(n, 1);
   if (!taken) return sw_fail(err, SW_ENOMEM, "clamp: out of memory");
-  const sw_hold *by = NULL;
-  sw_status status = SW_OK;
-  for (size_t i = 0; i < count && status == SW_OK; i++) {
+  for (size_t i = 0; i < count; i++) {
     if (particles[i] >= n)
-      status = sw_fail(err, SW_EINVAL, "clamp: '%s' has no particle %lu; it has %zu, from 1 on",
-                       w->name, (unsigned long)particles[i] + 1, n);
-    else if (taken[particles[i]]++)
-      status = sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' comes twice",
-                       (unsigned long)particles[i] + 1, w->name);
+      return sw_fail(err, SW_EINVAL, "clamp: '%s' has no particle %lu; it has %zu, from 1 on",
+                     w->name, (unsigned long)particles[i] + 1, n);
+    if (taken[particles[i]]++)
+      return sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' comes twice",
+                     (unsigned long)particles[i] + 1, w->name);
   }
-  for (size_t k = 0; k < s->hold_count && status == SW_OK; k++) {
-    by = &s->holds[k];
+  SW_EACH(hold, by, s) {
     if (!by->alive || by->wire != slot) continue;
-    for (size_t i = 0; i < by->count && status == SW_OK; i++)
+    for (size_t i = 0; i < by->count; i++)
       if (taken[by->particle[i]])
-        status = sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' is already held by '%s'",
-                         (unsigned long)by->particle[i] + 1, w->name, by->name);
+        return sw_fail(err, SW_EINVAL, "clamp: particle %lu of '%s' is already held by '%s'",
+                       (unsigned long)by->particle[i] + 1, w->name, by->name);
   }
-  sw_free(taken);
-  return status;
+  return SW_OK;
 }
 
 static int by_number(const void *a, const void *b) {
@@ -178,28 +179,23 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
                                   sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  const sw_scene_wire *w = find(s, object, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, find(s, object, err));
   SW_TRY(check_hold(s, w, object.slot, particles, count, err));
-  sw_hold h = {.generation = s->serial + 1,
-               .alive = 1,
+  sw_hold h = {.alive = 1,
                .cls = sw_link_find("clamp"),
                .wire = object.slot,
                .args = {.direction = {NAN, NAN, NAN}},
-               .scale = 1,
-               .shape = s->serial + 1};
+               .scale = 1};
   char usual[SW_NAME_SIZE];
-  snprintf(usual, sizeof usual, "clamp%zu", s->hold_count + 1);
+  snprintf(usual, sizeof usual, "clamp%zu", sw_scene_hold_slots(s) + 1);
   snprintf(h.name, sizeof h.name, "%s", name[0] ? name : usual);
   sw_status status = sw_scene_thaw(s);
-  if (status == SW_OK)
-    status = sw_grow((void **)&s->holds, &s->hold_capacity, s->hold_count + 1, sizeof *s->holds);
   if (status == SW_OK) status = take(w, &h, particles, count, at);
+  if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);
   if (status != SW_OK) {
     sw_hold_clear(&h);
     return sw_fail(err, status, "clamp: out of memory");
   }
-  *out = (sw_handle){(uint32_t)s->hold_count, ++s->serial};
-  s->holds[s->hold_count++] = h;
+  sw_scene_hold_in(s, out->slot)->shape = out->generation;
   return SW_OK;
 }

@@ -10,8 +10,8 @@
 #include "edit/edit.h"
 #include "link/hold.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/hinge.h"
 #include "state/mesh.h"
 
@@ -27,11 +27,11 @@ typedef struct kept_hold {
 /* The wire's living holds, with copies of where they hold. */
 static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, size_t *count) {
   *count = 0;
-  *out = sw_alloc(s->hold_count, sizeof **out);
+  *out = sw_alloc(sw_scene_hold_slots(s), sizeof **out);
   if (!*out) return SW_ENOMEM;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
-    SW_TRY(sw_scene_copy_shape(&s->holds[k], &(*out)[*count].shape));
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    if (!sw_scene_hold_in(s, k)->alive || sw_scene_hold_in(s, k)->wire != wire) continue;
+    SW_TRY(sw_scene_copy_shape(sw_scene_hold_in(s, k), &(*out)[*count].shape));
     (*out)[(*count)++].slot = k;
   }
   return SW_OK;
@@ -39,14 +39,15 @@ static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, siz
 
 /* Each hold takes the new mesh in the order in which they were made. */
 static sw_status retake_holds(sw_scene *s, const kept_hold *kept, size_t count) {
-  for (size_t k = 0; k < count; k++) s->holds[kept[k].slot].alive = 0;
-  for (size_t k = 0; k < count; k++) SW_TRY(sw_scene_retake_hold(s, &s->holds[kept[k].slot]));
+  for (size_t k = 0; k < count; k++) sw_scene_hold_in(s, kept[k].slot)->alive = 0;
+  for (size_t k = 0; k < count; k++)
+    SW_TRY(sw_scene_retake_hold(s, sw_scene_hold_in(s, kept[k].slot)));
   return SW_OK;
 }
 
 static void put_back(sw_scene *s, kept_hold *kept, size_t count) {
   for (size_t k = 0; k < count; k++) {
-    sw_hold *h = &s->holds[kept[k].slot];
+    sw_hold *h = sw_scene_hold_in(s, kept[k].slot);
     sw_hold *old = &kept[k].shape;
     double *arrays[2] = {h->s, h->local};
     h->alive = 1;
@@ -59,7 +60,7 @@ static void put_back(sw_scene *s, kept_hold *kept, size_t count) {
 }
 
 static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err) {
-  sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const sw_mesh before = w->mesh;
   kept_hold *kept;
   size_t count;
@@ -92,7 +93,7 @@ static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err
 /* An even mesh of the wire's length, whose nodes are the old ones where they can be, and
  * the places its holds need: arc lengths only. */
 static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_mesh *out) {
-  const sw_mesh *old = &s->wires[wire].mesh;
+  const sw_mesh *old = &sw_scene_wire_in(s, wire)->mesh;
   const double length = old->s[old->n - 1], ends[6] = {0, 0, 0, length, 0, 0};
   SW_TRY(sw_mesh_along(out, ends, 2, segments));
   out->EA = 1;
@@ -120,8 +121,7 @@ static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_
 
 /* The wire's direction at the end s of a living hold, which leaves or arrives there. */
 static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
       return sw_rotate(h->turn, h->director[leaves]);
   }
@@ -131,9 +131,8 @@ static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leav
 /* How far the holds are turned against one another stays. A curve through the nodes turns a
  * carried vector a little less or more than the chords did, which is the twist's to make up. */
 static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
-  const sw_scene_wire *w = &s->wires[wire];
-  for (size_t k = 0; k < w->twisted_count; k++) {
-    sw_twisted *span = &w->twisted[k];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
+  SW_ITEMS(sw_twisted, span, w->twisted, w->twisted_count) {
     const sw_vec from = held_direction(s, wire, span->s1, 1);
     const sw_vec to = held_direction(s, wire, span->s2, 0);
     if (!(sw_norm(from) > 0) || !(sw_norm(to) > 0)) continue; /* a hold has just gone */
@@ -147,15 +146,15 @@ static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
 }
 
 static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
-  sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh places = {0}, fresh = {0};
   size_t count = 0;
-  double *held = sw_alloc(2 * s->hold_count, sizeof *held);
+  double *held SW_LOCAL = sw_alloc(2 * sw_scene_hold_slots(s), sizeof *held);
   if (!held) return SW_ENOMEM;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    if (!s->holds[k].alive || s->holds[k].wire != wire) continue;
-    held[2 * count] = s->holds[k].s1;
-    held[2 * count++ + 1] = s->holds[k].s2;
+  SW_EACH(hold, h, s) {
+    if (!h->alive || h->wire != wire) continue;
+    held[2 * count] = h->s1;
+    held[2 * count++ + 1] = h->s2;
   }
   sw_status status = new_places(s, wire, segments, &places);
   if (status == SW_OK) status = sw_mesh_resample(&w->mesh, places.s, places.n, held, count, &fresh);
@@ -166,7 +165,6 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
     w->mesh.spacing = places.spacing;
   }
   sw_mesh_free(&places);
-  sw_free(held);
   return status;
 }
 
@@ -179,36 +177,36 @@ static int is_drawn(const sw_scene_wire *w) {
 /* Feeding makes and takes nodes of its own, at places that another mesh would not know; a mesh
  * of particles is what it was made. */
 static sw_status check_fed(const sw_scene *s, sw_error *err) {
-  for (size_t w = 0; w < s->wire_count; w++)
-    SW_TRY(sw_scene_check_line(&s->wires[w], "another number of segments", err));
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && sw_hold_passes(&s->holds[k]))
+  SW_EACH(wire, wire, s) SW_TRY(sw_scene_check_line(wire, "another number of segments", err));
+  SW_EACH(hold, h, s)
+    if (h->alive && sw_hold_passes(h))
       return sw_fail(err, SW_EINVAL, "wire '%s' is fed by '%s': it cannot be meshed anew",
-                     s->wires[s->holds[k].wire].name, s->holds[k].name);
-  for (size_t w = 0; w < s->wire_count; w++)
-    if (s->wires[w].mesh.s[0] != 0)
+                     sw_scene_wire_in(s, h->wire)->name, h->name);
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
+    if (sw_scene_wire_in(s, w)->mesh.s[0] != 0)
       return sw_fail(err, SW_EINVAL, "wire '%s' has been fed: it cannot be meshed anew",
-                     s->wires[w].name);
+                     sw_scene_wire_in(s, w)->name);
   return SW_OK;
 }
 
 sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  if (count != s->wire_count)
-    return sw_fail(err, SW_EINVAL, "scene '%s': %zu wires, but %zu numbers of segments", s->name,
-                   s->wire_count, count);
+  if (count != sw_scene_wire_slots(s))
+    return sw_fail(err, SW_EINVAL, "scene '%s': %zu wires, but %zu numbers of segments",
+                   sw_scene_name(s), sw_scene_wire_slots(s), count);
   for (size_t w = 0; w < count; w++)
     if (segments[w] < 2 || segments[w] > 10000000)
       return sw_fail(err, SW_EINVAL,
                      "wire '%s': segments = %zu is not allowed; it must be from 2 to 10000000",
-                     s->wires[w].name, segments[w]);
+                     sw_scene_wire_in(s, w)->name, segments[w]);
   SW_TRY(check_fed(s, err));
   SW_TRY(sw_scene_thaw(s));
   for (size_t w = 0; w < count; w++) {
-    const sw_status status =
-        is_drawn(&s->wires[w]) ? redraw(s, w, segments[w], err) : carry_over(s, w, segments[w]);
-    if (status == SW_ENOMEM) return sw_fail(err, status, "scene '%s': out of memory", s->name);
+    const sw_status status = is_drawn(sw_scene_wire_in(s, w)) ? redraw(s, w, segments[w], err)
+                                                              : carry_over(s, w, segments[w]);
+    if (status == SW_ENOMEM)
+      return sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
     if (status != SW_OK) return status;
   }
   sw_scene_measure_joins(s);
@@ -220,7 +218,7 @@ static const double LEAST_TWIST = 1e-3;
 
 /* One that has moved becomes one that rolls, where nothing twists it: its frames go along it. */
 static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
-  sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh *m = &w->mesh;
   for (size_t k = 0; k < w->twisted_count; k++)
     if (!(fabs(w->twisted[k].twist) <= LEAST_TWIST))
@@ -229,14 +227,13 @@ static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
   const sw_vec along = sw_unit_or(sw_sub(sw_load(m->x + 3), sw_load(m->x)), sw_v(1, 0, 0));
   SW_TRY(sw_mesh_add_frames(m, sw_perpendicular(along), 1, 0.0));
   w->beam.rolls = w->beam.framed = 1;
-  s->kept.changed = wire + 1;
-  sw_course_jump(&s->course);
+  sw_scene_forget_mesh(s, wire);
   sw_scene_frame_holds(s, wire);
   return SW_OK;
 }
 
 static sw_status change_beam(sw_scene *s, size_t wire, const sw_redrawing *as, sw_error *err) {
-  sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   size_t segments;
   const int rolls = as->rolls && !w->beam.rolls, drawn = is_drawn(w);
   if (!drawn && (w->beam.rolls != as->rolls || as->EA != 1) &&
@@ -256,7 +253,7 @@ sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_e
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
-  sw_scene_wire *w = &s->wires[h.slot];
+  sw_scene_wire *w = sw_scene_wire_in(s, h.slot);
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL, "redraw: wire '%s' is a %s, not a rod", w->name, w->cls->name);
   SW_TRY(check_fed(s, err));
@@ -266,12 +263,12 @@ sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_e
   const sw_status status = change_beam(s, h.slot, as, err);
   if (status == SW_OK) return status;
   w->beam = beam, w->drawing.rolls = rolled;
-  return status == SW_ENOMEM ? sw_fail(err, status, "scene '%s': out of memory", s->name) : status;
+  return status == SW_ENOMEM ? sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s))
+                             : status;
 }
 
 sw_status sw_scene_wire_segments(sw_scene *s, sw_handle h, size_t *segments, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *segments = (size_t)fmax(1.0, round((w->mesh.s[w->mesh.n - 1] - w->mesh.s[0]) / w->mesh.spacing));
   return SW_OK;
 }

@@ -10,8 +10,11 @@
 #include "edit/links.h"
 #include "link/hold.h"
 #include "link/joint.h"
+#include "scene/course.h"
+#include "scene/events.h"
 #include "scene/lookup.h"
-#include "scene/world.h"
+#include "scene/parts.h"
+#include "system/system.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
  * field may still name the places of a trial that is gone [N]. */
@@ -22,8 +25,7 @@ static double pull_of(const sw_body *b, const sw_term *term, const double *x, do
 }
 
 static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
-  for (size_t k = 0; k < b->term_count; k++) {
-    const sw_term *term = &b->terms[k];
+  SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
     if (!term->cls->pull) continue;
     double bears;
     const double pull = pull_of(b, term, x, &bears);
@@ -34,26 +36,27 @@ static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
 }
 
 static int breakable(const sw_scene *s, size_t joint) {
-  return s->joins[joint].alive && s->joins[joint].cls->joint->pull;
+  return sw_scene_join_in(s, joint)->alive && sw_scene_join_in(s, joint)->cls->joint->pull;
 }
 
 static double pull_of_joint(const sw_scene *s, size_t joint, const double *x, double *bears) {
-  return s->joins[joint].cls->joint->pull(&s->joins[joint], &s->system, x, bears);
+  return sw_scene_join_in(s, joint)->cls->joint->pull(sw_scene_join_in(s, joint),
+                                                      sw_scene_system(s), x, bears);
 }
 
 int sw_scene_may_break(const sw_scene *s) {
+  sw_system *system = sw_scene_system(s);
   double bears = 0;
-  for (size_t k = 0; k < s->join_count; k++) {
-    if (breakable(s, k)) pull_of_joint(s, k, s->system.x, &bears);
+  for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
+    if (breakable(s, k)) pull_of_joint(s, k, system->x, &bears);
     if (bears > 0 && isfinite(bears)) return 1;
     bears = 0;
   }
-  for (size_t b = 0; s->force_count && b < s->system.body_count; b++) {
-    const sw_body *body = &s->system.bodies[b];
-    for (size_t k = 0; k < body->term_count; k++) {
-      const sw_term *term = &body->terms[k];
+  for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
+    const sw_body *body = &system->bodies[b];
+    SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       bears = 0;
-      if (term->cls->pull) pull_of(body, term, s->system.x, &bears);
+      if (term->cls->pull) pull_of(body, term, system->x, &bears);
       if (bears > 0) return 1;
     }
   }
@@ -61,54 +64,57 @@ int sw_scene_may_break(const sw_scene *s) {
 }
 
 sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err) {
-  for (size_t k = 0; k < s->join_count; k++) {
+  sw_system *system = sw_scene_system(s);
+  for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
     double bears;
     if (!breakable(s, k)) continue;
     const double pull = pull_of_joint(s, k, x, &bears);
     if (bears > 0 && sw_tie_breaks_early(pull, bears))
-      return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step", s->joins[k].name);
+      return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step",
+                     sw_scene_join_in(s, k)->name);
   }
-  for (size_t b = 0; s->force_count && b < s->system.body_count; b++)
-    SW_TRY(check_terms(&s->system.bodies[b], x, err));
+  for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++)
+    SW_TRY(check_terms(&system->bodies[b], x, err));
   return SW_OK;
 }
 
 /* Ties to points, which break when their force is told of the accepted state. */
 static void tell_of_terms(sw_scene *s, size_t body) {
-  const sw_body *b = &s->system.bodies[body];
-  for (size_t k = 0; k < b->term_count; k++) {
-    const sw_term *term = &b->terms[k];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[body];
+  SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
     double bears;
     if (!term->cls->pull) continue;
-    const double pull = pull_of(b, term, s->system.x, &bears);
+    const double pull = pull_of(b, term, system->x, &bears);
     if (bears > 0 && pull > bears)
-      sw_scene_tell(s, "tie", s->wires[body].name, NAN, pull,
-                    "a tie of wire '%s' breaks at %.4g N; it bears %.4g N", s->wires[body].name,
-                    pull, bears);
+      sw_scene_tell(s, "tie", sw_scene_wire_in(s, body)->name, NAN, pull,
+                    "a tie of wire '%s' breaks at %.4g N; it bears %.4g N",
+                    sw_scene_wire_in(s, body)->name, pull, bears);
   }
 }
 
 void sw_scene_watch_ties(sw_scene *s) {
-  for (size_t b = 0; s->force_count && b < s->system.body_count; b++) tell_of_terms(s, b);
-  for (size_t k = 0; k < s->join_count; k++) {
-    sw_joint *j = &s->joins[k];
+  sw_system *system = sw_scene_system(s);
+  for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) tell_of_terms(s, b);
+  for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
+    sw_joint *j = sw_scene_join_in(s, k);
     double bears;
     if (!breakable(s, k)) continue;
-    const double pull = pull_of_joint(s, k, s->system.x, &bears);
-    if (!sw_tie_suffers(pull, bears, s->time, j->fate)) continue;
-    j->cls->joint->breaks(j, &s->system);
-    sw_course_jump(&s->course);
-    s->build = ++s->builds; /* the system is another one */
+    const double pull = pull_of_joint(s, k, system->x, &bears);
+    if (!sw_tie_suffers(pull, bears, sw_scene_time(s), j->fate)) continue;
+    j->cls->joint->breaks(j, system);
+    sw_course_jump(sw_scene_course(s));
+    sw_scene_renumber(s);
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
                   j->name, pull, j->strength);
   }
 }
 
 sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_editable(s, err));
-  const sw_joint *j = sw_scene_find_join(s, h, err);
-  if (!j) return SW_EDEAD;
+  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
   if (!j->cls->joint->pull)
     return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
   *out = (sw_tie_state){.peak = j->fate[SW_TIE_PEAK],
@@ -118,12 +124,12 @@ sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_err
   out->distance = NAN;
   if (j->ends[0].wire == SIZE_MAX || j->ends[1].wire == SIZE_MAX) return SW_OK;
   SW_TRY(sw_scene_build(s, err));
-  const double *x = s->system.x;
+  const double *x = system->x;
   const sw_link_wire one = sw_scene_link_wire(s, j->ends[0].wire);
   const sw_link_wire two = sw_scene_link_wire(s, j->ends[1].wire);
   double bears;
   out->distance = sw_dist(sw_vec_at(x, sw_joint_node(&j->ends[0], &one)),
                           sw_vec_at(x, sw_joint_node(&j->ends[1], &two)));
-  if (j->alive) out->tension = j->cls->joint->pull(j, &s->system, x, &bears);
+  if (j->alive) out->tension = j->cls->joint->pull(j, system, x, &bears);
   return SW_OK;
 }

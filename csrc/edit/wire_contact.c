@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/tape.h"
 #include "body/build.h"
 #include "body/touching.h"
@@ -43,6 +44,16 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
                                               .count = count,
                                               .self = args->self,
                                               .rule = {.on = args->on, .friction = args->friction}};
+  return SW_OK;
+}
+
+sw_status sw_scene_check_touched(const sw_scene *s, size_t wire, const sw_scene_wire *as,
+                                 sw_error *err) {
+  SW_ITEMS(const sw_scene_rule, r, s->rules, s->rule_count) {
+    int mine = r->count == 0;
+    for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
+    if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
+  }
   return SW_OK;
 }
 

@@ -10,8 +10,8 @@
 #include "record/wear.h"
 #include "record/zone.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/mesh.h"
 #include "state/plan.h"
 
@@ -219,7 +219,7 @@ static sw_status draw_wire(sw_scene *s, sw_scene_wire *w, const sw_wire_args *ar
     SW_TRY(sw_scene_draw(w, segments, &w->mesh, err));
   if (!w->cls->mesh && args->rest_twist != 0 && sw_scene_draw_untwisted(w) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", w->name);
-  return sw_scene_check_rules(s, s->wire_count, w, err);
+  return sw_scene_check_rules(s, sw_scene_wire_slots(s), w, err);
 }
 
 sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam *beam,
@@ -228,25 +228,22 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
   SW_TRY(sw_scene_editable(s, err));
   const double straight[6] = {args->from.x, args->from.y, args->from.z,
                               args->to.x,   args->to.y,   args->to.z};
-  sw_scene_wire w = {.generation = s->serial + 1, .cls = sw_wire_all()[args->model], .beam = *beam};
-  sw_scene_give_name(w.name, args->name, "wire", s->wire_count);
+  sw_scene_wire w = {.cls = sw_wire_all()[args->model], .beam = *beam};
+  sw_scene_give_name(w.name, args->name, "wire", sw_scene_wire_slots(s));
   if (!points && (isnan(args->from.x) || isnan(args->to.x)))
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)
     return sw_fail(err, SW_EINVAL, "wire '%s': path needs at least two points", w.name);
   SW_TRY(sw_scene_thaw(s));
-  SW_TRY(sw_grow((void **)&s->wires, &s->wire_capacity, s->wire_count + 1, sizeof *s->wires));
   sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
   if (status == SW_OK) status = draw_wire(s, &w, args, mesh, err);
-  if (status != SW_OK) {
-    sw_scene_clear_body(&w);
-    return status;
+  if (status == SW_OK) {
+    w.drawing.length = w.mesh.s[w.mesh.n - 1];
+    w.number = sw_scene_bodies_made(s);
+    status = sw_scene_add(s, SW_OF_BODY, &w, out);
   }
-  w.drawing.length = w.mesh.s[w.mesh.n - 1];
-  w.number = sw_scene_bodies_made(s);
-  *out = (sw_handle){(uint32_t)s->wire_count, ++s->serial};
-  s->wires[s->wire_count++] = w;
-  return SW_OK;
+  if (status != SW_OK) sw_scene_clear_body(&w);
+  return status;
 }
 
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *s, sw_handle h) {

@@ -103,9 +103,9 @@ typedef struct sw_force_class {
    * Of the field only places are up to date. NULL = nothing breaks. */
   double (*pull)(const void *args, const sw_field *field, const double *history, double *bears);
 
-  /* How far the nodes would go in a step that brings them to x, over how far they may go there without
-   * passing what the force does on the way: 1 and less is well; 0 = nothing is near [-]. NULL = the
-   * force is as smooth as the wire's own. */
+  /* How far the nodes would go in a step that brings them to x, over how far they may go there
+   * without passing what the force does on the way: 1 and less is well; 0 = nothing is near [-].
+   * NULL = the force is as smooth as the wire's own. */
   double (*oversteps)(const void *args, const sw_field *field, const double *history,
                       const double *x);
 

@@ -4,11 +4,11 @@
  * 2010). Of the bending energy 1/2 k1 (b1 - b1')^2 + 1/2 k2 (b2 - b2')^2, b as in
  * state/hinge.h and b' its unloaded value, bend.c has 1/2 k (b1^2 + b2^2), k the
  * smaller stiffness; here is the rest. */
-#include <math.h>
+
+#include "force/frame.h"
 
 #include "base/simd.h"
 #include "force/force.h"
-#include "force/frame.h"
 
 /* --- into the field ------------------------------------------------------------- */
 

@@ -2,7 +2,6 @@
 #include "force/memory.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "force/slip.h"
 

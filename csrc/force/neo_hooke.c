@@ -5,6 +5,7 @@
  * inside out; one that was put so is pushed back. */
 #include <math.h>
 
+#include "base/each.h"
 #include "base/simd.h"
 #include "force/force.h"
 #include "force/solid.h"
@@ -58,8 +59,7 @@ static double largest_share(const void *args, const sw_plan *plan, const double 
   const sw_web *web = plan->web;
   double from[3 * SW_SOLID_NODES], move[3 * SW_SOLID_NODES], share = 1.0;
   (void)args;
-  for (size_t n = 0; n < web->solids; n++) {
-    const sw_web_solid *s = &web->solid[n];
+  SW_ITEMS(const sw_web_solid, s, web->solid, web->solids) {
     gather(s, x, from);
     gather(s, delta, move);
     share = fmin(share,

@@ -7,6 +7,7 @@
  * squeezed to a point. */
 #include <math.h>
 
+#include "base/each.h"
 #include "base/simd.h"
 #include "force/force.h"
 
@@ -53,8 +54,7 @@ static void add_all(const sw_web *web, sw_field *f) {
 
 static double energy_of(const sw_web *web, const double *x) {
   double energy = 0, t[3], r;
-  for (size_t e = 0; e < web->links; e++) {
-    const sw_web_link *link = &web->link[e];
+  SW_ITEMS(const sw_web_link, link, web->link, web->links) {
     const double stretch = stretch_of(link, x, t, &r);
     energy += 0.5 * link->k * stretch * stretch;
   }

@@ -92,8 +92,7 @@ int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
   if (f->first > f->last || f->last >= web->rings || f->nodes != web->particles) return 0;
   for (size_t i = 0; i < f->stations.n; i++)
     if (!isfinite(f->stations.s[i]) || (i && !(f->stations.s[i - 1] < f->stations.s[i]))) return 0;
-  for (size_t k = 0; k < f->touches; k++) {
-    const sw_frozen_touch *t = &f->touch[k];
+  SW_ITEMS(const sw_frozen_touch, t, f->touch, f->touches) {
     if (!sw_finite(t->at) || !sw_finite(t->normal) || !(t->force >= 0 && t->friction >= 0))
       return 0;
   }

@@ -9,7 +9,6 @@
 #include "scene/scene.h"
 
 void sw_scene_clear_tool(sw_tool *tool);
-sw_tool *sw_scene_find_tool(const sw_scene *scene, sw_handle h, sw_error *err);
 /* Force per finger as of the last trial, which ended at time t [N]. */
 double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 /* What tools hold at the accepted state; their logs. */

@@ -24,7 +24,7 @@
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/parts.h"
-#include "solve/cholesky.h"
+#include "solve/dense.h"
 #include "strand/ring.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
@@ -140,8 +140,7 @@ static double resistance(const sw_frozen *f, const patch *p, const double v[SIX]
   double sum = 0;
   const sw_vec way = sw_load(v), turn = sw_load(v + 3);
   const double still = STILL * (sw_norm(way) + sw_norm(turn));
-  for (size_t k = 0; k < f->touches; k++) {
-    const sw_frozen_touch *t = &f->touch[k];
+  SW_ITEMS(const sw_frozen_touch, t, f->touch, f->touches) {
     const sw_vec arm = sw_scale(sw_sub(t->at, p->middle), 1.0 / p->size);
     const sw_vec u = sw_add(way, sw_cross(turn, arm));
     const double across = sw_dot(u, t->normal);

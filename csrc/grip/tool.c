@@ -5,19 +5,21 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "body/build.h"
 #include "body/hold.h"
 #include "body/obstacle_log.h"
 #include "grip/frozen.h"
 #include "grip/jaws.h"
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/drive.h"
+#include "scene/driven.h"
 #include "scene/gripper.h"
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
+#include "scene/parts.h"
 #include "scene/values.h"
-#include "scene/world.h"
+#include "system/system.h"
 
 void sw_scene_clear_tool(sw_tool *t) {
   sw_drive_free(&t->drive);
@@ -25,46 +27,28 @@ void sw_scene_clear_tool(sw_tool *t) {
   sw_log_free(&t->log);
 }
 
-sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {
-  if (h.slot < s->tool_count && s->tools[h.slot].generation == h.generation &&
-      s->tools[h.slot].alive)
-    return &s->tools[h.slot];
-  sw_fail(err, SW_EDEAD, "this gripper is not of scene '%s' any more", s->name);
-  return NULL;
-}
-
-const char *sw_scene_tool_name(const sw_scene *s, sw_handle h) {
-  sw_error ignored;
-  const sw_tool *t = sw_scene_find_tool(s, h, &ignored);
-  return t ? t->name : NULL;
-}
-
 static const double SLIP = 1e-4; /* that is an event, unless told [m] */
 static const double LIMIT = 0.9; /* of the margin of a frozen grip, unless told [-] */
 
 sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  if (sw_grow((void **)&s->tools, &s->tool_capacity, s->tool_count + 1, sizeof *s->tools) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
-  sw_tool *t = &s->tools[s->tool_count];
-  *t = (sw_tool){.generation = ++s->serial,
-                 .alive = 1,
-                 .drive = {.pose = {args->at, args->rotation}},
-                 .jaw = {.opening = args->opening, .since = s->time, .force = HUGE_VAL},
-                 .tolerance = SLIP,
-                 .limit = LIMIT,
-                 .now = {.centre = args->at, .q = args->rotation}};
-  t->now.slip_time = t->now.slip_place = t->now.lost_time = NAN;
-  sw_scene_give_name(t->name, args->name, "gripper", s->tool_count);
-  *out = (sw_handle){(uint32_t)s->tool_count++, s->serial};
-  return SW_OK;
+  sw_tool t = {.alive = 1,
+               .drive = {.pose = {args->at, args->rotation}},
+               .jaw = {.opening = args->opening, .since = sw_scene_time(s), .force = HUGE_VAL},
+               .tolerance = SLIP,
+               .limit = LIMIT,
+               .now = {.centre = args->at, .q = args->rotation}};
+  t.now.slip_time = t.now.slip_place = t.now.lost_time = NAN;
+  sw_scene_give_name(t.name, args->name, "gripper", sw_scene_tool_slots(s));
+  if (sw_scene_add(s, SW_OF_TOOL, &t, out) == SW_OK) return SW_OK;
+  return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
 }
 
 /* The pose in the frame of a tool at its present place. */
 static sw_status local_pose(sw_scene *s, const sw_tool *t, sw_pose world, sw_pose *out,
                             sw_error *err) {
   sw_motion_state now;
-  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &now, err));
   const sw_quat back = sw_quat_conj(now.pose.q);
   *out = (sw_pose){sw_rotate(back, sw_sub(world.p, now.pose.p)), sw_quat_mul(back, world.q)};
   return SW_OK;
@@ -81,10 +65,10 @@ sw_status sw_scene_tool_pad(sw_scene *s, sw_handle tool, sw_handle obstacle, int
   if (t->pads == SW_TOOL_PADS)
     return sw_fail(err, SW_EINVAL, "gripper '%s': more than %d parts of pads", t->name,
                    SW_TOOL_PADS);
-  SW_TRY(sw_drive_eval(s, &o->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &now, err));
   SW_TRY(local_pose(s, t, now.pose, &pose, err));
   sw_drive_free(&o->drive);
-  pose.p = sw_madd(pose.p, opens, -sw_jaw_at(&t->jaw, s->time));
+  pose.p = sw_madd(pose.p, opens, -sw_jaw_at(&t->jaw, sw_scene_time(s)));
   o->drive = (sw_drive){.pose = pose, .tool = 1 + tool.slot, .opens = opens};
   t->pad[t->pads++] = (sw_tool_pad){obstacle.slot, finger};
   if (finger >= t->fingers) t->fingers = finger + 1;
@@ -98,58 +82,30 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
   sw_motion_state now;
   sw_pose pose;
   if (!h) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(s, &h->drive, s->time, &now, err));
+  SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
   SW_TRY(local_pose(s, t, now.pose, &pose, err));
   sw_drive_free(&h->drive);
   h->drive = (sw_drive){.pose = pose, .tool = 1 + tool.slot};
-  sw_course_jump(&s->course);
+  sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 
 sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   SW_TRY(sw_scene_thaw(s));
-  for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].off = !on;
+  for (size_t k = 0; k < t->pads; k++) sw_scene_obstacle_in(s, t->pad[k].obstacle)->off = !on;
   return SW_OK;
-}
-
-sw_status sw_scene_tool_follow(sw_scene *s, sw_handle tool, sw_motion *motion, int relative,
-                               sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  SW_TRY(sw_drive_follow(s, &t->drive, t->name, motion, relative, err));
-  for (size_t k = 0; k < s->hold_count; k++) /* pads alone push by where they are, not how fast */
-    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + tool.slot) sw_course_jump(&s->course);
-  return SW_OK;
-}
-
-sw_status sw_scene_tool_pose(sw_scene *s, sw_handle tool, sw_pose *out, sw_error *err) {
-  sw_motion_state now;
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
-  *out = now.pose;
-  return SW_OK;
-}
-
-sw_status sw_scene_tool_set_pose(sw_scene *s, sw_handle tool, sw_pose pose, sw_error *err) {
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  return sw_drive_put(s, &t->drive, t->name, pose, err);
 }
 
 sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   sw_jaw *j = &t->jaw;
   if (j->force != args->force) SW_TRY(sw_scene_thaw(s)); /* contact is told */
   j->mode = args->mode;
   j->goal = args->opening, j->most = args->speed, j->force = args->force;
-  j->speed = 0, j->since = s->time;
+  j->speed = 0, j->since = sw_scene_time(s);
   j->status = args->mode == SW_JAW_STILL ? SW_JAW_RESTS : SW_JAW_MOVES;
   return SW_OK;
 }
@@ -157,8 +113,7 @@ sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *arg
 sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int stops,
                               sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   t->tolerance = tolerance, t->stops = stops;
   t->now.slipped = sw_v(0, 0, 0);
   t->now.slip = 0;
@@ -169,15 +124,16 @@ sw_status sw_scene_tool_watch(sw_scene *s, sw_handle tool, double tolerance, int
 /* --- what it holds ---------------------------------------------------------------- */
 
 double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
+  sw_contact *contact = sw_scene_contact(s);
   double sum = 0;
   sw_motion_state at;
   sw_error ignored; /* it was asked for this place in the trial */
-  if (!s->contact || !t->fingers || sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
+  if (!contact || !t->fingers || sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
     return 0;
   for (size_t k = 0; k < t->pads; k++) {
-    const sw_drive *d = &s->obstacles[t->pad[k].obstacle].drive;
+    const sw_drive *d = &sw_scene_obstacle_in(s, t->pad[k].obstacle)->drive;
     sw_vec force, moment;
-    sw_contact_force(s->contact, (int)t->pad[k].obstacle, sw_v(0, 0, 0), &force, &moment);
+    sw_contact_force(contact, (int)t->pad[k].obstacle, sw_v(0, 0, 0), &force, &moment);
     sum += t->pad[k].finger < 0
                ? 0.0
                : sw_dot(sw_unrotate(at.pose.q, force), sw_unit_or(d->opens, sw_v(0, 0, 0)));
@@ -188,10 +144,11 @@ double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
 /* Force of pads (of one finger, or -1: all) on wires about a point; adds. */
 static void pads_force(const sw_scene *s, const sw_tool *t, int finger, sw_vec about, sw_vec *force,
                        sw_vec *moment) {
-  for (size_t k = 0; s->contact && k < t->pads; k++) {
+  sw_contact *contact = sw_scene_contact(s);
+  for (size_t k = 0; contact && k < t->pads; k++) {
     sw_vec f, m;
     if (finger >= 0 && t->pad[k].finger != finger) continue;
-    sw_contact_force(s->contact, (int)t->pad[k].obstacle, about, &f, &m);
+    sw_contact_force(contact, (int)t->pad[k].obstacle, about, &f, &m);
     *force = sw_sub(*force, f);
     *moment = sw_sub(*moment, m);
   }
@@ -202,7 +159,7 @@ static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec 
                       sw_vec *moment) {
   for (size_t k = 0; k < t->pads; k++) {
     sw_vec f, m;
-    sw_obstacle_mean(&s->obstacles[t->pad[k].obstacle], about, &f, &m);
+    sw_obstacle_mean(sw_scene_obstacle_in(s, t->pad[k].obstacle), about, &f, &m);
     *force = sw_sub(*force, f);
     *moment = sw_sub(*moment, m);
   }
@@ -212,11 +169,10 @@ static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec 
  */
 static sw_status holds_force(sw_scene *s, size_t slot, sw_vec about, sw_vec *force, sw_vec *moment,
                              int *mean, sw_error *err) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     sw_motion_state at;
     if (!h->alive || h->drive.tool != 1 + slot) continue;
-    SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
+    SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &at, err));
     sw_vec F = h->force, M = h->moment;
     if (mean) *mean |= sw_hold_jerked(s, h, &F, &M);
     *force = sw_add(*force, F);
@@ -229,10 +185,10 @@ sw_status sw_scene_tool_force(sw_scene *s, sw_handle tool, const sw_vec *about, 
                               sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_tool_pose(s, tool, &pose, err));
+  SW_TRY(sw_scene_object_pose(s, SW_OF_TOOL, tool, &pose, err));
   const sw_vec point = about ? *about : pose.p;
   *force = *moment = sw_v(0, 0, 0);
-  pads_force(s, &s->tools[tool.slot], -1, point, force, moment);
+  pads_force(s, sw_scene_tool_in(s, tool.slot), -1, point, force, moment);
   return holds_force(s, tool.slot, point, force, moment, NULL, err);
 }
 
@@ -240,8 +196,8 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
                                sw_vec *force, sw_vec *moment, sw_error *err) {
   sw_pose pose;
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_tool_pose(s, tool, &pose, err));
-  const sw_tool *t = &s->tools[tool.slot];
+  SW_TRY(sw_scene_object_pose(s, SW_OF_TOOL, tool, &pose, err));
+  const sw_tool *t = sw_scene_tool_in(s, tool.slot);
   if (finger < 0 || finger >= t->fingers)
     return sw_fail(err, SW_EINVAL, "gripper '%s': there is no finger %d; it has %d", t->name,
                    finger + 1, t->fingers);
@@ -255,15 +211,16 @@ static void hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec mome
   sw_tool_state *now = &t->now;
   now->margin =
       sw_frozen_margin(t->frozen, sw_unrotate(now->q, force), sw_unrotate(now->q, moment));
-  if (isnan(now->lost_time) && now->margin > t->limit) now->lost_time = s->time;
+  if (isnan(now->lost_time) && now->margin > t->limit) now->lost_time = sw_scene_time(s);
 }
 
 static void hold_now(const sw_scene *s, sw_tool *t) {
+  sw_contact *contact = sw_scene_contact(s);
   sw_contact_grip sum = {0};
   sw_tool_state *now = &t->now;
-  for (size_t k = 0; s->contact && k < t->pads; k++)
+  for (size_t k = 0; contact && k < t->pads; k++)
     if (t->pad[k].finger >= 0)
-      sw_contact_add_grip(s->contact, &s->system, (int)t->pad[k].obstacle, &sum);
+      sw_contact_add_grip(contact, sw_scene_system(s), (int)t->pad[k].obstacle, &sum);
   now->opening = t->jaw.opening, now->status = t->jaw.status, now->squeeze = t->jaw.now;
   now->normal = sum.normal, now->most = sum.most;
   now->margin = sum.most > 0 ? sw_norm(sum.tangent) / sum.most : 0;
@@ -274,22 +231,22 @@ static void hold_now(const sw_scene *s, sw_tool *t) {
   now->slipped = sw_add(now->slipped, way);
   now->slip = sw_norm(now->slipped);
   if (isnan(now->slip_time) && now->slip > t->tolerance)
-    now->slip_time = s->time, now->slip_place = now->place;
+    now->slip_time = sw_scene_time(s), now->slip_place = now->place;
 }
 
 static int holds_any(const sw_scene *s, size_t slot) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].drive.tool == 1 + slot) return 1;
+  SW_EACH(hold, h, s)
+    if (h->alive && h->drive.tool == 1 + slot) return 1;
   return 0;
 }
 
 sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
-  for (size_t k = 0; k < s->tool_count; k++) {
-    sw_tool *t = &s->tools[k];
+  for (size_t k = 0; k < sw_scene_tool_slots(s); k++) {
+    sw_tool *t = sw_scene_tool_in(s, k);
     sw_motion_state at;
     double row[SW_LOG_TOOL_SIZE];
     if (!t->alive) continue;
-    SW_TRY(sw_drive_eval(s, &t->drive, s->time, &at, err));
+    SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &at, err));
     t->now.centre = at.pose.p;
     t->now.q = at.pose.q;
     sw_vec force = sw_v(0, 0, 0), moment = force;
@@ -301,13 +258,13 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     else
       hold_now(s, t);
     SW_TRY(sw_tool_look_out(s, k, err));
-    row[SW_LOG_TIME] = s->time;
+    row[SW_LOG_TIME] = sw_scene_time(s);
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, at.pose.p);
     row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
     row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
-    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : s->course.span;
+    row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : sw_scene_course(s)->span;
     if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);
   }
@@ -315,46 +272,47 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
 }
 
 sw_status sw_scene_tool_touches(sw_scene *s, sw_handle tool, size_t *count, sw_error *err) {
+  sw_contact *contact = sw_scene_contact(s);
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_tool(s, tool, err)) return SW_EDEAD;
-  *count = s->contact ? sw_contact_touches(s->contact) : 0;
+  *count = contact ? sw_contact_touches(contact) : 0;
   return SW_OK;
 }
 
 int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_tool_touch *out) {
-  const sw_tool *t = &s->tools[tool.slot];
+  sw_system *system = sw_scene_system(s);
+  const sw_tool *t = sw_scene_tool_in(s, tool.slot);
   sw_contact_push push;
-  if (!sw_contact_push_at(s->contact, &s->system, number, &push)) return 0;
+  if (!sw_contact_push_at(sw_scene_contact(s), system, number, &push)) return 0;
   for (size_t k = 0; k < t->pads; k++) {
     if (t->pad[k].obstacle != (size_t)push.obstacle) continue;
     const sw_vec arm = sw_sub(push.point, t->now.centre);
-    const size_t wire = sw_system_body_of(&s->system, push.node);
+    const size_t wire = sw_system_body_of(system, push.node);
     *out = (sw_tool_touch){.finger = t->pad[k].finger,
                            .at = sw_unrotate(t->now.q, arm),
                            .force = sw_unrotate(t->now.q, push.force),
                            .normal = push.normal_force,
                            .s = push.place,
                            .slid = push.slid,
-                           .wire = s->wires[wire].number,
-                           .name = s->wires[wire].name};
+                           .wire = sw_scene_wire_in(s, wire)->number,
+                           .name = sw_scene_wire_in(s, wire)->name};
     return 1;
   }
   return 0;
 }
 
 int sw_tool_slipped(const sw_scene *s) {
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && ((s->tools[k].stops && s->tools[k].now.slip_time == s->time) ||
-                              s->tools[k].now.lost_time == s->time ||
-                              (s->tools[k].crashing && s->tools[k].crash.time == s->time)))
+  SW_EACH(tool, t, s)
+    if (t->alive && ((t->stops && t->now.slip_time == sw_scene_time(s)) ||
+                     t->now.lost_time == sw_scene_time(s) ||
+                     (t->crashing && t->crash.time == sw_scene_time(s))))
       return 1;
   return 0;
 }
 
 sw_status sw_scene_tool_limit(sw_scene *s, sw_handle tool, double margin, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   t->limit = margin;
   t->now.lost_time = NAN;
   return SW_OK;
@@ -362,27 +320,15 @@ sw_status sw_scene_tool_limit(sw_scene *s, sw_handle tool, double margin, sw_err
 
 sw_status sw_scene_tool_state(sw_scene *s, sw_handle tool, sw_tool_state *out, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   *out = t->now;
   out->frozen = t->frozen != NULL;
   const int any = t->crash.depth > 0;
   out->crash_time = any ? t->crash.time : (double)NAN;
   out->crash_depth = t->crash.depth;
-  out->crash_part = any ? s->obstacles[t->crash.part].name : "";
-  out->crash_obstacle = any ? s->obstacles[t->crash.obstacle].name : "";
-  out->opening = sw_jaw_at(&t->jaw, s->time);
+  out->crash_part = any ? sw_scene_obstacle_in(s, t->crash.part)->name : "";
+  out->crash_obstacle = any ? sw_scene_obstacle_in(s, t->crash.obstacle)->name : "";
+  out->opening = sw_jaw_at(&t->jaw, sw_scene_time(s));
   out->status = t->jaw.status;
-  return SW_OK;
-}
-
-sw_status sw_scene_tool_log(sw_scene *s, sw_handle tool, const double **rows, size_t *count,
-                            sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  const int known = tool.slot < s->tool_count && s->tools[tool.slot].generation == tool.generation;
-  const sw_tool *t = known ? &s->tools[tool.slot] : sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
-  *rows = t->log.rows;
-  *count = t->log.count / SW_LOG_TOOL_SIZE;
   return SW_OK;
 }

@@ -28,11 +28,6 @@ sw_status sw_scene_tool_hold(sw_scene *scene, sw_handle tool, sw_handle hold, sw
 /* Wires pass through the pads (on: 0), or do not. */
 sw_status sw_scene_tool_pads_on(sw_scene *scene, sw_handle tool, int on, sw_error *err);
 
-sw_status sw_scene_tool_follow(sw_scene *scene, sw_handle tool, sw_motion *motion, int relative,
-                               sw_error *err);
-sw_status sw_scene_tool_pose(sw_scene *scene, sw_handle tool, sw_pose *out, sw_error *err);
-sw_status sw_scene_tool_set_pose(sw_scene *scene, sw_handle tool, sw_pose pose, sw_error *err);
-
 typedef struct sw_jaw_args {
   int mode;
   double opening; /* [m] */
@@ -74,9 +69,5 @@ int sw_scene_tool_touch(const sw_scene *scene, sw_handle tool, size_t k, sw_tool
 
 /* Rows as of holds (see SW_LOG_SIZE), and opening, squeeze, margin, slip. */
 enum { SW_LOG_OPENING = SW_LOG_SIZE, SW_LOG_SQUEEZE, SW_LOG_MARGIN, SW_LOG_SLIP, SW_LOG_TOOL_SIZE };
-sw_status sw_scene_tool_log(sw_scene *scene, sw_handle tool, const double **rows, size_t *count,
-                            sw_error *err);
-/* NULL when the scene does not know it any more. */
-const char *sw_scene_tool_name(const sw_scene *scene, sw_handle tool);
 
 #endif

@@ -13,6 +13,7 @@
 #include "link/hold.h"
 #include "link/spool.h"
 #include "state/hinge.h"
+#include "state/state_tape.h"
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
@@ -243,6 +244,36 @@ double sw_feed_reserve(const sw_hold *h, const sw_mesh *m, double length) {
   return from_far ? m->s[m->n - 1] - h->s1 : h->s1 - m->s[0];
 }
 
+/* --- on a tape --------------------------------------------------------------------- */
+
+#define DOUBLE(field) sw_tape_double(t, &x->field)
+
+void sw_tape_feed(sw_tape *t, sw_feed *x) {
+  int shaped = x->shape.n > 0;
+  SW_TAPE_STRUCT(t, sw_feed, 368);
+  sw_tape_int(t, &x->outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed),
+      DOUBLE(start);
+  sw_tape_motion(t, &x->motion);
+  DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
+  DOUBLE(push), DOUBLE(limit), DOUBLE(slip_way), DOUBLE(way_before);
+  sw_tape_bracket(t, &x->found, "a feed");
+  DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
+  DOUBLE(size), DOUBLE(drive);
+  sw_tape_int(t, &shaped);
+  if (shaped) sw_tape_mesh(t, &x->shape, 1);
+  if (!sw_tape_reads(t)) return;
+  const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
+                     x->slip_speed + x->slip_growth + x->slip_before + x->slope + x->size;
+  sw_tape_expect(t, isfinite(all + x->spare[0] + x->spare[1]), "a feed");
+}
+
+/* Of a hold at rest: is what came from a tape a feed of the wire? */
+static int fits(const sw_hold *h, const sw_link_wire *w) {
+  const sw_feed *f = &h->feed;
+  return h->s1 == h->s2 && h->count == 1 && f->size > 0 && (f->outward == 1 || f->outward == -1) &&
+         (w->mesh->rest != NULL) == (f->shape.rest != NULL);
+}
+
 static const sw_hold_acts acts = {.direction = 1,
                                   .lines = 1,
                                   .check = check,
@@ -251,7 +282,8 @@ static const sw_hold_acts acts = {.direction = 1,
                                   .place = place,
                                   .follow = follow,
                                   .undo = undo,
-                                  .passes = passes};
+                                  .passes = passes,
+                                  .fits = fits};
 
 const sw_link_class sw_link_feed = {
     .name = "feed",

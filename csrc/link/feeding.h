@@ -4,6 +4,7 @@
 #define SW_LINK_FEEDING_H
 
 #include "base/root.h"
+#include "base/tape.h"
 #include "motion/motion.h"
 #include "state/mesh.h"
 
@@ -48,5 +49,7 @@ void sw_feed_stop(struct sw_hold *hold, double t);
 double sw_feed_reserve(const struct sw_hold *hold, const sw_mesh *mesh, double length);
 /* What is left of the spare lengths when so much is fed [m]. */
 void sw_feed_spare(const sw_feed *feed, double fed, double spare[2]);
+
+void sw_tape_feed(sw_tape *tape, sw_feed *feed);
 
 #endif

@@ -114,6 +114,8 @@ typedef struct sw_hold_acts {
   /* Arguments as they are now; those that change from now on. */
   void (*get)(const sw_hold *hold, sw_hold_args *args);
   void (*set)(sw_hold *hold, const sw_hold_args *args);
+  /* 1: what came from a tape goes with the wire. */
+  int (*fits)(const sw_hold *hold, const sw_link_wire *wire);
   /* What is taken on a tape besides what all holds have. */
   void (*tape)(sw_tape *tape, sw_hold *hold);
 } sw_hold_acts;

@@ -9,7 +9,6 @@
 #include <stddef.h>
 
 #include "base/param.h"
-#include "base/status.h"
 #include "base/vec.h"
 
 /* A user's arguments for a hold. */

@@ -70,13 +70,11 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
 static sw_status make_curve(const sw_hold *h, sw_curve **out) {
   const sw_hold_args *a = &h->args;
   if (!a->points) return sw_curve_line(a->line, out);
-  double *points = sw_alloc(3 * a->count, sizeof *points);
+  double *points SW_LOCAL = sw_alloc(3 * a->count, sizeof *points);
   if (!points) return SW_ENOMEM;
   for (size_t i = 0; i < a->count; i++)
     sw_store(points + 3 * i, sw_sub(sw_vec_at(a->points, i), h->drive.pose.p));
-  const sw_status status = sw_curve_spline(points, a->count, a->closed, out);
-  sw_free(points);
-  return status;
+  return sw_curve_spline(points, a->count, a->closed, out);
 }
 
 static sw_status begin(sw_hold *h, const sw_link_wire *w) {

@@ -326,13 +326,11 @@ sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, dou
 
 sw_status sw_modal_unstable(const sw_system *system, size_t body, double slow, size_t *count) {
   sw_error ignored;
-  double *factor = sw_alloc(sw_system_factor_size(system, body), sizeof *factor);
+  double *factor SW_LOCAL = sw_alloc(sw_system_factor_size(system, body), sizeof *factor);
   if (!factor) return SW_ENOMEM;
   const job p = {.system = system, .body = body, .err = &ignored};
   const double floor = MATRIX_ROUNDING * sw_system_stiffest(system, body, factor);
-  const sw_status status = count_below(&p, -fmax(slow, floor), factor, count);
-  sw_free(factor);
-  return status;
+  return count_below(&p, -fmax(slow, floor), factor, count);
 }
 
 void sw_modes_free(sw_modes *modes) {
@@ -344,7 +342,7 @@ void sw_modes_free(sw_modes *modes) {
 sw_status sw_modal_unrest(const sw_system *system, size_t body, double tau, double *drift,
                           double *axial, sw_error *err) {
   const size_t n = sw_system_unknowns(system, body);
-  double *factor = sw_alloc(sw_system_factor_size(system, body) + 2 * n, sizeof *factor);
+  double *factor SW_LOCAL = sw_alloc(sw_system_factor_size(system, body) + 2 * n, sizeof *factor);
   if (!factor) return sw_fail(err, SW_ENOMEM, "frequencies: out of memory");
   double *d = factor + sw_system_factor_size(system, body), *shifts = d + n;
   *drift = 0;
@@ -355,6 +353,5 @@ sw_status sw_modal_unrest(const sw_system *system, size_t body, double tau, doub
   for (size_t i = 0; i < n && !isnan(*drift); i++)
     if (!(fabs(shifts[i]) <= *drift)) *drift = fabs(shifts[i]);
   *axial = sw_system_axial_error(system, body, d);
-  sw_free(factor);
   return SW_OK;
 }

@@ -19,7 +19,6 @@
 
 #include <stddef.h>
 
-#include "base/param.h"
 #include "base/status.h"
 #include "base/tape.h"
 #include "base/vec.h"

@@ -11,6 +11,7 @@
 #include "motion/path.h"
 
 #include "base/alloc.h"
+#include "base/halving.h"
 
 /* Geometry at one place of the path, derivatives by progress. */
 typedef struct place {
@@ -48,27 +49,15 @@ static void on_corner(const sw_segment *in, const sw_segment *out_leg, double x,
 }
 
 static size_t find_run(const sw_path *path, double t) {
-  size_t low = 0, high = path->run_count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (path->runs[middle].t <= t)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(path->runs[after].t <= t, after, 1, path->run_count);
+  return after - 1;
 }
 
 static size_t find_segment(const sw_path *path, const sw_run *run, double s) {
-  size_t low = run->first, high = run->first + run->count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (path->segments[middle].s <= s)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(path->segments[after].s <= s, after, run->first + 1, run->first + run->count);
+  return after - 1;
 }
 
 static void locate(const sw_path *path, const sw_run *run, double s, place *out) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a route to a path: where to rest, how wide to blend, how long each run. */
 #include "base/alloc.h"
+#include "base/each.h"
 #include "motion/path.h"
 
 static const double default_blend = 0.1; /* part of the shorter leg [-] */
@@ -85,8 +86,7 @@ static void add_segments(const sw_motion_law *law, const sw_motion_plan *plan,
 static double total_time(const sw_motion_plan *plan, const sw_route *route, const sw_path *path,
                          double factor) {
   double sum = 0;
-  for (size_t r = 0; r < path->run_count; r++) {
-    const sw_run *run = &path->runs[r];
+  SW_ITEMS(const sw_run, run, path->runs, path->run_count) {
     const double growth = sw_route_growth(plan, &route->legs[run->first], run->count);
     sum += path->profile->least_time(run->span / factor, growth / factor);
   }
@@ -129,8 +129,7 @@ static void change_speed(sw_route *route, sw_path *path, double factor) {
 static sw_status add_times(const sw_motion_plan *plan, const sw_route *route, sw_path *path,
                            sw_motion *motion, sw_error *err) {
   double t = 0;
-  for (size_t r = 0; r < path->run_count; r++) {
-    sw_run *run = &path->runs[r];
+  SW_ITEMS(sw_run, run, path->runs, path->run_count) {
     const double growth = sw_route_growth(plan, &route->legs[run->first], run->count);
     run->t = route->timed ? route->t[run->first] - route->t[0] : t;
     run->time = route->timed ? run->span : path->profile->least_time(run->span, growth);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "motion/law.h"
 
 enum { PARTS = 7 }; /* x y z of position, w x y z of the quaternion [-] */
@@ -40,15 +41,9 @@ static void cubic(const knot *a, double t, int first, int count, double *y, doub
 }
 
 static const knot *find(const spline *s, double t) {
-  size_t low = 0, high = s->count - 1;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->knots[middle].t <= t)
-      low = middle;
-    else
-      high = middle;
-  }
-  return &s->knots[low];
+  size_t after;
+  SW_FIRST_NOT(s->knots[after].t <= t, after, 1, s->count - 1);
+  return &s->knots[after - 1];
 }
 
 static sw_quat quat_at(const double *p) { return (sw_quat){p[0], p[1], p[2], p[3]}; }
@@ -129,15 +124,13 @@ static sw_status solve_part(spline *s, int part, double *diagonal, double *besid
 
 static sw_status solve_slopes(spline *s) {
   const size_t n = s->count;
-  double *work = sw_alloc(4 * n, sizeof *work);
+  double *work SW_LOCAL = sw_alloc(4 * n, sizeof *work);
   if (!work) return SW_ENOMEM;
-  sw_status status = SW_OK;
   gsl_set_error_handler_off(); /* a status is enough */
   matrix(s, work, work + n);
-  for (int part = 0; part < (s->turns ? PARTS : 3) && status == SW_OK; part++)
-    status = solve_part(s, part, work, work + n, work + 2 * n, work + 3 * n);
-  sw_free(work);
-  return status;
+  for (int part = 0; part < (s->turns ? PARTS : 3); part++)
+    SW_TRY(solve_part(s, part, work, work + n, work + 2 * n, work + 3 * n));
+  return SW_OK;
 }
 
 static sw_status fill(spline *s, const sw_route *route, sw_error *err) {

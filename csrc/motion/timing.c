@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How long each leg takes at the highest speeds, and which limits hold. */
+#include "base/each.h"
 #include "motion/law.h"
 
 static double most(double a, double b) { return a > b ? a : b; }
@@ -55,8 +56,7 @@ sw_status sw_route_time(const sw_motion_plan *plan, sw_route *route, sw_error *e
 
 double sw_route_growth(const sw_motion_plan *plan, const sw_leg *legs, size_t count) {
   double growth = INFINITY;
-  for (size_t k = 0; k < count; k++) {
-    const sw_leg *leg = &legs[k];
+  SW_ITEMS(const sw_leg, leg, legs, count) {
     if (!isnan(plan->acceleration) && leg->length > 0)
       growth = fmin(growth, plan->acceleration * leg->time / leg->length);
     if (!isnan(plan->angular_acceleration) && leg->angle > 0)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Lua module softworld.probe: the solvers as specs and benches see them. It is no part of what is
- * installed, and takes the core from the program that loads it. band3(rows, right) -> x, negative
- * pivots, product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
+/* The Lua module softworld.probe: the solvers as specs and benches see them. It is no part of what
+ * is installed, and takes the core from the program that loads it. band3(rows, right) -> x,
+ * negative pivots, product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
 #include <math.h>
 #include <string.h>

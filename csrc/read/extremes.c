@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 #include "body/section.h"
 #include "body/spin.h"
@@ -58,8 +59,7 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
     *out = (sw_extreme){.value = angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
     break;
   }
-  for (size_t c = 0; c < p->clamp_count; c++) {
-    const sw_clamp_hinge *h = &p->clamps[c];
+  SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
     const double value = sw_scene_clamp_curvature(s, b, h);
     if (value > out->value) *out = (sw_extreme){.value = value, .s = p->s[h->node]};
   }
@@ -131,8 +131,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
     *out = (sw_extreme){.value = mean + per_length * angle_of_chord(chord), .s = p->s[i]};
     break;
   }
-  for (size_t c = 0; c < p->clamp_count; c++) {
-    const sw_clamp_hinge *h = &p->clamps[c];
+  SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
     const double bent = radius * sw_scene_clamp_curvature(s, b, h);
     keep_largest(out, &(sw_extreme){.value = T[h->edge] / EA + bent, .s = p->s[h->node]});
   }
@@ -180,12 +179,10 @@ static sw_status fit_window(sw_scene *s, size_t w) {
   const sw_body *b = &s->system.bodies[w];
   const size_t n = watched_edges(b);
   if (window->edges == n) return SW_OK;
-  double *places = sw_alloc(n, sizeof *places);
+  double *places SW_LOCAL = sw_alloc(n, sizeof *places);
   if (!places) return SW_ENOMEM;
   for (size_t e = 0; e < n; e++) places[e] = watched_place(b, e);
-  const sw_status status = sw_window_fit(window, n, places);
-  sw_free(places);
-  return status;
+  return sw_window_fit(window, n, places);
 }
 
 /* The largest mean over the window up to now. */

@@ -6,7 +6,6 @@
  * particles), and these points with the force across the surface at each. */
 #include "read/frames.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -17,8 +16,6 @@
 #include "read/kept_frames.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/obstacle.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "state/web.h"
 #include "strand/ring.h"
@@ -106,7 +103,7 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
   const double *x = s->system.x + 3 * b->first_node;
   double outline[3 * SW_OUTLINE], wide[3 * SW_OUTLINE];
   float *p = *to;
-  double *pressed = sw_alloc(b->plan->nodes, sizeof *pressed);
+  double *pressed SW_LOCAL = sw_alloc(b->plan->nodes, sizeof *pressed);
   if (!pressed) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   sw_strand_pressed(s, b, pressed, NULL);
   *p++ = (float)web->rings;
@@ -123,7 +120,6 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
       p[3] = (float)pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
     }
   }
-  sw_free(pressed);
   *to = p;
   return SW_OK;
 }

@@ -5,14 +5,14 @@
 
 #include "body/build.h"
 #include "body/join.h"
-#include "contact/grains.h"
+#include "body/touching.h"
 #include "link/joint.h"
 #include "modal/modal.h"
-#include "read/linear.h"
 #include "read/reading.h"
 #include "scene/lookup.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "system/linear.h"
+#include "system/system.h"
 
 static const sw_param rows[] = {
     {"modes", SW_PARAM_INTEGER, "-", 6, 1, 200, 0, NULL, offsetof(sw_modes_args, modes),
@@ -35,40 +35,17 @@ static const double TWO_PI = 6.283185307179586477;
 
 /* sqrt(length/g); weightless scenes: any scale will do. */
 static double time_scale(const sw_scene *s, size_t w) {
-  return sqrt(s->system.bodies[w].plan->length / fmax(sw_norm(s->gravity), 1.0));
-}
-
-/* With contact as it presses now; other wires stay where they are. */
-sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
-  sw_contact *const own = s->contact;
-  sw_pairs *const pairs = s->pairs;
-  sw_grains *const grains = s->grains;
-  sw_status status = SW_OK;
-  s->contact = NULL, s->pairs = NULL, s->grains = NULL;
-  if (own) status = sw_contact_copy(own, &s->contact);
-  if (pairs && status == SW_OK) status = sw_pairs_copy(pairs, &s->pairs);
-  if (grains && status == SW_OK) status = sw_grains_copy(grains, &s->system, &s->grains);
-  if (status != SW_OK) sw_fail(err, status, "out of memory");
-  if (own && only && status == SW_OK) sw_contact_keep(s->contact, only, count);
-  if (own && status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
-  if (pairs && status == SW_OK) status = sw_pairs_begin_look(s->pairs, &s->system, err);
-  if (grains && !pairs && status == SW_OK) status = sw_system_begin_plan(&s->system);
-  if (grains && status == SW_OK) status = sw_grains_begin_look(s->grains, &s->system, err);
-  if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
-  sw_contact_free(s->contact);
-  sw_pairs_free(s->pairs);
-  sw_grains_free(s->grains);
-  s->contact = own, s->pairs = pairs, s->grains = grains;
-  return status;
+  return sqrt(sw_scene_system(s)->bodies[w].plan->length / fmax(sw_norm(sw_scene_gravity(s)), 1.0));
 }
 
 /* Largest speed of a node, and how far nodes are from where their holds are now. */
 static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *away, sw_error *err) {
-  sw_system *system = &s->system;
+  sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
   memcpy(system->yhat, system->x, 3 * system->nodes * sizeof(double));
   memcpy(system->velocity, system->v, 3 * system->nodes * sizeof(double));
-  SW_TRY(sw_system_place_holds(system, s->time, system->yhat, system->velocity, NULL, err));
+  SW_TRY(
+      sw_system_place_holds(system, sw_scene_time(s), system->yhat, system->velocity, NULL, err));
   *speed = *away = 0;
   for (size_t i = 3 * b->first_node; i < 3 * (b->first_node + b->plan->nodes); i += 3) {
     *speed = fmax(*speed, sw_norm(sw_load(system->velocity + i)));
@@ -81,9 +58,10 @@ static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *awa
 }
 
 static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   static const char advice[] = "frequencies are about an equilibrium: call scene:settle() first";
-  const char *name = s->wires[w].name;
-  const double most = tolerance * s->system.bodies[w].plan->length, tau = time_scale(s, w);
+  const char *name = sw_scene_wire_in(s, w)->name;
+  const double most = tolerance * system->bodies[w].plan->length, tau = time_scale(s, w);
   double drift, axial, speed, away;
   SW_TRY(look_at_nodes(s, w, &speed, &away, err));
   if (!(speed * tau <= most))
@@ -92,7 +70,7 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
     return sw_fail(err, SW_EINVAL,
                    "wire '%s' is not at rest: what holds it has gone %.3g m away; %s", name, away,
                    advice);
-  SW_TRY(sw_modal_unrest(&s->system, w, PATIENCE * tau, &drift, &axial, err));
+  SW_TRY(sw_modal_unrest(system, w, PATIENCE * tau, &drift, &axial, err));
   if (!(drift <= most))
     return sw_fail(err, SW_EINVAL,
                    "wire '%s' is not at rest: its forces would move it by about %.3g m; %s", name,
@@ -105,29 +83,30 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
 }
 
 static sw_status check_joins(const sw_scene *s, size_t w, sw_error *err) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == w && s->holds[k].cls->hold->rail)
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == w && h->cls->hold->rail)
       return sw_fail(err, SW_EINVAL,
                      "frequencies: wire '%s' slides along '%s'; only wires without rails are "
                      "looked at",
-                     s->wires[w].name, s->holds[k].name);
+                     sw_scene_wire_in(s, w)->name, h->name);
   const sw_joint *join = sw_scene_joined(s, w);
   if (!join) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "frequencies: wire '%s' is joined to others by '%s' and moves with them; only "
                  "wires without joins are looked at",
-                 s->wires[w].name, join->name);
+                 sw_scene_wire_in(s, w)->name, join->name);
 }
 
 static void hand_over(const sw_scene *s, size_t w, const sw_modes *m, size_t wanted,
                       sw_modes_result *out) {
-  const size_t n = 3 * s->system.bodies[w].plan->nodes;
+  sw_system *system = sw_scene_system(s);
+  const size_t n = 3 * system->bodies[w].plan->nodes;
   out->unstable = m->unstable;
   out->growth = m->unstable ? sqrt(-m->omega2[0]) : 0.0;
   for (size_t i = m->unstable; i < m->count && out->count < wanted; i++, out->count++) {
     out->frequencies[out->count] = sqrt(m->omega2[i]) / TWO_PI;
     if (out->shapes)
-      sw_system_shifts(&s->system, w, m->shapes + i * m->unknowns, out->shapes + out->count * n);
+      sw_system_shifts(system, w, m->shapes + i * m->unknowns, out->shapes + out->count * n);
   }
 }
 
@@ -135,17 +114,17 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
                       sw_modes_result *out, sw_error *err) {
   sw_modes modes;
   sw_error why = {""};
-  SW_TRY(sw_scene_check_line(&s->wires[w], "frequencies", err));
+  SW_TRY(sw_scene_check_line(sw_scene_wire_in(s, w), "frequencies", err));
   SW_TRY(check_joins(s, w, err));
   SW_TRY(sw_scene_linearise(s, NULL, 0, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));
   const double rate = 1.0 / (SLOWEST_GROWTH * time_scale(s, w));
-  const sw_status status =
-      sw_modal_solve(&s->system, w, (size_t)args->modes, rate * rate, interrupted, &modes, &why);
+  const sw_status status = sw_modal_solve(sw_scene_system(s), w, (size_t)args->modes, rate * rate,
+                                          interrupted, &modes, &why);
   if (status == SW_OK) hand_over(s, w, &modes, (size_t)args->modes, out);
   sw_modes_free(&modes);
   return status == SW_OK ? status
-                         : sw_fail(err, status, "wire '%s': %.400s", s->wires[w].name,
+                         : sw_fail(err, status, "wire '%s': %.400s", sw_scene_wire_in(s, w)->name,
                                    why.text[0] ? why.text : sw_status_text(status));
 }
 
@@ -157,9 +136,9 @@ sw_status sw_scene_wire_modes(sw_scene *s, sw_handle wire, const sw_modes_args *
   SW_TRY(sw_scene_readable(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
-  s->running++; /* a force may be a user's function */
+  sw_scene_enter(s, 1); /* a force may be a user's function */
   const sw_status status = find(s, wire.slot, args, interrupted, out, err);
-  s->running--;
-  sw_system_refresh(&s->system);
+  sw_scene_enter(s, -1);
+  sw_system_refresh(sw_scene_system(s));
   return status;
 }

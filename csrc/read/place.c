@@ -56,8 +56,7 @@ static sw_status twist_moment(sw_scene *s, sw_handle h, double place, double *ou
 
 static sw_status spin(sw_scene *s, sw_handle h, double place, double *out, sw_error *err) {
   sw_point_state p;
-  const sw_scene_wire *w = sw_scene_find_wire(s, h, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   if (!w->beam.rolls)
     return sw_fail(err, SW_EINVAL, "wire '%s': spin is known of wires made with rolls = true only",
                    w->name);

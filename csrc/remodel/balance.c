@@ -4,7 +4,6 @@
  * A rod and a mesh do not lie quite alike under the same forces. So the wire that takes over is
  * shifted, by micrometres, to where it is in balance with the inertia of the other one. Else it
  * would begin to swing, and the gripper would feel that. */
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -43,7 +42,7 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
   const sw_body *b = &system->bodies[wire];
   const sw_web *web = b->plan->web;
   sw_error ignored = {""};
-  double *dead = sw_alloc(5 * n, sizeof *dead);
+  double *dead SW_LOCAL = sw_alloc(5 * n, sizeof *dead);
   if (!dead) return SW_ENOMEM;
   double *v = dead + n, *a = dead + 2 * n;
   memcpy(v, system->v, n * sizeof *v);
@@ -54,16 +53,12 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
     sw_store(a + 3 * (b->first_node + i), alike ? sw_vec_at(rings, r) : sw_v(0, 0, 0));
   }
   sw_inertia_of(system, a, dead);
-  if (add_friction_of_motion(s, dead, dead + 3 * n, &ignored) != SW_OK) {
-    sw_free(dead);
-    return SW_OK;
-  }
+  if (add_friction_of_motion(s, dead, dead + 3 * n, &ignored) != SW_OK) return SW_OK;
   system->dead = dead;
   const sw_status status = balance(s, BALANCED, MOST_POSES, &ignored);
   system->dead = NULL;
   memcpy(system->v, v, n * sizeof *v);
   memcpy(system->a, a, n * sizeof *a);
-  sw_free(dead);
   return status == SW_ENOMEM || status == SW_ECALLBACK || status == SW_EINTR ? status : SW_OK;
 }
 

@@ -4,7 +4,6 @@
 #define SW_REMODEL_EXCHANGE_H
 
 #include "grip/frozen.h"
-#include "grip/tool.h"
 #include "remodel/line.h"
 #include "remodel/remodel.h"
 #include "scene/gripper.h"

@@ -169,8 +169,7 @@ static sw_status change_to_rod(sw_scene *s, const sw_exchange *x, const double *
 }
 
 static sw_status check_freeze(const sw_scene *s, const sw_tool *t, sw_handle wire, sw_error *err) {
-  const sw_scene_wire *w = sw_scene_find_wire(s, wire, err);
-  if (!w) return SW_EDEAD;
+  SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, wire, err));
   if (t->frozen)
     return sw_fail(err, SW_EINVAL, "gripper '%s' holds its wire rigidly already", t->name);
   if (!sw_scene_has_sections(w))
@@ -187,8 +186,7 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   *out = (sw_freeze_report){0};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   SW_TRY(check_freeze(s, t, wire, err));
   SW_TRY(sw_scene_build(s, err));
   sw_frozen *f = sw_alloc(1, sizeof *f);

@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/touching.h"
 #include "grip/frozen.h"
-#include "read/linear.h"
 #include "remodel/exchange.h"
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
@@ -233,19 +233,14 @@ sw_status sw_frozen_condense(sw_scene *s, const sw_tool *t, sw_frozen *f, sw_gri
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[f->wire.slot];
   const size_t n = b->plan->web->particles;
-  double *room = sw_alloc(9 * n, sizeof *room);
-  unsigned char *fixed = sw_alloc(n, 1);
-  sw_status status = SW_ENOMEM;
+  double *room SW_LOCAL = sw_alloc(9 * n, sizeof *room);
+  unsigned char *fixed SW_LOCAL = sw_alloc(n, 1);
+  if (!room || !fixed) return SW_ENOMEM;
   f->across = sw_unit_or(sw_scene_obstacle_in(s, t->pad[0].obstacle)->drive.opens, sw_v(0, 1, 0));
-  if (room && fixed) {
-    cell c = {.s = s, .wire = f->wire.slot, .web = b->plan->web, .fixed = fixed};
-    c.across = sw_rotate(f->pose.q, f->across);
-    c.x = system->x + 3 * b->first_node;
-    c.motion = room, c.push = room + 3 * n, c.inner = room + 6 * n;
-    for (int side = 0; side < 2; side++) rigid_end(&c, f, side, &ends[side]);
-    status = condense(s, t, &c, f, ends, err);
-  }
-  sw_free(room);
-  sw_free(fixed);
-  return status;
+  cell c = {.s = s, .wire = f->wire.slot, .web = b->plan->web, .fixed = fixed};
+  c.across = sw_rotate(f->pose.q, f->across);
+  c.x = system->x + 3 * b->first_node;
+  c.motion = room, c.push = room + 3 * n, c.inner = room + 6 * n;
+  for (int side = 0; side < 2; side++) rigid_end(&c, f, side, &ends[side]);
+  return condense(s, t, &c, f, ends, err);
 }

@@ -47,7 +47,7 @@ sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double
   const sw_body *b = &system->bodies[wire];
   const double *x = system->x + 3 * b->first_node, size = b->plan->length;
   double *v = system->v + 3 * b->first_node, A[6][6], y[6], now[6], column[6];
-  double *field = sw_alloc(3 * b->plan->nodes, sizeof *field);
+  double *field SW_LOCAL = sw_alloc(3 * b->plan->nodes, sizeof *field);
   if (!field) return SW_ENOMEM;
   momentum(b->plan, x, v, about, now);
   for (size_t k = 0; k < 6; k++) {
@@ -61,7 +61,6 @@ sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double
     rigid(b->plan, x, about, size, k, field);
     for (size_t i = 0; i < 3 * b->plan->nodes; i++) v[i] += y[k] * field[i];
   }
-  sw_free(field);
   return SW_OK;
 }
 

@@ -19,8 +19,8 @@
 #include "save/life.h"
 #include "scene/drive.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 
 static const sw_param rows[] = {
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0, "the model that the wire is to have"},
@@ -48,39 +48,37 @@ static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w
 
 /* The wire's living holds take hold of what it has become, each where its pose is now. */
 static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
-  unsigned char *waits = sw_alloc(s->hold_count, 1);
+  unsigned char *waits SW_LOCAL = sw_alloc(sw_scene_hold_slots(s), 1);
   if (!waits) return SW_ENOMEM;
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold *h = &s->holds[k];
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
+    sw_hold *h = sw_scene_hold_in(s, k);
     waits[k] = h->alive && h->wire == wire;
     if (waits[k]) h->alive = 0; /* where it held the wire that was is not in the others' way */
   }
-  sw_status status = SW_OK;
-  for (size_t k = 0; k < s->hold_count && status == SW_OK; k++) {
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     sw_motion_state now;
+    sw_hold *h = sw_scene_hold_in(s, k);
     if (!waits[k]) continue;
-    status = sw_drive_eval(s, &s->holds[k].drive, s->time, &now, err);
-    if (status == SW_OK) status = sw_scene_rehold(s, &s->holds[k], now.pose, err);
+    SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
+    SW_TRY(sw_scene_rehold(s, h, now.pose, err));
   }
-  sw_free(waits);
-  return status;
+  return SW_OK;
 }
 
 /* --- all of it ----------------------------------------------------------------------- */
 
 static void replace(sw_scene *s, size_t wire, sw_scene_wire *with) {
-  sw_scene_wire *w = &s->wires[wire];
+  sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh_free(&w->mesh);
   sw_strand_free(&w->strand);
   sw_free(w->twisted);
   w->cls = with->cls, w->mesh = with->mesh, w->strand = with->strand;
   w->twisted = with->twisted, w->twisted_count = with->twisted_count, w->untwisted = 0;
-  s->kept.changed = wire + 1;
-  sw_course_jump(&s->course);
+  sw_scene_forget_mesh(s, wire);
 }
 
 static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_scene_wire as = *w;
   as.cls = cls;
   if (w->mesh.rest)
@@ -92,14 +90,12 @@ static sw_status check(const sw_scene *s, size_t wire, const sw_wire_class *cls,
     return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is curved at rest", w->name);
   if (w->mesh.s[0] != 0) return sw_fail(err, SW_EINVAL, "remodel: wire '%s' has been fed", w->name);
   if (cls->mesh && sw_scene_joined(s, wire)) return sw_scene_check_line(&as, "scene:join", err);
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == wire && sw_hold_passes(&s->holds[k]))
-      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name,
-                     s->holds[k].name);
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && s->holds[k].wire == wire && s->holds[k].cls->hold->rail)
-      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name,
-                     s->holds[k].name);
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire && sw_hold_passes(h))
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' is fed by '%s'", w->name, h->name);
+  SW_EACH(hold, h, s)
+    if (h->alive && h->wire == wire && h->cls->hold->rail)
+      return sw_fail(err, SW_EINVAL, "remodel: wire '%s' slides along '%s'", w->name, h->name);
   return sw_scene_check_rules(s, wire, &as, err);
 }
 
@@ -110,7 +106,7 @@ sw_status sw_scene_replace_wire(sw_scene *s, size_t wire, sw_scene_wire *with, s
 
 static sw_status make(sw_scene *s, size_t wire, const sw_strand_plan *plan, const sw_line *l,
                       sw_scene_wire *out, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[wire];
+  const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_status status = sw_line_mesh(w, l, &out->mesh);
   if (status == SW_OK)
     status = out->cls->mesh ? becomes_mesh(plan, w, l, out, err) : sw_line_twist(l, out);
@@ -129,7 +125,7 @@ static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
   double length;
   SW_TRY(sw_scene_wire_length(s, h, &length, err));
   if (!segments && cls->mesh)
-    SW_TRY(sw_strand_slices(plan, &s->wires[h.slot].beam, length, &segments, err));
+    SW_TRY(sw_strand_slices(plan, &sw_scene_wire_in(s, h.slot)->beam, length, &segments, err));
   if (segments < 2) segments = 50;
   if (cls->mesh) SW_TRY(sw_strand_check_count(plan, segments + 1, 1, err));
   return sw_line_read(s, h, segments + 1, stations->s, out, err);
@@ -140,7 +136,7 @@ enum { USUAL_SEGMENTS = 50 }; /* of a wire that is a line, when nobody says [-] 
 static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
                              const sw_strand_plan *plan, const double *region, sw_stations *out,
                              sw_error *err) {
-  const sw_scene_wire *w = &s->wires[h.slot];
+  const sw_scene_wire *w = sw_scene_wire_in(s, h.slot);
   size_t slices;
   double length;
   SW_TRY(sw_scene_wire_length(s, h, &length, err));
@@ -209,7 +205,7 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
   const sw_wire_class *cls = sw_wire_all()[args->model];
   SW_TRY(check(s, h.slot, cls, err));
   SW_TRY(sw_scene_build(s, err));
-  const sw_strand_plan plan = sw_scene_strand_plan(&s->wires[h.slot], cls, mesh);
+  const sw_strand_plan plan = sw_scene_strand_plan(sw_scene_wire_in(s, h.slot), cls, mesh);
   sw_line l = {0};
   sw_scene_wire next = {.cls = cls};
   sw_snapshot *before = NULL;
@@ -218,7 +214,7 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
   sw_status status = region ? plan_region(s, h, args, &plan, region, &stations, err) : SW_OK;
   if (status == SW_OK) status = read_line(s, h, args, &plan, cls, &stations, &l, err);
   l.stations = &stations;
-  if (status == SW_OK && region) status = check_twist(&s->wires[h.slot], &l, err);
+  if (status == SW_OK && region) status = check_twist(sw_scene_wire_in(s, h.slot), &l, err);
   if (status == SW_OK) status = sw_scene_snapshot(s, &before, err);
   if (status == SW_OK) status = change(s, h, &plan, &l, &next, out, err);
   if (status != SW_OK && before) sw_scene_restore(s, before, &ignored);

@@ -4,7 +4,6 @@
 #define SW_REMODEL_REMODEL_H
 
 #include "edit/wires.h"
-#include "grip/tool.h"
 #include "scene/scene.h"
 
 typedef struct sw_remodel_report {

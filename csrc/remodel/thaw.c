@@ -14,6 +14,7 @@
 #include "remodel/remodel.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
+#include "scene/lookup.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/wire.h"
@@ -143,8 +144,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
   *out = (sw_freeze_report){0};
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err));
-  const sw_tool *t = sw_scene_find_tool(s, tool, err);
-  if (!t) return SW_EDEAD;
+  SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);
   f->wire = sw_scene_body_now(s, f->wire); /* others may have left */

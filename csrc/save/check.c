@@ -5,17 +5,15 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "body/hold.h"
 #include "body/touching.h"
 #include "edit/edit.h"
 #include "edit/leave.h"
-#include "edit/links.h"
 #include "grip/frozen.h"
-#include "grip/jaws.h"
 #include "link/joint.h"
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/obstacle.h"
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "scene/world.h"
@@ -61,7 +59,7 @@ static void check_wire(sw_tape *t, const sw_scene *s, size_t number) {
 /* No particle of a mesh is held twice, or does not exist. */
 static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
   const sw_web *web = s->wires[wire].strand.web;
-  unsigned char *taken = sw_alloc(web->particles, 1);
+  unsigned char *taken SW_LOCAL = sw_alloc(web->particles, 1);
   if (!taken) sw_tape_fail(t, SW_ENOMEM);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) {
     const sw_hold *h = &s->holds[k];
@@ -71,7 +69,6 @@ static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
       sw_tape_expect(t, h->particle[i] < web->particles && !taken[h->particle[i]]++,
                      "a clamp's particles");
   }
-  sw_free(taken);
 }
 
 static void check_crash(sw_tape *t, const sw_scene *s, const sw_hold *h) {
@@ -88,10 +85,9 @@ static void check_places(sw_tape *t, const sw_scene *s, const sw_hold *h) {
   for (const sw_hold *o = s->holds; o < h; o++)
     if (o->alive && o->wire == h->wire)
       sw_tape_expect(t, o->s2 < h->s1 || h->s2 < o->s1, "two clamps at one place");
-  if (!sw_hold_passes(h)) return;
-  sw_tape_expect(t, h->s1 == h->s2 && h->count == 1, "a feed");
-  sw_tape_expect(t, h->feed.size > 0 && (h->feed.outward == 1 || h->feed.outward == -1), "a feed");
-  sw_tape_expect(t, (w->mesh.rest != NULL) == (h->feed.shape.rest != NULL), "a feed");
+  const sw_link_wire on = sw_scene_link_wire(s, h->wire);
+  const int fits = !h->cls->hold->fits || h->cls->hold->fits(h, &on);
+  sw_tape_expect(t, fits, "what a clamp is like");
 }
 
 static void check_hold(sw_tape *t, const sw_scene *s, const sw_hold *h) {
@@ -186,17 +182,17 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
 void sw_tape_check_scene(sw_tape *t, sw_scene *s) {
   sw_tape_check_numbers(t, s);
   for (size_t k = 0; k < s->rule_count; k++) check_rule(t, s, &s->rules[k]);
-  for (size_t k = 0; k < s->force_count; k++) check_force(t, s, &s->forces[k]);
+  SW_EACH(force, f, s) check_force(t, s, f);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++) check_wire(t, s, w);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) check_hold(t, s, &s->holds[k]);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++)
     if (s->wires[w].strand.web) check_particles(t, s, w);
-  for (size_t k = 0; k < s->join_count; k++) check_join(t, s, &s->joins[k]);
-  for (size_t k = 0; k < s->tool_count; k++) check_tool(t, s, &s->tools[k]);
-  for (size_t k = 0; k < s->hold_count; k++) check_drive(t, s, &s->holds[k].drive);
-  for (size_t k = 0; k < s->obstacle_count; k++) check_drive(t, s, &s->obstacles[k].drive);
-  for (size_t k = 0; k < s->obstacle_count; k++)
-    sw_tape_expect(t, s->obstacles[k].log.count % SW_LOG_OBSTACLE_SIZE == 0, "an obstacle's log");
+  SW_EACH(join, j, s) check_join(t, s, j);
+  SW_EACH(tool, tool, s) check_tool(t, s, tool);
+  SW_EACH(hold, h, s) check_drive(t, s, &h->drive);
+  SW_EACH(obstacle, o, s) check_drive(t, s, &o->drive);
+  SW_EACH(obstacle, o, s)
+    sw_tape_expect(t, o->log.count % SW_LOG_OBSTACLE_SIZE == 0, "an obstacle's log");
   if (sw_tape_good(t)) check_kept(t, s);
   sw_tape_expect(t, isfinite(s->time) && sw_finite(s->gravity), "the time of a scene");
 }

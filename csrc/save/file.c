@@ -59,13 +59,11 @@ static sw_status check_functions(const sw_scene *s, sw_error *err) {
                    s->name, k + 1, f->wire < 0 ? "all wires" : "wire ",
                    f->wire < 0 ? "" : s->wires[f->wire].name);
   }
-  for (size_t k = 0; k < s->hold_count; k++)
-    SW_TRY(check_drive(s, &s->holds[k].drive, s->holds[k].name, err));
-  for (size_t k = 0; k < s->obstacle_count; k++)
-    if (s->obstacles[k].alive)
-      SW_TRY(check_drive(s, &s->obstacles[k].drive, s->obstacles[k].name, err));
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive) SW_TRY(check_drive(s, &s->tools[k].drive, s->tools[k].name, err));
+  SW_EACH(hold, h, s) SW_TRY(check_drive(s, &h->drive, h->name, err));
+  SW_EACH(obstacle, o, s)
+    if (o->alive) SW_TRY(check_drive(s, &o->drive, o->name, err));
+  SW_EACH(tool, t, s)
+    if (t->alive) SW_TRY(check_drive(s, &t->drive, t->name, err));
   return SW_OK;
 }
 

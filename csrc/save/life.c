@@ -15,9 +15,7 @@
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
-#include "scene/obstacle.h"
 #include "scene/scene.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "watch/observe.h"
 #include "watch/zone.h"
@@ -45,11 +43,11 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
 
 void sw_scene_free(sw_scene *s) {
   if (!s) return;
-  for (size_t i = 0; i < s->wire_count; i++) sw_scene_clear_body(&s->wires[i]);
-  for (size_t i = 0; i < s->force_count; i++) sw_scene_clear_force(&s->forces[i]);
-  for (size_t i = 0; i < s->hold_count; i++) sw_hold_clear(&s->holds[i]);
-  for (size_t i = 0; i < s->obstacle_count; i++) sw_scene_clear_obstacle(&s->obstacles[i]);
-  for (size_t i = 0; i < s->tool_count; i++) sw_scene_clear_tool(&s->tools[i]);
+  SW_EACH(wire, w, s) sw_scene_clear_body(w);
+  SW_EACH(force, f, s) sw_scene_clear_force(f);
+  SW_EACH(hold, h, s) sw_hold_clear(h);
+  SW_EACH(obstacle, o, s) sw_scene_clear_obstacle(o);
+  SW_EACH(tool, t, s) sw_scene_clear_tool(t);
   for (size_t i = 0; i < s->zone_count; i++) sw_scene_clear_zone(&s->zones[i]);
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->course.stepper);

@@ -90,24 +90,6 @@ void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
   DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
 }
 
-static void tape_feed(sw_tape *t, sw_feed *x) {
-  int shaped = x->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 368);
-  INT(outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed), DOUBLE(start);
-  sw_tape_motion(t, &x->motion);
-  DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
-  DOUBLE(push), DOUBLE(limit), DOUBLE(slip_way), DOUBLE(way_before);
-  sw_tape_bracket(t, &x->found, "a feed");
-  DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
-  DOUBLE(size), DOUBLE(drive);
-  sw_tape_int(t, &shaped);
-  if (shaped) sw_tape_mesh(t, &x->shape, 1);
-  if (!sw_tape_reads(t)) return;
-  const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
-                     x->slip_speed + x->slip_growth + x->slip_before + x->slope + x->size;
-  sw_tape_expect(t, isfinite(all + x->spare[0] + x->spare[1]), "a feed");
-}
-
 static void tape_give(sw_tape *t, sw_clamp_give *x) {
   SW_TAPE_STRUCT(t, sw_clamp_give, 48);
   DOUBLE(shorter), DOUBLE(softer), DOUBLE(twist), VEC(axis);
@@ -147,7 +129,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
   tape_sums(t, &x->sums);
-  tape_feed(t, &x->feed);
+  sw_tape_feed(t, &x->feed);
   if (sw_tape_good(t) && x->cls->hold->tape) x->cls->hold->tape(t, x);
   sw_tape_log(t, &x->log);
 }

@@ -62,8 +62,7 @@ void sw_snapshot_free(sw_snapshot *p) {
 static size_t size_of(const sw_scene *s) {
   const sw_live live = sw_live_of(s);
   size_t size = sw_live_size(&live) + sizeof *s + s->events.count * sizeof *s->events.list;
-  for (size_t w = 0; w < s->wire_count; w++) {
-    const sw_scene_wire *wire = &s->wires[w];
+  SW_EACH(wire, wire, s) {
     const size_t records = wire->window.marks ? (2 + wire->window.marks) * wire->window.edges : 0;
     const size_t each = wire->mesh.rest ? 17 : 7; /* doubles for a node */
     size += sizeof *wire + (each * wire->mesh.n + records) * sizeof(double);
@@ -112,8 +111,8 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
 /* Is the built system the snapshot's? A feed moves its nodes. */
 static int same_system(const sw_scene *s, const sw_snapshot *p) {
   if (!s->built || s->build != p->build || s->hold_count != p->holds) return 0;
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && sw_hold_passes(&s->holds[k])) return 0;
+  SW_EACH(hold, h, s)
+    if (h->alive && sw_hold_passes(h)) return 0;
   return s->obstacle_count == p->obstacles && s->tool_count == p->tools &&
          s->force_count == p->forces && s->join_count == p->joins && s->rule_count == p->rules &&
          s->zone_count == p->zones;

@@ -14,7 +14,6 @@
 #include "save/save.h"
 #include "scene/forces.h"
 #include "scene/obstacle.h"
-#include "scene/wire.h"
 #include "scene/world.h"
 #include "watch/observe.h"
 #include "watch/zone.h"

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 
 /* What happens again within this time is a repeat [s]; longer where steps are. */
 static const double REPEAT = 0.1;
@@ -47,33 +48,34 @@ sw_event *sw_events_go_on(sw_events *e, const char *kind, const char *object, do
 
 void sw_scene_tell(sw_scene *s, const char *kind, const char *object, double arc, double value,
                    const char *format, ...) {
+  sw_course *c = sw_scene_course(s);
   char name[SW_NAME_SIZE], word[SW_NAME_SIZE];
   copy_name(name, object);
   copy_name(word, kind);
-  sw_event *e = latest(&s->events, word, name);
-  const double soon =
-      fmax(REPEAT, s->course.has_stepper ? REPEAT_STEPS * s->course.stepper.last_h : 0.0);
-  if (e && (s->time - e->last > soon && s->events.count < SW_EVENTS_MOST)) e = NULL;
+  sw_event *e = latest(sw_scene_events_of(s), word, name);
+  const double soon = fmax(REPEAT, c->has_stepper ? REPEAT_STEPS * c->stepper.last_h : 0.0);
+  if (e && (sw_scene_time(s) - e->last > soon && sw_scene_events_of(s)->count < SW_EVENTS_MOST))
+    e = NULL;
   const int repeat = e != NULL;
-  if (!e && !(e = append(&s->events))) return;
+  if (!e && !(e = append(sw_scene_events_of(s)))) return;
   if (!repeat) {
-    *e = (sw_event){.first = s->time, .value = NAN, .s = NAN};
+    *e = (sw_event){.first = sw_scene_time(s), .value = NAN, .s = NAN};
     memcpy(e->kind, word, sizeof e->kind);
     memcpy(e->object, name, sizeof e->object);
   }
   e->count++;
-  e->last = s->time;
+  e->last = sw_scene_time(s);
   if (repeat && !(fabs(value) > fabs(e->value))) return;
-  e->time = s->time, e->s = arc, e->value = value;
+  e->time = sw_scene_time(s), e->s = arc, e->value = value;
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(e->text, sizeof e->text, format, arguments);
   va_end(arguments);
 }
 
-size_t sw_scene_events_dropped(const sw_scene *s) { return s->events.dropped; }
+size_t sw_scene_events_dropped(const sw_scene *s) { return sw_scene_events_of(s)->dropped; }
 const sw_event *sw_scene_event(const sw_scene *s, size_t k) {
-  return k < s->events.count ? &s->events.list[k] : NULL;
+  return k < sw_scene_events_of(s)->count ? &sw_scene_events_of(s)->list[k] : NULL;
 }
 
 sw_status sw_scene_book_event(sw_scene *s, const char *kind, const char *object, double arc,

@@ -7,8 +7,6 @@
 #include "base/log.h"
 #include "base/root.h"
 #include "link/hold.h"
-#include "scene/scene.h"
-#include "scene/values.h"
 
 enum { SW_TOOL_PADS = 16 }; /* most obstacles of a tool [-] */
 

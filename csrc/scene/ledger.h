@@ -6,7 +6,6 @@
 #include "base/log.h"
 #include "base/tape.h"
 #include "scene/account.h"
-#include "scene/scene.h"
 #include "system/energy.h"
 
 /* Something that can do work: a hold, or an obstacle that moves. */

@@ -3,10 +3,14 @@
  * read now. */
 #include "scene/lookup.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/halving.h"
 #include "link/joint.h"
+#include "scene/forces.h"
+#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/scene.h"
 #include "scene/wire.h"
@@ -67,19 +71,49 @@ sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err)
   return NULL;
 }
 
-sw_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
-  if (h.slot < s->hold_count && s->holds[h.slot].generation == h.generation)
-    return &s->holds[h.slot];
-  sw_fail(err, SW_EDEAD, "this clamp is not of scene '%s' any more", s->name);
+/* NULL with err: no object of that word. */
+static void *missing(const sw_scene *s, const char *word, sw_error *err) {
+  sw_fail(err, SW_EDEAD, "this %s is not of scene '%s' any more", word, s->name);
   return NULL;
 }
 
+/* The object of the handle in a list, released or not. */
+#define KNOWN(list, count, h) \
+  ((h).slot < (count) && (list)[(h).slot].generation == (h).generation ? &(list)[(h).slot] : NULL)
+
+sw_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_hold *o = KNOWN(s->holds, s->hold_count, h);
+  return o ? o : missing(s, "clamp", err);
+}
+
+sw_joint *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_joint *o = KNOWN(s->joins, s->join_count, h);
+  return o ? o : missing(s, "join", err);
+}
+
+sw_scene_force *sw_scene_find_force(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_scene_force *o = KNOWN(s->forces, s->force_count, h);
+  return o ? o : missing(s, "force", err);
+}
+
+sw_scene_obstacle *sw_scene_any_obstacle(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_scene_obstacle *o = KNOWN(s->obstacles, s->obstacle_count, h);
+  return o ? o : missing(s, "obstacle", err);
+}
+
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_error *err) {
-  if (h.slot < s->obstacle_count && s->obstacles[h.slot].generation == h.generation &&
-      s->obstacles[h.slot].alive)
-    return &s->obstacles[h.slot];
-  sw_fail(err, SW_EDEAD, "this obstacle is not of scene '%s' any more", s->name);
-  return NULL;
+  sw_scene_obstacle *o = sw_scene_any_obstacle(s, h, err);
+  return o && !o->alive ? missing(s, "obstacle", err) : o;
+}
+
+sw_tool *sw_scene_any_tool(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_tool *o = KNOWN(s->tools, s->tool_count, h);
+  return o ? o : missing(s, "gripper", err);
+}
+
+sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {
+  sw_tool *o = sw_scene_any_tool(s, h, err);
+  return o && !o->alive ? missing(s, "gripper", err) : o;
 }
 
 const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
@@ -87,20 +121,28 @@ const char *sw_scene_wire_name(const sw_scene *s, sw_handle h) {
   return w ? w->name : NULL;
 }
 
-const char *sw_scene_hold_name(const sw_scene *s, sw_handle h, const char **kind, int *held) {
-  const sw_hold *hold = sw_scene_find_hold(s, h, NULL);
-  if (!hold) return NULL;
-  *kind = hold->cls->name;
-  *held = hold->alive;
-  return hold->name;
+static sw_identity identity_of_body(const sw_scene *s, sw_handle h) {
+  double time;
+  const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
+  if (w) return (sw_identity){w->name, w->cls->name, 1};
+  return (sw_identity){.name = sw_scene_gone_name(s, h, &time)};
 }
 
-const char *sw_scene_obstacle_name(const sw_scene *s, sw_handle h, const char **kind,
-                                   int *present) {
-  if (h.slot >= s->obstacle_count || s->obstacles[h.slot].generation != h.generation) return NULL;
-  *kind = sw_shape_kind(s->obstacles[h.slot].shape);
-  *present = s->obstacles[h.slot].alive;
-  return s->obstacles[h.slot].name;
+sw_identity sw_scene_identify(const sw_scene *s, sw_kind kind, sw_handle h) {
+  const sw_hold *hold = kind == SW_OF_HOLD ? sw_scene_find_hold(s, h, NULL) : NULL;
+  const sw_joint *join = kind == SW_OF_JOIN ? sw_scene_find_join(s, h, NULL) : NULL;
+  const sw_tool *tool = kind == SW_OF_TOOL ? sw_scene_any_tool(s, h, NULL) : NULL;
+  const sw_scene_force *force = kind == SW_OF_FORCE ? sw_scene_find_force(s, h, NULL) : NULL;
+  const sw_scene_obstacle *obstacle =
+      kind == SW_OF_OBSTACLE ? sw_scene_any_obstacle(s, h, NULL) : NULL;
+  if (kind == SW_OF_BODY) return identity_of_body(s, h);
+  if (hold) return (sw_identity){hold->name, hold->cls->name, hold->alive};
+  if (join) return (sw_identity){join->name, join->cls->name, join->alive};
+  if (tool) return (sw_identity){tool->name, "gripper", tool->alive};
+  if (force) return (sw_identity){force->name, force->cls->name, force->alive};
+  if (obstacle)
+    return (sw_identity){obstacle->name, sw_shape_kind(obstacle->shape), obstacle->alive};
+  return (sw_identity){NULL, NULL, 0};
 }
 
 /* A name for an unnamed object: "wire1", "box2", ... */
@@ -120,13 +162,6 @@ sw_hold *sw_scene_living_hold(const sw_scene *s, sw_handle hold, sw_error *err) 
   return h;
 }
 
-sw_joint *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
-  if (h.slot < s->join_count && s->joins[h.slot].generation == h.generation)
-    return &s->joins[h.slot];
-  sw_fail(err, SW_EDEAD, "this join is not of scene '%s' any more", s->name);
-  return NULL;
-}
-
 sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error *err) {
   if (!w->cls->mesh) return SW_OK;
   if (sw_scene_is_loose(w))
@@ -141,4 +176,40 @@ sw_status sw_scene_check_line(const sw_scene_wire *w, const char *what, sw_error
 sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
   if (sw_scene_is_loose(w)) return SW_OK;
   return sw_scene_check_line(w, "scene:wire_contact", err);
+}
+
+/* --- bodies that have left, too ------------------------------------------------------ */
+
+const sw_scene_wire *sw_scene_numbered(const sw_scene *s, size_t number, const sw_gone **gone) {
+  size_t i; /* slots are in the order of their numbers */
+  *gone = NULL;
+  SW_FIRST_NOT(s->wires[i].number < number, i, 0, s->wire_count);
+  if (i < s->wire_count && s->wires[i].number == number) return &s->wires[i];
+  for (size_t k = 0; k < s->gone_count; k++)
+    if (s->gone[k].number == number) *gone = &s->gone[k];
+  return NULL;
+}
+
+sw_handle sw_scene_body_now(const sw_scene *s, sw_handle h) {
+  if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation) return h;
+  for (size_t k = 0; k < s->wire_count; k++)
+    if (s->wires[k].generation == h.generation) return (sw_handle){(uint32_t)k, h.generation};
+  return (sw_handle){UINT32_MAX, h.generation};
+}
+
+size_t sw_scene_body_number(const sw_scene *s, sw_handle h) {
+  const sw_handle now = sw_scene_body_now(s, h);
+  if (now.slot < s->wire_count) return s->wires[now.slot].number;
+  for (size_t k = 0; k < s->gone_count; k++)
+    if (s->gone[k].generation == h.generation) return s->gone[k].number;
+  return SIZE_MAX;
+}
+
+const char *sw_scene_gone_name(const sw_scene *s, sw_handle h, double *time) {
+  for (size_t k = 0; k < s->gone_count; k++)
+    if (s->gone[k].generation == h.generation) {
+      *time = s->gone[k].time;
+      return s->gone[k].name;
+    }
+  return NULL;
 }

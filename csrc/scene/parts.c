@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/parts.h"
 
+#include "base/alloc.h"
+#include "link/joint.h"
+#include "scene/forces.h"
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/wire.h"
@@ -18,16 +21,66 @@ sw_scene_obstacle *sw_scene_obstacle_in(const sw_scene *s, size_t slot) {
 }
 size_t sw_scene_force_slots(const sw_scene *s) { return s->force_count; }
 size_t sw_scene_join_slots(const sw_scene *s) { return s->join_count; }
+sw_scene_force *sw_scene_force_in(const sw_scene *s, size_t slot) { return &s->forces[slot]; }
+sw_joint *sw_scene_join_in(const sw_scene *s, size_t slot) { return &s->joins[slot]; }
+sw_hold *sw_scene_held_by(const sw_scene *s, size_t k) { return &s->holds[s->hold_slot[k]]; }
 size_t sw_scene_bodies_made(const sw_scene *s) { return s->wire_count + s->gone_count; }
 
 sw_contact *sw_scene_contact(const sw_scene *s) { return s->contact; }
 sw_pairs *sw_scene_pairs(const sw_scene *s) { return s->pairs; }
 sw_grains *sw_scene_grains(const sw_scene *s) { return s->grains; }
+sw_crowd *sw_scene_crowd(const sw_scene *s) { return s->crowd; }
+int sw_scene_is_built(const sw_scene *s) { return s->built; }
+int sw_scene_wears(const sw_scene *s) { return s->wears; }
 
 /* What hangs on a scene may be changed by those that only look at the scene, as the lists may. */
 sw_system *sw_scene_system(const sw_scene *s) { return (sw_system *)&s->system; }
 sw_course *sw_scene_course(const sw_scene *s) { return (sw_course *)&s->course; }
 sw_books *sw_scene_books(const sw_scene *s) { return (sw_books *)&s->books; }
 sw_events *sw_scene_events_of(const sw_scene *s) { return (sw_events *)&s->events; }
+sw_hold_load *sw_scene_hold_loads(const sw_scene *s) { return s->hold_loads; }
+sw_log *sw_scene_contact_steps(const sw_scene *s) { return (sw_log *)&s->contact_steps; }
+sw_extreme *sw_scene_penetrated(const sw_scene *s) { return (sw_extreme *)&s->deepest; }
+
+void sw_scene_set_time(sw_scene *s, double time) { s->time = time; }
+int sw_scene_begin_look(sw_scene *s) {
+  const int running = s->running;
+  s->running = 0, s->looking = 1;
+  return running;
+}
+void sw_scene_end_look(sw_scene *s, int running) { s->running = running, s->looking = 0; }
+void sw_scene_go_part(sw_scene *s, const sw_pose *from, double share) {
+  s->part_from = from, s->part = share;
+}
+void sw_scene_renumber(sw_scene *s) { s->build = ++s->builds; }
+void sw_scene_forget_mesh(sw_scene *s, size_t wire) {
+  s->kept.changed = wire + 1;
+  sw_course_jump(&s->course);
+}
+void sw_scene_unmake_body(sw_scene *s) { s->wire_count--; }
+uint32_t sw_scene_number(sw_scene *s) { return ++s->serial; }
+
+#define ADD(type, list, count, capacity)                                         \
+  do {                                                                           \
+    SW_TRY(sw_grow((void **)&(list), &(capacity), (count) + 1, sizeof *(list))); \
+    (list)[count] = *(const type *)object;                                       \
+    (list)[count].generation = ++s->serial;                                      \
+    *out = (sw_handle){(uint32_t)(count)++, s->serial};                          \
+  } while (0)
+
+sw_status sw_scene_add(sw_scene *s, sw_kind kind, const void *object, sw_handle *out) {
+  switch (kind) {
+    case SW_OF_BODY: ADD(sw_scene_wire, s->wires, s->wire_count, s->wire_capacity); break;
+    case SW_OF_HOLD: ADD(sw_hold, s->holds, s->hold_count, s->hold_capacity); break;
+    case SW_OF_OBSTACLE:
+      ADD(sw_scene_obstacle, s->obstacles, s->obstacle_count, s->obstacle_capacity);
+      break;
+    case SW_OF_TOOL: ADD(sw_tool, s->tools, s->tool_count, s->tool_capacity); break;
+    case SW_OF_FORCE: ADD(sw_scene_force, s->forces, s->force_count, s->force_capacity); break;
+    case SW_OF_JOIN: ADD(sw_joint, s->joins, s->join_count, s->join_capacity); break;
+    case SW_OF_NONE: return SW_EINVAL;
+  }
+  return SW_OK;
+}
 
 void sw_scene_enter(sw_scene *s, int more) { s->running += more; }

@@ -35,12 +35,25 @@ sw_status sw_scene_readable(const sw_scene *scene, sw_error *err);
 
 /* --- names ------------------------------------------------------------------ */
 
-/* NULL when the scene does not know the object any more. kind: "clamp", "box", ...;
- * held, present: 0 once released or removed. */
+/* Kinds of objects. A body is a wire or an object of particles. */
+typedef enum sw_kind {
+  SW_OF_NONE,
+  SW_OF_BODY,
+  SW_OF_HOLD,
+  SW_OF_OBSTACLE,
+  SW_OF_TOOL,
+  SW_OF_FORCE,
+  SW_OF_JOIN
+} sw_kind;
+
+typedef struct sw_identity {
+  const char *name; /* NULL: the scene does not know the object any more */
+  const char *kind; /* "clamp", "box", "rod", ...; NULL of a body that was taken away */
+  int alive;        /* 0 once released or taken away */
+} sw_identity;
+sw_identity sw_scene_identify(const sw_scene *scene, sw_kind kind, sw_handle object);
+/* NULL when the scene does not have it any more. */
 const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
-const char *sw_scene_hold_name(const sw_scene *scene, sw_handle hold, const char **kind, int *held);
-const char *sw_scene_obstacle_name(const sw_scene *scene, sw_handle obstacle, const char **kind,
-                                   int *present);
 
 /* --- forces ----------------------------------------------------------------- */
 

@@ -131,11 +131,8 @@ sw_status sw_hull_triangles(const char *object, const double *points, size_t n, 
                             size_t *triangle_count, sw_error *err) {
   *indices = NULL;
   *triangle_count = 0;
-  double *unit = sw_alloc(3 * n, sizeof *unit);
+  double *unit SW_LOCAL = sw_alloc(3 * n, sizeof *unit);
   if (!unit) return sw_fail(err, SW_ENOMEM, "%s: out of memory", object);
   const double largest = to_unit(points, n, unit);
-  const sw_status status =
-      largest > 0 ? run(object, unit, n, indices, triangle_count, err) : flat(object, err);
-  sw_free(unit);
-  return status;
+  return largest > 0 ? run(object, unit, n, indices, triangle_count, err) : flat(object, err);
 }

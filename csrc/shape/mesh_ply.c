@@ -3,6 +3,7 @@
  * after the other, as words or as bytes. A property is a value, or a count and as many values. */
 #include "shape/mesh_ply.h"
 
+#include "base/each.h"
 #include "shape/mesh_words.h"
 
 enum { MOST_ELEMENTS = 16, MOST_PROPERTIES = 64 };
@@ -154,8 +155,7 @@ sw_status sw_mesh_check_ply(const sw_mesh_file *file, sw_error *err) {
                    "%s: data is not readable as ply: its header is cut off or damaged; write the "
                    "file anew",
                    file->object);
-  for (int k = 0; k < h.element_count; k++) {
-    const element *e = &h.elements[k];
+  SW_ITEMS(const element, e, h.elements, h.element_count) {
     const size_t whole = whole_items(&h, e, &from);
     if (whole < e->count)
       return sw_fail(err, SW_EFORMAT,

@@ -4,7 +4,6 @@
 #define SW_SHAPE_MESH_WORDS_H
 
 #include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
 typedef struct sw_words {

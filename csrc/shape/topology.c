@@ -171,15 +171,13 @@ sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *er
   const size_t sides = 3 * mesh->triangle_count;
   size_t twisted = 0;
   sw_status status = SW_ENOMEM;
-  half_edge *halves = sw_alloc(sides, sizeof *halves);
+  half_edge *halves SW_LOCAL = sw_alloc(sides, sizeof *halves);
   mesh->sides = sw_alloc(sides, sizeof *mesh->sides);
-  size_t *first = sw_alloc(mesh->vertex_count + 1, sizeof *first);
+  size_t *first SW_LOCAL = sw_alloc(mesh->vertex_count + 1, sizeof *first);
   if (halves && first && mesh->sides) {
     status = list_sides(mesh, halves, first);
     if (status == SW_OK) status = fill(mesh, halves, &twisted);
   }
-  sw_free(first);
-  sw_free(halves);
   SW_TRY(status);
   if (twisted > 0)
     return sw_fail(err, SW_EINVAL,

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/clear.h"
+#include "base/halving.h"
 #include "solve/blocks_tree.h"
 
 enum { BLOCK = 9 };
@@ -66,18 +67,15 @@ static void unite(size_t nodes, uint32_t *first, uint32_t *column) {
 }
 
 static sw_status find_pattern(sw_blocks_sparse *s, const sw_blocks_pair *pairs, size_t count) {
-  uint32_t *work = sw_alloc(s->nodes + 1 + count, sizeof *work);
+  uint32_t *work SW_LOCAL = sw_alloc(s->nodes + 1 + count, sizeof *work);
   s->first = sw_alloc(s->nodes + 1, sizeof *s->first);
   s->column = sw_alloc(count + s->nodes, sizeof *s->column);
-  const sw_status status = work && s->first && s->column ? SW_OK : SW_ENOMEM;
-  if (status == SW_OK) {
-    uint32_t *order = work + s->nodes + 1;
-    sort_by_column(s->nodes, pairs, count, work, order);
-    sort_by_row(s->nodes, pairs, count, order, s->first, s->column);
-    unite(s->nodes, s->first, s->column);
-  }
-  sw_free(work);
-  return status;
+  if (!work || !s->first || !s->column) return SW_ENOMEM;
+  uint32_t *order = work + s->nodes + 1;
+  sort_by_column(s->nodes, pairs, count, work, order);
+  sort_by_row(s->nodes, pairs, count, order, s->first, s->column);
+  unite(s->nodes, s->first, s->column);
+  return SW_OK;
 }
 
 /* The blocks below each node's own one. */
@@ -125,15 +123,9 @@ sw_status sw_blocks_sparse_new(size_t nodes, const sw_blocks_pair *pairs, size_t
 
 size_t sw_blocks_sparse_slot(const sw_blocks_sparse *s, size_t i, size_t j) {
   if (i >= s->nodes) return SIZE_MAX;
-  uint32_t low = s->first[i], high = s->first[i + 1];
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (s->column[middle] < j)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < s->first[i + 1] && s->column[low] == j ? BLOCK * (size_t)low : SIZE_MAX;
+  size_t at;
+  SW_FIRST_NOT(s->column[at] < j, at, s->first[i], s->first[i + 1]);
+  return at < s->first[i + 1] && s->column[at] == j ? BLOCK * at : SIZE_MAX;
 }
 
 void sw_blocks_sparse_clear(sw_blocks_sparse *s) {

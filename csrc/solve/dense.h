@@ -21,4 +21,9 @@ int sw_dense_least(double *a, size_t n, double *b, double least);
 enum { SW_DENSE_IN_ORDER, SW_DENSE_SWAPS };
 size_t sw_dense_eliminate(double *a, size_t n, double *b, int swaps);
 
+/* Of a symmetric positive a: solve a x = b (n) in place: b becomes x, and a (n x n, row by row, of
+ * which the lower half counts) its factor. 0: a is not positive, b is undefined. Nothing is
+ * allocated. */
+int sw_cholesky_solve(double *a, size_t n, double *b);
+
 #endif

@@ -42,3 +42,13 @@ int sw_dense_least(double *a, size_t n, double *b, double least) {
   gsl_set_error_handler(before);
   return solved && is_finite(b, n);
 }
+
+int sw_cholesky_solve(double *a, size_t n, double *b) {
+  gsl_matrix_view A = gsl_matrix_view_array(a, n, n);
+  gsl_vector_view x = gsl_vector_view_array(b, n);
+  gsl_error_handler_t *before = gsl_set_error_handler_off(); /* else it ends the program */
+  const int solved = gsl_linalg_cholesky_decomp1(&A.matrix) == GSL_SUCCESS &&
+                     gsl_linalg_cholesky_svx(&A.matrix, &x.vector) == GSL_SUCCESS;
+  gsl_set_error_handler(before);
+  return solved;
+}

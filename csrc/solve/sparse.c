@@ -4,10 +4,10 @@
  * through these lists. */
 #include "solve/sparse.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "solve/blocks.h"
@@ -112,15 +112,9 @@ static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
 }
 
 static uint32_t find_slot(const sw_sparse *s, uint32_t column, uint32_t row) {
-  uint32_t low = s->start[column], high = s->start[column + 1];
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (s->row[middle] <= row)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(s->row[after] <= row, after, s->start[column] + 1, s->start[column + 1]);
+  return after - 1;
 }
 
 /* Where the product of rows a < b of each column goes, in the order in which the
@@ -168,11 +162,10 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
 /* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
  * transposed. */
 static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
-  sw_blocks_pair *same = sw_alloc(count, sizeof *same);
+  sw_blocks_pair *same SW_LOCAL = sw_alloc(count, sizeof *same);
   if (!same) return SW_ENOMEM;
   for (size_t k = 0; k < count; k++) same[k] = (sw_blocks_pair){pairs[k].i, pairs[k].j};
   const sw_status status = sw_blocks_new_sparse(s->n, same, count, &s->fronts);
-  sw_free(same);
   for (size_t k = 0; k < count && status == SW_OK; k++) {
     const uint32_t i = pairs[k].i, j = pairs[k].j;
     const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);

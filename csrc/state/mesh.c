@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "state/hinge.h"
 
 enum { ARRAYS = 12, PLAIN = 6 }; /* the later ones with frames only */
@@ -104,15 +105,9 @@ sw_status sw_mesh_along(sw_mesh *m, const double *points, size_t count, size_t s
 }
 
 size_t sw_mesh_node(const sw_mesh *m, double s) {
-  size_t low = 0, high = m->n - 1;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (m->s[middle] < s)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  size_t i;
+  SW_FIRST_NOT(m->s[i] < s, i, 0, m->n - 1);
+  return i;
 }
 
 static sw_vec tangent_of(const sw_mesh *m, const double *nodes, size_t i) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 
 sw_plan *sw_plan_retain(sw_plan *plan) {
   if (plan) plan->references++;
@@ -110,15 +111,9 @@ static void set_mass(sw_plan *p, size_t i) {
 }
 
 size_t sw_plan_first(const sw_plan *p, double s) {
-  size_t low = 0, high = p->nodes;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (p->s[middle] < s)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  size_t i;
+  SW_FIRST_NOT(p->s[i] < s, i, 0, p->nodes);
+  return i;
 }
 
 static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
@@ -256,19 +251,15 @@ sw_status sw_plan_add_rest(sw_plan *plan) {
 
 size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
   const size_t *first = plan->web ? plan->web->first : NULL;
-  size_t low = 0, high = plan->web ? plan->web->rings - 1 : plan->edges;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (plan->s[first ? first[middle] : middle] <= s)
-      low = middle;
-    else
-      high = middle;
-  }
-  const double from = plan->s[first ? first[low] : low];
-  const double apart = plan->s[first ? first[low + 1] : low + 1] - from;
+  size_t after;
+  const size_t to = plan->web ? plan->web->rings - 1 : plan->edges;
+  SW_FIRST_NOT(plan->s[first ? first[after] : after] <= s, after, 1, to);
+  const size_t at = after - 1;
+  const double from = plan->s[first ? first[at] : at];
+  const double apart = plan->s[first ? first[at + 1] : at + 1] - from;
   /* not of the rest length, which beside a feed is longer than the arc by what it holds back */
   *fraction = fmin(1.0, fmax(0.0, (s - from) / apart));
-  return low;
+  return at;
 }
 
 size_t sw_plan_shape(const sw_plan *p, const sw_web_solid *e) {

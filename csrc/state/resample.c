@@ -242,7 +242,7 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
                            size_t held_count, sw_mesh *out) {
   resample p = {.old = from, .out = out, .held = held, .held_count = held_count};
   SW_TRY(sw_mesh_like(from, count, out));
-  double *block = sw_alloc(4 * count + 2 * from->n, sizeof *block);
+  double *block SW_LOCAL = sw_alloc(4 * count + 2 * from->n, sizeof *block);
   if (!block) {
     sw_mesh_free(out);
     return SW_ENOMEM;
@@ -265,6 +265,5 @@ sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, c
   give_strains(&p);
   give_rates(&p);
   if (from->rest) give_frames(&p);
-  sw_free(block);
   return SW_OK;
 }

@@ -2,6 +2,7 @@
 #include "state/state_tape.h"
 
 #include "base/alloc.h"
+#include "base/each.h"
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)
 #define INT(field) sw_tape_int(t, &x->field)
@@ -154,8 +155,7 @@ static int are_parts(const sw_web *w) {
     const uint32_t node[3] = {w->fold[i].a, w->fold[i].b, w->fold[i].c};
     if (!is_part(w, node, 3)) return 0;
   }
-  for (size_t i = 0; i < w->solids; i++) {
-    const sw_web_solid *s = &w->solid[i];
+  SW_ITEMS(const sw_web_solid, s, w->solid, w->solids) {
     if ((s->count != 6 && s->count != 8) || s->shape >= w->shape_count || !w->shapes) return 0;
     if (w->clamped_shapes >= w->shape_count - s->shape) return 0;
     if (!is_part(w, s->node, s->count)) return 0;

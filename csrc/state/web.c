@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
+#include "base/halving.h"
 
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out) {
   sw_web *w = sw_alloc(1, sizeof *w);
@@ -50,7 +52,8 @@ sw_status sw_web_add_surface(sw_web *w) {
   sw_free(w->side);
   w->side = sw_alloc(2 * w->particles, sizeof *w->side);
   if (!w->side) return SW_ENOMEM;
-  uint32_t *next = sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
+  uint32_t *next SW_LOCAL =
+      sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
   if (!next) return SW_ENOMEM;
   for (size_t i = 0; i < w->per_ring; i++) next[i] = (uint32_t)i;
   for (size_t k = 0; k < n; k++) next[w->around[k]] = w->around[(k + 1) % n];
@@ -67,24 +70,17 @@ sw_status sw_web_add_surface(sw_web *w) {
         w->side[count++] = (uint32_t)(w->first[r + 1] + i);
     }
   w->side_first[w->particles] = count;
-  sw_free(next);
   return SW_OK;
 }
 
 size_t sw_web_ring_of(const sw_web *w, size_t particle) {
-  size_t low = 0, high = w->rings;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (w->first[middle] <= particle)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(w->first[after] <= particle, after, 1, w->rings);
+  return after - 1;
 }
 
 sw_status sw_web_bound_rate(sw_web *w) {
-  double *sum = sw_alloc(w->particles, sizeof *sum);
+  double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
   for (size_t e = 0; e < w->links; e++) {
     sum[w->link[e].a] += w->link[e].k;
@@ -95,16 +91,14 @@ sw_status sw_web_bound_rate(sw_web *w) {
     w->rate2 = fmax(w->rate2, 2.0 * sum[p] / w->mass[p]);
     w->behind[p] += sum[p];
   }
-  sw_free(sum);
   return SW_OK;
 }
 
 /* Along, the force on one edge has the other's distance as its lever. */
 sw_status sw_web_bound_slides(sw_web *w) {
-  double *sum = sw_alloc(w->particles, sizeof *sum);
+  double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
-  for (size_t i = 0; i < w->slides; i++) {
-    const sw_web_slide *s = &w->slide[i];
+  SW_ITEMS(const sw_web_slide, s, w->slide, w->slides) {
     const double h = fabs(w->s[s->node[1]] - w->s[s->node[0]]), lever = 0.5 * s->apart / h;
     const double along = w->friction > 0 ? s->stick * (0.5 + lever) * (2.0 + 4.0 * lever) : 0.0;
     for (int k = 0; k < SW_SLIDE_NODES; k++) sum[s->node[k]] += fmax(s->press, along);
@@ -112,7 +106,6 @@ sw_status sw_web_bound_slides(sw_web *w) {
   w->slide_rate2 = 0;
   for (size_t p = 0; p < w->particles; p++)
     w->slide_rate2 = fmax(w->slide_rate2, sum[p] / w->mass[p]);
-  sw_free(sum);
   return SW_OK;
 }
 

@@ -4,12 +4,14 @@
 
 #include "body/hold.h"
 #include "body/touching.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "step/believe.h"
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/restart.h"
 #include "step/run.h"
+#include "system/system.h"
 #include "watch/observe.h"
 
 /* So many parts of less than this share of their step in the mean are no way to go on: the
@@ -20,26 +22,28 @@ static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
 void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_scene *s = p->s;
-  sw_stepper_accept(&s->course.stepper, &s->system, h);
-  s->system.judged = s->course.stepper.trial_x;
+  sw_course *c = sw_scene_course(s);
+  sw_system *system = sw_scene_system(s);
+  sw_stepper_accept(&c->stepper, system, h);
+  system->judged = c->stepper.trial_x;
   sw_scene_commit_contact(s);
   sw_restart_taken(s);
-  s->course.span = h;
-  if (s->course.method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
+  c->span = h;
+  if (c->method->flags & SW_INTEGRATOR_NO_CONTACT) sw_scene_remark_contact(s);
   p->changed = 0;
   p->report->steps++;
   if (h < p->report->smallest_dt) p->report->smallest_dt = h;
-  s->time = t;
+  sw_scene_set_time(s, t);
 }
 
 /* A part h of a step that was to be whole is taken. SW_ELIMIT: steps have collapsed. */
 static sw_status count_small(sw_ladder *p, double h, double whole, sw_error *err) {
   const int adaptive = isfinite(p->args->tolerance);
   const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;
-  p->s->course.covered += h / whole;
-  if (++p->s->course.parts < most) return SW_OK;
-  const double share = p->s->course.covered / (double)most;
-  p->s->course.parts = 0, p->s->course.covered = 0;
+  sw_scene_course(p->s)->covered += h / whole;
+  if (++sw_scene_course(p->s)->parts < most) return SW_OK;
+  const double share = sw_scene_course(p->s)->covered / (double)most;
+  sw_scene_course(p->s)->parts = 0, sw_scene_course(p->s)->covered = 0;
   if (share >= (adaptive ? SMALL_ADAPTIVE : SMALL)) return SW_OK;
   return sw_fail(
       err, SW_ELIMIT,
@@ -56,6 +60,7 @@ sw_status sw_step_observe(sw_scene *s, sw_error *err) {
 sw_status sw_ladder_record(sw_ladder *p, double h, sw_error *err) {
   SW_TRY(sw_step_observe(p->s, err));
   if (sw_ledger_close(p->s) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for the energy of scene '%s'", p->s->name);
+    return sw_fail(err, SW_ENOMEM, "out of memory for the energy of scene '%s'",
+                   sw_scene_name(p->s));
   return count_small(p, h, p->args->dt, err);
 }

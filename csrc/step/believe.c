@@ -109,8 +109,7 @@ static int is_torn(const sw_solid *shape, const sw_web_solid *e, const double *x
 static sw_status check_web(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
   const sw_plan *plan = sw_scene_system(s)->bodies[wire].plan;
   const sw_web *web = plan->web;
-  for (size_t e = 0; e < web->links; e++) {
-    const sw_web_link *link = &web->link[e];
+  SW_ITEMS(const sw_web_link, link, web->link, web->links) {
     const double most = (1.0 + LARGEST_STRAIN) * link->rest;
     if (!(sw_dist(sw_vec_at(x, link->a), sw_vec_at(x, link->b)) <= most))
       return torn(s, wire, link->a, link->b, err);

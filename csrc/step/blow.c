@@ -43,8 +43,8 @@ void sw_blow_refused(sw_scene *s, double part) {
 
 /* Nodes that go into a guide press on what is beside it by no blow. */
 static int any_feed(const sw_scene *s) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
-    if (sw_scene_hold_in(s, k)->alive && sw_hold_passes(sw_scene_hold_in(s, k))) return 1;
+  SW_EACH(hold, h, s)
+    if (h->alive && sw_hold_passes(h)) return 1;
   return 0;
 }
 

@@ -4,7 +4,8 @@
 #include <math.h>
 
 #include "base/quota.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/ladder.h"
@@ -12,12 +13,12 @@
 
 sw_status sw_step_empty(sw_ladder *p, double t1, sw_error *err) {
   sw_scene *s = p->s;
-  const double h = t1 - s->time;
+  const double h = t1 - sw_scene_time(s);
   SW_TRY(sw_quota_take(err));
   SW_TRY(sw_ledger_open(s, err));
   (void)sw_jaw_begin(s, h); /* there is nothing whose force could be too much */
-  s->time = t1;
-  s->course.span = h;
+  sw_scene_set_time(s, t1);
+  sw_scene_course(s)->span = h;
   p->report->steps++;
   p->report->smallest_dt = fmin(p->report->smallest_dt, h);
   SW_TRY(sw_step_observe(s, err));

@@ -26,8 +26,8 @@ enum { MOST_NUDGES = 2 };
 
 double sw_rest_longest(const sw_scene *s) {
   double length = 0;
-  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
-    const sw_mesh *m = &sw_scene_wire_in(s, w)->mesh;
+  SW_EACH(wire, wire, s) {
+    const sw_mesh *m = &wire->mesh;
     length = fmax(length, m->s[m->n - 1] - m->s[0]);
   }
   return length;
@@ -44,8 +44,7 @@ static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_sc
  * is. Is it further than its own size away from where it was? */
 static int thrown(const sw_statics *p) {
   const sw_system *s = sw_scene_system(p->s);
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     const double size = body->plan->length + 2.0 * body->plan->beam.radius;
     double least = HUGE_VAL;
     for (size_t i = 0; body->plan->web && i < body->plan->nodes; i++) {
@@ -155,8 +154,7 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
 static void nudge(sw_statics *p, int number) {
   sw_system *s = sw_scene_system(p->s);
   const double size = NUDGE * sw_rest_longest(p->s);
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     for (size_t i = 0; i < body->plan->nodes; i++) {
       if (body->plan->held[i] != SW_FREE) continue;
       const double u = body->plan->s[i] / body->plan->length + 0.3 * number;

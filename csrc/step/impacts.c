@@ -5,9 +5,11 @@
 
 #include "body/touching.h"
 #include "force/force.h"
-#include "scene/world.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "step/blow.h"
 #include "step/restart.h"
+#include "system/system.h"
 
 /* Rebounds closer than this share of a step are one [-]. */
 static const double SAME_TIME = 1.0 / 1024;
@@ -24,8 +26,9 @@ static double shortest_cut(const sw_ladder *p) {
 /* Where wires come at each other fast enough to meet within the step, it is tried at once in the
  * way in which steps are redone that struck. 1: it is, for that alone. */
 static int begin_dully(const sw_ladder *p, double h) {
-  sw_stepper *stepper = &p->s->course.stepper;
-  if (!(p->s->course.method->flags & SW_INTEGRATOR_IMPLICIT) || stepper->plastic) return 0;
+  sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
+  if (!(sw_scene_course(p->s)->method->flags & SW_INTEGRATOR_IMPLICIT) || stepper->plastic)
+    return 0;
   return stepper->plastic = sw_scene_expects_strike(p->s, h);
 }
 
@@ -38,30 +41,32 @@ static int was_mistaken(const sw_scene *s, sw_contact_verdict verdict) {
 /* One step of size h, redone as long as contact finds impacts. */
 sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
+  sw_contact *contact = sw_scene_contact(s);
+  sw_course *c = sw_scene_course(s);
+  sw_system *system = sw_scene_system(s);
   p->soonest = 0;
   sw_restart_try(p);
   if (!sw_scene_has_contact(s)) return sw_rung_go(p, below, h, err);
-  memcpy(p->v_start, s->system.v, s->system.freedoms * sizeof(double));
+  memcpy(p->v_start, system->v, system->freedoms * sizeof(double));
   sw_status status = sw_scene_begin_contact(
-      s,
-      s->course.method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
-      s->time, h, sw_blow_part(s, p->args->dt), err);
-  if (s->contact) sw_contact_cut(s->contact, shortest_cut(p));
+      s, c->method->flags & SW_INTEGRATOR_IMPLICIT ? SW_CONTACT_IMPLICIT : SW_CONTACT_EXPLICIT,
+      sw_scene_time(s), h, sw_blow_part(s, p->args->dt), err);
+  if (contact) sw_contact_cut(contact, shortest_cut(p));
   int expected = status == SW_OK && begin_dully(p, h);
   for (int redo = 0; status == SW_OK && redo < MOST_REDOS; redo++) {
     status = sw_rung_go(p, below, h, err);
     if (status != SW_OK) break;
     const sw_contact_verdict verdict =
-        sw_scene_review_contact(s, s->course.stepper.trial_x, s->course.stepper.trial_v, h);
+        sw_scene_review_contact(s, c->stepper.trial_x, c->stepper.trial_v, h);
     const int mistaken = expected && was_mistaken(s, verdict);
     if (verdict == SW_CONTACT_ACCEPT && !mistaken) return SW_OK;
-    sw_stepper_reject(&s->course.stepper, &s->system);
+    sw_stepper_reject(&c->stepper, system);
     if (mistaken) {
-      s->course.stepper.plastic = expected = 0;
+      c->stepper.plastic = expected = 0;
       continue;
     }
     if (verdict == SW_CONTACT_SOONER) {
-      p->soonest = sw_contact_soonest(s->contact);
+      p->soonest = sw_contact_soonest(contact);
       status = sw_fail(err, SW_ENOCONV, "something rebounds within the step");
       break;
     }
@@ -69,7 +74,7 @@ sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error 
       status = sw_fail(err, SW_ENOCONV, "what the wire touches cuts too deep into it");
     sw_restart_struck(s, verdict == SW_CONTACT_STRIKE);
   }
-  memcpy(s->system.v, p->v_start, s->system.freedoms * sizeof(double));
+  memcpy(system->v, p->v_start, system->freedoms * sizeof(double));
   return status != SW_OK ? status
                          : sw_fail(err, SW_ENOCONV, "impacts do not come to an end in one step");
 }

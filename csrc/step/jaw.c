@@ -9,8 +9,8 @@
 
 #include "grip/jaws.h"
 #include "scene/gripper.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "step/obey.h"
 
 static const double PRECISION = 1e-3;    /* of the force wanted [-] */
@@ -62,9 +62,8 @@ static void begin(sw_jaw *j, double since, double step) {
 
 int sw_jaw_begin(sw_scene *s, double h) {
   int any = 0;
-  for (size_t k = 0; k < s->tool_count; k++) {
-    const sw_tool *t = &s->tools[k];
-    begin(&s->tools[k].jaw, s->time, works(t) ? h : 0.0);
+  SW_EACH(tool, t, s) {
+    begin(&t->jaw, sw_scene_time(s), works(t) ? h : 0.0);
     any |= works(t) && yields(&t->jaw);
   }
   return any;
@@ -78,15 +77,15 @@ static const double WIDEST_STEP = 0.25, LEFT = 0.25, LEAST = 0.05;
 /* How long jaws take for that at their highest speed [s]. */
 static double longest_step(const sw_scene *s, const sw_jaw *j) {
   double radius = HUGE_VAL;
-  for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
+  SW_EACH(wire, wire, s) radius = fmin(radius, wire->beam.radius);
   const double width = fmax(LEAST * radius, fmin(radius, LEFT * j->opening));
   return WIDEST_STEP * width / j->most;
 }
 
 double sw_jaw_step(const sw_scene *s, double h) {
-  for (size_t k = 0; k < s->tool_count; k++) {
-    const sw_jaw *j = &s->tools[k].jaw;
-    if (works(&s->tools[k]) && yields(j) && j->status != SW_JAW_HOLDS && j->most > 0)
+  SW_EACH(tool, t, s) {
+    const sw_jaw *j = &t->jaw;
+    if (works(t) && yields(j) && j->status != SW_JAW_HOLDS && j->most > 0)
       h = fmin(h, longest_step(s, j));
   }
   return h;
@@ -94,12 +93,11 @@ double sw_jaw_step(const sw_scene *s, double h) {
 
 int sw_jaw_begin_rest(sw_scene *s) {
   int any = 0;
-  for (size_t k = 0; k < s->tool_count; k++) {
-    const sw_tool *t = &s->tools[k];
-    sw_jaw *j = &s->tools[k].jaw;
+  SW_EACH(tool, t, s) {
+    sw_jaw *j = &t->jaw;
     const int obeys = works(t) && yields(j) && j->status == SW_JAW_HOLDS && j->most > 0;
     const double step = obeys ? longest_step(s, j) : 0.0;
-    begin(j, s->time - step, step);
+    begin(j, sw_scene_time(s) - step, step);
     any |= obeys;
   }
   return any;
@@ -107,11 +105,11 @@ int sw_jaw_begin_rest(sw_scene *s) {
 
 int sw_jaw_end_rest(sw_scene *s, int went_well) {
   int more = 0;
-  for (size_t k = 0; k < s->tool_count; k++) {
-    sw_jaw *j = &s->tools[k].jaw;
+  SW_EACH(tool, t, s) {
+    sw_jaw *j = &t->jaw;
     if (!(j->step > 0)) continue;
     more |= fabs(j->speed) >= j->most && went_well;
-    if (!went_well) j->since = s->time;
+    if (!went_well) j->since = sw_scene_time(s);
   }
   return more;
 }
@@ -168,17 +166,17 @@ static int correct(sw_scene *s, sw_tool *t, int rests) {
 
 int sw_jaw_correct(sw_scene *s, int rests) {
   int good = 1;
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (obeys(&s->tools[k])) good &= correct(s, &s->tools[k], rests);
+  SW_EACH(tool, t, s)
+    if (obeys(t)) good &= correct(s, t, rests);
   return good;
 }
 
 double sw_jaw_off(sw_scene *s) {
   double most = 0;
-  for (size_t k = 0; k < s->tool_count; k++) {
-    const sw_jaw *j = &s->tools[k].jaw;
-    if (!obeys(&s->tools[k])) continue;
-    const double force = sw_tool_squeeze(s, &s->tools[k], j->since + j->step);
+  SW_EACH(tool, t, s) {
+    const sw_jaw *j = &t->jaw;
+    if (!obeys(t)) continue;
+    const double force = sw_tool_squeeze(s, t, j->since + j->step);
     most = fmax(most, fabs(force / j->force - 1.0));
   }
   return most;
@@ -193,21 +191,21 @@ static double time_left(const sw_jaw *j) {
 static int looks_on(sw_scene *s, const sw_tool *t) {
   const sw_jaw *j = &t->jaw;
   if (!obeys(t) || j->mode != SW_JAW_FORCE || !(time_left(j) > 0)) return 0;
-  const double off = sw_tool_squeeze(s, t, s->time) - j->force;
-  return fabs(off) > PRECISION * j->force && (off > 0 || sw_jaw_at(j, s->time) > 0);
+  const double off = sw_tool_squeeze(s, t, sw_scene_time(s)) - j->force;
+  return fabs(off) > PRECISION * j->force && (off > 0 || sw_jaw_at(j, sw_scene_time(s)) > 0);
 }
 
 int sw_jaw_again(sw_scene *s) {
   int again = 0;
-  for (size_t k = 0; k < s->tool_count; k++) again |= looks_on(s, &s->tools[k]);
-  for (size_t k = 0; again && k < s->tool_count; k++) {
-    sw_tool *t = &s->tools[k];
+  SW_EACH(tool, t, s) again |= looks_on(s, t);
+  for (size_t k = 0; again && k < sw_scene_tool_slots(s); k++) {
+    sw_tool *t = sw_scene_tool_in(s, k);
     sw_jaw *j = &t->jaw;
     const double left = obeys(t) && j->mode == SW_JAW_FORCE ? time_left(j) : 0.0;
     if (!works(t)) continue;
-    j->now = sw_tool_squeeze(s, t, s->time);
-    j->opening = fmax(0.0, sw_jaw_at(j, s->time));
-    begin(j, s->time - left, left);
+    j->now = sw_tool_squeeze(s, t, sw_scene_time(s));
+    j->opening = fmax(0.0, sw_jaw_at(j, sw_scene_time(s)));
+    begin(j, sw_scene_time(s) - left, left);
   }
   return again;
 }
@@ -237,11 +235,11 @@ static const double TELLING = 0.05;
 static void follow(sw_scene *s, sw_tool *t) {
   sw_jaw *j = &t->jaw;
   const double before = j->opening, force = j->now;
-  const double end = sw_jaw_at(j, s->time);
+  const double end = sw_jaw_at(j, sw_scene_time(s));
   const int there = j->mode == SW_JAW_TO && fabs(end - j->goal) < SAME_OPENING;
   j->opening = there ? j->goal : fmax(0.0, end);
-  j->since = s->time;
-  j->now = sw_tool_squeeze(s, t, s->time);
+  j->since = sw_scene_time(s);
+  j->now = sw_tool_squeeze(s, t, sw_scene_time(s));
   const double k = (j->now - force) / (before - j->opening);
   const int tells =
       force > 0 && fabs(j->now - force) > TELLING * j->force && fabs(before - j->opening) > TELLS;
@@ -251,11 +249,11 @@ static void follow(sw_scene *s, sw_tool *t) {
 }
 
 void sw_jaw_follow(sw_scene *s) {
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && s->tools[k].frozen)
-      s->tools[k].jaw.since = s->time;
-    else if (s->tools[k].alive)
-      follow(s, &s->tools[k]);
+  SW_EACH(tool, t, s)
+    if (t->alive && t->frozen)
+      t->jaw.since = sw_scene_time(s);
+    else if (t->alive)
+      follow(s, t);
 }
 
 /* --- the rung --------------------------------------------------------------------- */

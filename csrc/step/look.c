@@ -3,7 +3,7 @@
 #include <math.h>
 #include <time.h>
 
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/run.h"
 
 double sw_wall_clock(void) {
@@ -13,12 +13,11 @@ double sw_wall_clock(void) {
 }
 
 sw_status sw_scene_look(sw_scene *s, sw_observer *observer, double slack, sw_error *err) {
-  const int due = s->time >= observer->at - slack ||
+  const int due = sw_scene_time(s) >= observer->at - slack ||
                   (isfinite(observer->wall) && sw_wall_clock() >= observer->wall);
   if (!due) return SW_OK;
-  const int running = s->running;
-  s->running = 0, s->looking = 1;
+  const int running = sw_scene_begin_look(s);
   const sw_status status = observer->look(observer, err);
-  s->running = running, s->looking = 0;
+  sw_scene_end_look(s, running);
   return status;
 }

@@ -16,8 +16,7 @@ double sw_passing_of(const sw_scene *s, const double *x) {
   double most = 0;
   for (size_t w = 0; sw_scene_force_slots(s) && w < system->body_count; w++) {
     const sw_body *b = &system->bodies[w];
-    for (size_t k = 0; k < b->term_count; k++) {
-      const sw_term *term = &b->terms[k];
+    SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       if (!term->cls->oversteps) continue;
       sw_field now = b->field; /* its own places may be those of a trial that is gone */
       now.x = system->x + 3 * b->first_node;

@@ -8,8 +8,7 @@
 #include "edit/edit.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/wire.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/rest.h"
@@ -32,17 +31,18 @@ static void drop(kept *k) {
 }
 
 static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
-  k->jaws = sw_alloc(s->tool_count, sizeof *k->jaws);
+  k->jaws = sw_alloc(sw_scene_tool_slots(s), sizeof *k->jaws);
   const sw_status status = k->jaws ? sw_live_take(s, &k->live) : SW_ENOMEM;
-  for (size_t i = 0; status == SW_OK && i < s->tool_count; i++) k->jaws[i] = s->tools[i].jaw;
+  for (size_t i = 0; status == SW_OK && i < sw_scene_tool_slots(s); i++)
+    k->jaws[i] = sw_scene_tool_in(s, i)->jaw;
   if (status == SW_OK) return SW_OK;
   drop(k);
-  return sw_fail(err, status, "scene '%s': out of memory", s->name);
+  return sw_fail(err, status, "scene '%s': out of memory", sw_scene_name(s));
 }
 
 static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
-  s->time = t0;
-  for (size_t i = 0; i < s->tool_count; i++) s->tools[i].jaw = k->jaws[i];
+  sw_scene_set_time(s, t0);
+  for (size_t i = 0; i < sw_scene_tool_slots(s); i++) sw_scene_tool_in(s, i)->jaw = k->jaws[i];
   return sw_live_back(s, &k->live, err);
 }
 
@@ -56,19 +56,19 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   sw_settle_args args = {.tolerance = 1e-9, .max_iterations = 4000};
   sw_settle_report rest = {0};
   sw_error why;
-  const double t0 = s->time;
+  const double t0 = sw_scene_time(s);
   int (*const interrupted)(void) = how->interrupted;
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
-  s->time = t1;
+  sw_scene_set_time(s, t1);
   const sw_status status =
       squeezes ? sw_scene_squeezed_rest(s, t0, tells, &args, interrupted, &rest, err)
                : sw_scene_rest(s, t0, tells, &args, interrupted, &rest, err);
   report->iterations += rest.iterations;
   if (status != SW_OK) {
-    s->time = t0;
+    sw_scene_set_time(s, t0);
     const int helps = too_far || (squeezes && status == SW_ENOCONV); /* jaws then go less far */
     if (!helps || !halvings) return status;
     SW_TRY(pose(s, 0.5 * (t0 + t1), halvings - 1, how, report, err));
@@ -77,7 +77,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     return pose(s, t1, halvings - 1, how, report, err);
   }
   if (start->jaws && t1 - t0 > how->shortest &&
-      sw_scene_check_ties(s, s->system.x, &why) != SW_OK) {
+      sw_scene_check_ties(s, sw_scene_system(s)->x, &why) != SW_OK) {
     SW_TRY(put_back(s, start, t0, err));
     drop(start);
     return pose(s, 0.5 * (t0 + t1), halvings, how, report, err);
@@ -106,10 +106,11 @@ static const double WIDEST_SHIFT = 0.5;
 
 /* How far from its centre a tool presses [m]. */
 static double reach_of(const sw_scene *s, const sw_tool *t) {
+  sw_contact *contact = sw_scene_contact(s);
   double reach = 0;
-  for (size_t i = 0; s->contact && i < sw_contact_touches(s->contact); i++) {
+  for (size_t i = 0; contact && i < sw_contact_touches(contact); i++) {
     sw_contact_push push;
-    if (!sw_contact_push_at(s->contact, &s->system, i, &push)) continue;
+    if (!sw_contact_push_at(contact, sw_scene_system(s), i, &push)) continue;
     for (size_t k = 0; k < t->pads; k++)
       if (t->pad[k].obstacle == (size_t)push.obstacle)
         reach = fmax(reach, sw_dist(push.point, t->now.centre));
@@ -124,10 +125,10 @@ enum { MOST_CUTS = 60 }; /* of a step, by motions that start slowly and end fast
 static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
                               sw_error *err) {
   sw_motion_state from, to;
-  SW_TRY(sw_drive_eval(s, &t->drive, s->time, &from, err));
+  SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s), &from, err));
   const double reach = reach_of(s, t);
   for (int cut = 0; cut < MOST_CUTS; cut++) {
-    SW_TRY(sw_drive_eval(s, &t->drive, s->time + *h, &to, err));
+    SW_TRY(sw_drive_eval(s, &t->drive, sw_scene_time(s) + *h, &to, err));
     const sw_quat turned = sw_quat_mul(to.pose.q, sw_quat_conj(from.pose.q));
     const double shift = sw_dist(from.pose.p, to.pose.p) + reach * sw_norm(sw_quat_log(turned));
     if (!(shift > most)) break;
@@ -137,15 +138,15 @@ static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double
 }
 
 sw_status sw_scene_cut_pose(sw_scene *s, double *t1, int *cut, sw_error *err) {
-  const double whole = *t1 - s->time;
+  const double whole = *t1 - sw_scene_time(s);
   double radius = HUGE_VAL, h = whole;
-  for (size_t w = 0; w < s->wire_count; w++) radius = fmin(radius, s->wires[w].beam.radius);
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && !s->tools[k].frozen && s->tools[k].jaw.now > 0)
-      SW_TRY(carried_step(s, &s->tools[k], WIDEST_SHIFT * radius, &h, err));
+  SW_EACH(wire, wire, s) radius = fmin(radius, wire->beam.radius);
+  SW_EACH(tool, t, s)
+    if (t->alive && !t->frozen && t->jaw.now > 0)
+      SW_TRY(carried_step(s, t, WIDEST_SHIFT * radius, &h, err));
   h = sw_jaw_step(s, h);
   *cut = h < whole * (1 - 1e-9);
-  if (*cut) *t1 = s->time + h;
+  if (*cut) *t1 = sw_scene_time(s) + h;
   return SW_OK;
 }
 

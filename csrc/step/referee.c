@@ -5,14 +5,15 @@
 
 #include "body/hold.h"
 #include "body/touching.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/reading.h"
+#include "scene/course.h"
 #include "scene/gripper.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "step/energy.h"
 #include "system/join.h"
+#include "system/system.h"
 
 /* A step of this size may make so much of the kinetic energy, of the weight times the radius and of
  * the work, by the errors of the method and of the work's quadrature [s], [-]. */
@@ -36,14 +37,17 @@ static const double IN_FLIGHT = 0.01;
 static const double EACH_IN_FLIGHT = 2e-4;
 
 int sw_ledger_lumped(const sw_scene *s) {
-  return s->course.has_stepper && !(s->course.method->flags & SW_INTEGRATOR_IMPLICIT);
+  sw_course *c = sw_scene_course(s);
+  return c->has_stepper && !(c->method->flags & SW_INTEGRATOR_IMPLICIT);
 }
 
 /* Stored between bodies and obstacles. */
 double sw_ledger_contact(sw_scene *s) {
+  sw_crowd *crowd = sw_scene_crowd(s);
+  sw_system *system = sw_scene_system(s);
   double sum = sw_scene_has_contact(s) ? sw_scene_contact_energy(s) : 0.0;
-  if (s->crowd) sum += sw_crowd_energy(s->crowd, &s->system);
-  if (s->system.joins) sum += sw_joins_energy(&s->system);
+  if (crowd) sum += sw_crowd_energy(crowd, system);
+  if (system->joins) sum += sw_joins_energy(system);
   return sum;
 }
 
@@ -64,70 +68,78 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
 }
 
 static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
-  const sw_books *b = &s->books;
+  sw_grains *grains = sw_scene_grains(s);
+  sw_pairs *pairs = sw_scene_pairs(s);
+  sw_contact *contact = sw_scene_contact(s);
+  const sw_books *b = sw_scene_books(s);
   size_t impacts = 0;
   step->touching = sw_scene_touches(s) > 0;
-  if (s->contact) {
-    impacts += sw_contact_impacts(s->contact);
-    step->friction += sw_contact_rubbed(s->contact);
-    step->steady &= sw_contact_steady(s->contact);
-    step->obstacles += sw_contact_struck(s->contact);
-    step->let_out = sw_contact_hardened(s->contact);
-    if (sw_contact_emerges(s->contact))
-      step->let_out += sw_contact_emerged(s->contact) +
-                       b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(s->gravity));
+  if (contact) {
+    impacts += sw_contact_impacts(contact);
+    step->friction += sw_contact_rubbed(contact);
+    step->steady &= sw_contact_steady(contact);
+    step->obstacles += sw_contact_struck(contact);
+    step->let_out = sw_contact_hardened(contact);
+    if (sw_contact_emerges(contact))
+      step->let_out += sw_contact_emerged(contact) +
+                       b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(sw_scene_gravity(s)));
   }
-  if (s->pairs) {
-    impacts += sw_pairs_impacts(s->pairs);
-    step->friction += sw_pairs_rubbed(s->pairs);
-    step->let_out += sw_pairs_emerged(s->pairs);
-    step->steady &= sw_pairs_steady(s->pairs);
+  if (pairs) {
+    impacts += sw_pairs_impacts(pairs);
+    step->friction += sw_pairs_rubbed(pairs);
+    step->let_out += sw_pairs_emerged(pairs);
+    step->steady &= sw_pairs_steady(pairs);
   }
-  if (s->grains) {
-    impacts += sw_grains_impacts(s->grains);
-    step->friction += sw_grains_rubbed(s->grains);
-    step->let_out += sw_grains_emerged(s->grains);
-    step->steady &= sw_grains_steady(s->grains);
+  if (grains) {
+    impacts += sw_grains_impacts(grains);
+    step->friction += sw_grains_rubbed(grains);
+    step->let_out += sw_grains_emerged(grains);
+    step->steady &= sw_grains_steady(grains);
   }
   if (impacts) /* these changed the velocities at the step's start */
-    step->impact =
-        s->books.now.kinetic + step->obstacles - sw_system_kinetic(&s->system, sw_ledger_lumped(s));
+    step->impact = sw_scene_books(s)->now.kinetic + step->obstacles -
+                   sw_system_kinetic(sw_scene_system(s), sw_ledger_lumped(s));
 }
 
 /* Where the scene was changed, what moves may have begun to do so at once. Its forces within the
  * step are not known then; the most that they may give to wires. */
 static double jolt(const sw_scene *s, const sw_step_energy *step) {
+  sw_books *b = sw_scene_books(s);
+  sw_system *system = sw_scene_system(s);
   double fastest = 0;
-  for (size_t k = 0; k < s->system.hold_count; k++) {
-    const sw_hold *h = &s->holds[s->hold_slot[k]];
-    const double fed = sw_hold_passes(h) ? fabs(sw_hold_way_of(s, h, s->time, NULL).speed) : 0.0;
-    const sw_hold_state *at = &s->system.hold_states[k];
-    fastest = fmax(fastest, sw_norm(at->v) + fed + sw_norm(at->omega) * s->books.longest);
+  for (size_t k = 0; k < system->hold_count; k++) {
+    const sw_hold *h = sw_scene_held_by(s, k);
+    const double fed =
+        sw_hold_passes(h) ? fabs(sw_hold_way_of(s, h, sw_scene_time(s), NULL).speed) : 0.0;
+    const sw_hold_state *at = &system->hold_states[k];
+    fastest = fmax(fastest, sw_norm(at->v) + fed + sw_norm(at->omega) * b->longest);
   }
-  if (step->obstacles != 0) fastest = fmax(fastest, sw_contact_fastest(s->contact));
-  if (s->books.put) return HUGE_VAL;
-  return fastest > 0 ? s->books.mass * fastest * fastest + step->work : 0.0;
+  if (step->obstacles != 0) fastest = fmax(fastest, sw_contact_fastest(sw_scene_contact(s)));
+  if (b->put) return HUGE_VAL;
+  return fastest > 0 ? b->mass * fastest * fastest + step->work : 0.0;
 }
 
 /* Pads are as soft as the wire, and share their force out among the places that touch. The
  * energy stored there jumps when a place comes or goes, though the wire does nothing. */
 static int has_pads(const sw_scene *s) {
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (s->tools[k].alive && s->tools[k].pads && !s->tools[k].frozen) return 1;
+  SW_EACH(tool, t, s)
+    if (t->alive && t->pads && !t->frozen) return 1;
   return 0;
 }
 
 /* Explicit methods have last looked at what touches before or within the step. */
 static sw_status look_at_end(sw_scene *s, double t1, sw_error *err) {
-  sw_system *y = &s->system;
+  sw_system *y = sw_scene_system(s);
   SW_TRY(sw_system_place_holds(y, t1, NULL, NULL, NULL, err));
   if (!y->coupling.eval) return SW_OK;
-  return y->coupling.eval(y->coupling.user, y, t1, HUGE_VAL, s->course.stepper.trial_x,
+  return y->coupling.eval(y->coupling.user, y, t1, HUGE_VAL, sw_scene_course(s)->stepper.trial_x,
                           SW_WANT_FORCE, err);
 }
 
 sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_error *err) {
-  sw_books *b = &s->books;
+  sw_course *c = sw_scene_course(s);
+  sw_system *system = sw_scene_system(s);
+  sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   sw_glance glance;
   sw_status status = SW_OK;
@@ -135,14 +147,14 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (sw_ledger_lumped(s)) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
-  sw_system_look_at(&s->system, &glance, s->course.stepper.trial_x, s->course.stepper.trial_v,
-                    s->course.stepper.strain_rate);
-  sw_system_energies(&s->system, sw_ledger_lumped(s), &step->to);
+  sw_system_look_at(system, &glance, c->stepper.trial_x, c->stepper.trial_v,
+                    c->stepper.strain_rate);
+  sw_system_energies(system, sw_ledger_lumped(s), &step->to);
   step->contact = sw_ledger_contact(s);
   step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
   most += sw_ledger_work(s, t1, changed);
-  if (b->has_powers) status = sw_system_powers(&s->system, t1, &step->powers, err);
-  sw_system_look_back(&s->system, &glance);
+  if (b->has_powers) status = sw_system_powers(system, t1, &step->powers, err);
+  sw_system_look_back(system, &glance);
   judge_outer_forces(b, h, &most);
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   const double before = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
@@ -154,7 +166,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
 }
 
 int sw_ledger_referees(const sw_scene *s) {
-  return !sw_ledger_lumped(s) && !(s->course.method->flags & SW_INTEGRATOR_NO_CONTACT);
+  return !sw_ledger_lumped(s) && !(sw_scene_course(s)->method->flags & SW_INTEGRATOR_NO_CONTACT);
 }
 
 /* What a full step may make besides: less once steps have made more [J]. */
@@ -166,7 +178,7 @@ static double usual_gain(const sw_books *b) {
 }
 
 double sw_ledger_excess(const sw_scene *s, double h, double whole) {
-  const sw_books *b = &s->books;
+  const sw_books *b = sw_scene_books(s);
   const sw_step_energy *step = &b->step;
   if (!sw_ledger_referees(s) || b->sums.accepted.count >= MOST_ACCEPTED) return 0.0;
   const double share = fmin(1.0, h / FULL_STEP);
@@ -186,11 +198,11 @@ double sw_ledger_excess(const sw_scene *s, double h, double whole) {
 
 /* The node whose kinetic energy grew most in the trial. */
 static size_t fastest_gain(const sw_scene *s) {
-  const double *v0 = s->system.v, *v1 = s->course.stepper.trial_v;
+  sw_system *system = sw_scene_system(s);
+  const double *v0 = system->v, *v1 = sw_scene_course(s)->stepper.trial_v;
   double largest = -HUGE_VAL;
   size_t node = 0;
-  for (size_t b = 0; b < s->system.body_count; b++) {
-    const sw_body *body = &s->system.bodies[b];
+  SW_ITEMS(const sw_body, body, system->bodies, system->body_count) {
     for (size_t i = 0; i < body->plan->nodes; i++) {
       const size_t at = body->first_node + i;
       const double more =
@@ -204,11 +216,12 @@ static size_t fastest_gain(const sw_scene *s) {
 }
 
 void sw_ledger_retry(const sw_scene *s, sw_retries *r, double time, double excess) {
+  sw_system *system = sw_scene_system(s);
   r->count++;
   if (!(excess > r->largest)) return;
-  const size_t node = fastest_gain(s), body = sw_system_body_of(&s->system, node);
-  const sw_body *b = &s->system.bodies[body];
+  const size_t node = fastest_gain(s), body = sw_system_body_of(system, node);
+  const sw_body *b = &system->bodies[body];
   r->largest = excess, r->time = time;
   r->s = sw_plan_place(b->plan, node - b->first_node);
-  snprintf(r->object, sizeof r->object, "%s", s->wires[body].name);
+  snprintf(r->object, sizeof r->object, "%s", sw_scene_wire_in(s, body)->name);
 }

@@ -8,9 +8,11 @@
 
 #include "base/alloc.h"
 #include "body/live.h"
+#include "scene/course.h"
 #include "scene/obstacle.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/statics.h"
+#include "system/system.h"
 
 /* Wires that rub follow their holds to the next pose without going far, or they jump: which
  * continuation finds sooner than many more updates that would take them far [-]. */
@@ -26,7 +28,7 @@ static const double PASSING = 1e-4;
 
 /* Where the holds are as the state's wires know them. */
 static void find_from_poses(sw_statics *p) {
-  const sw_system *s = &p->s->system;
+  const sw_system *s = sw_scene_system(p->s);
   for (size_t i = s->held_count; i-- > 0;) {
     const sw_held_node *h = &s->held[i];
     const double *q = s->turn + 4 * h->hold;
@@ -56,9 +58,10 @@ static double widest_mesh(const sw_system *s) {
  * from the hold shift by more as the hold turns [m]. */
 static sw_status count_parts(sw_statics *p, double lever, double longest_shift, size_t *parts,
                              sw_error *err) {
-  sw_system *s = &p->s->system;
+  sw_system *s = sw_scene_system(p->s);
   double most = 0;
-  SW_TRY(sw_system_place_holds(s, p->s->time, NULL, NULL, NULL, err)); /* feeds move nodes */
+  SW_TRY(
+      sw_system_place_holds(s, sw_scene_time(p->s), NULL, NULL, NULL, err)); /* feeds move nodes */
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
     const double turn = sw_norm(sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->q))));
@@ -72,25 +75,24 @@ static sw_status count_parts(sw_statics *p, double lever, double longest_shift, 
 static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   sw_status status = SW_OK;
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
-    p->s->part_from = i < parts ? p->from_poses : NULL;
-    p->s->part = (double)i / (double)parts;
+    sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     p->passing = i < parts ? PASSING : 0.0;
     status = sw_rest_find(p, err);
     if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
   }
-  p->s->part_from = NULL;
+  sw_scene_go_part(p->s, NULL, 1);
   p->passing = 0;
   return status;
 }
 
 /* Is the rest of the wires independent of their past? */
 static int forgets(const sw_scene *s) {
-  if (s->pairs || s->crowd || s->grains) return 0;
-  for (size_t o = 0; o < s->obstacle_count; o++)
-    if (s->obstacles[o].alive && fmax(s->obstacles[o].friction, s->obstacles[o].kinetic) > 0)
-      return 0;
-  for (size_t b = 0; b < s->system.body_count; b++)
-    if (s->system.bodies[b].plan->web) return 0;
+  sw_system *system = sw_scene_system(s);
+  if (sw_scene_pairs(s) || sw_scene_crowd(s) || sw_scene_grains(s)) return 0;
+  SW_EACH(obstacle, obstacle, s)
+    if (obstacle->alive && fmax(obstacle->friction, obstacle->kinetic) > 0) return 0;
+  for (size_t b = 0; b < system->body_count; b++)
+    if (system->bodies[b].plan->web) return 0;
   return 1;
 }
 
@@ -103,13 +105,12 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
   sw_status status = sw_live_take(p->s, &start);
   *done = 0;
   for (size_t i = 1; status == SW_OK && i <= parts; i++) {
-    p->s->part_from = i < parts ? p->from_poses : NULL;
-    p->s->part = (double)i / (double)parts;
+    sw_scene_go_part(p->s, i < parts ? p->from_poses : NULL, (double)i / (double)parts);
     status = sw_rest_newton(p, SW_REST_ITERATIONS, &why);
     if (status == SW_OK && p->report->negative > 0) status = SW_ENOCONV;
     if (status == SW_OK && p->interrupted && p->interrupted()) status = SW_EINTR;
   }
-  p->s->part_from = NULL;
+  sw_scene_go_part(p->s, NULL, 1);
   *done = status == SW_OK;
   if (sw_rest_stops(status)) sw_fail(err, status, "%s", why.text);
   if (!*done && !sw_rest_stops(status)) {
@@ -122,7 +123,7 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
 
 /* How far the holds went, a turn counting as what it does to half a wire. */
 static double drive_shift(const sw_statics *p) {
-  const sw_system *s = &p->s->system;
+  const sw_system *s = sw_scene_system(p->s);
   double largest = 0;
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_pose *from = &p->from_poses[k], *to = &s->hold_states[k].pose;
@@ -138,17 +139,17 @@ static double drive_shift(const sw_statics *p) {
 static sw_status follow_holds(sw_statics *p, sw_error *err) {
   size_t parts, more, fewer;
   int done = 0;
-  p->edge = shortest_edge(&p->s->system);
+  p->edge = shortest_edge(sw_scene_system(p->s));
   const double edge = LONGEST_PART * p->edge;
   SW_TRY(count_parts(p, 0.0, edge, &parts, err));
-  const int poses = p->touched != p->s->time;
+  const int poses = p->touched != sw_scene_time(p->s);
   if (poses && !forgets(p->s) && drive_shift(p) > 0) p->most_far = FAR_IN_POSES;
   SW_TRY(count_parts(p, 0.0, fmax(edge, LONG_PART * sw_rest_longest(p->s)), &fewer, err));
   if (fewer < parts && forgets(p->s)) SW_TRY(follow_fast(p, fewer, &done, err));
   if (done) return SW_OK;
   const sw_status status = follow_in(p, parts, err);
   if (status != SW_ENOCONV) return status;
-  SW_TRY(count_parts(p, widest_mesh(&p->s->system), edge, &more, err));
+  SW_TRY(count_parts(p, widest_mesh(sw_scene_system(p->s)), edge, &more, err));
   if (more <= parts) return status;
   sw_rest_take_back(p->s, p->begun);
   return follow_in(p, more, err);
@@ -160,7 +161,7 @@ static const double JUMP = 4.0;           /* largest shift over the drives' own 
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
 
 static double largest_shift_since(const sw_statics *p) {
-  const sw_system *s = &p->s->system;
+  const sw_system *s = sw_scene_system(p->s);
   double largest = 0;
   for (size_t i = 0; i < s->nodes; i++)
     largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(p->begun, i)));
@@ -169,14 +170,12 @@ static double largest_shift_since(const sw_statics *p) {
 
 sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle_args *args,
                         int (*interrupted)(void), sw_settle_report *report, sw_error *why) {
-  const size_t n = s->system.freedoms, size = s->system.state_size;
-  double *block = sw_alloc(4 * n + s->system.edges + 2 * size, sizeof *block);
-  sw_pose *poses = sw_alloc(s->system.hold_count, sizeof *poses);
-  if (!block || !poses) {
-    sw_free(block);
-    sw_free(poses);
-    return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  }
+  sw_system *system = sw_scene_system(s);
+  const size_t n = system->freedoms, size = system->state_size;
+  double *block SW_LOCAL = sw_alloc(4 * n + system->edges + 2 * size, sizeof *block);
+  sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
+  if (!block || !poses)
+    return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_statics p = {.s = s,
                   .args = args,
                   .report = report,
@@ -185,13 +184,13 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
                   .too_far = too_far};
   p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
   p.tension = block + 4 * n;
-  p.kept = p.tension + s->system.edges, p.begun = p.kept + size;
+  p.kept = p.tension + system->edges, p.begun = p.kept + size;
   p.from_poses = poses;
   find_from_poses(&p);
   sw_rest_put_aside(s, p.begun);
-  s->system.still = 1;
+  system->still = 1;
   const sw_status status = follow_holds(&p, why);
-  s->system.still = 0;
+  system->still = 0;
   if (status == SW_OK) {
     const double shift = largest_shift_since(&p);
     report->jumped = report->transient && shift > SMALLEST_JUMP * sw_rest_longest(s) &&
@@ -199,14 +198,12 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }
-  sw_course_jump(&s->course);
-  sw_free(block);
-  sw_free(poses);
+  sw_course_jump(sw_scene_course(s));
   return status;
 }
 
 sw_status sw_scene_balance(sw_scene *s, double tolerance, long most, sw_error *err) {
   const sw_settle_args args = {.tolerance = tolerance, .max_iterations = most};
   sw_settle_report report = {0};
-  return sw_scene_rest(s, s->time, NULL, &args, NULL, &report, err);
+  return sw_scene_rest(s, sw_scene_time(s), NULL, &args, NULL, &report, err);
 }

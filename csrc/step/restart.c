@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "step/restart.h"
 
-#include <math.h>
-
 #include "contact/contact.h"
-#include "grip/jaws.h"
 #include "link/hold.h"
+#include "scene/course.h"
 #include "scene/gripper.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 
 /* --- jerks ----------------------------------------------------------------------- */
 
@@ -29,7 +27,7 @@ static int drive_jerks(sw_scene *s, const sw_drive *d) {
   sw_motion_state one, two;
   sw_error ignored;
   if (!d->motion || sw_motion_is_function(d->motion)) return 0;
-  const double t = s->time - d->start;
+  const double t = sw_scene_time(s) - d->start;
   if (sw_motion_eval(d->motion, t - BESIDE, &one, &ignored) != SW_OK ||
       sw_motion_eval(d->motion, t + BESIDE, &two, &ignored) != SW_OK)
     return 0;
@@ -37,62 +35,67 @@ static int drive_jerks(sw_scene *s, const sw_drive *d) {
 }
 
 static int jerks(sw_scene *s) {
-  for (size_t k = 0; k < s->hold_count; k++)
-    if (s->holds[k].alive && !s->holds[k].drive.tool && drive_jerks(s, &s->holds[k].drive))
-      return 1;
-  for (size_t k = 0; k < s->tool_count; k++)
-    if (drive_jerks(s, &s->tools[k].drive)) return 1;
+  SW_EACH(hold, h, s)
+    if (h->alive && !h->drive.tool && drive_jerks(s, &h->drive)) return 1;
+  SW_EACH(tool, t, s)
+    if (drive_jerks(s, &t->drive)) return 1;
   return 0;
 }
 
 void sw_restart_at_jerk(sw_scene *s) {
-  s->course.jerks = jerks(s);
-  if (s->course.jerks) s->course.stepper.restart = 1;
+  sw_course *c = sw_scene_course(s);
+  c->jerks = jerks(s);
+  if (c->jerks) c->stepper.restart = 1;
 }
 
 /* --- tries ------------------------------------------------------------------------ */
 
-int sw_restart_changed(const sw_scene *s) { return s->course.next > 0; }
+int sw_restart_changed(const sw_scene *s) { return sw_scene_course(s)->next > 0; }
 
 void sw_restart_try(sw_ladder *p) {
-  sw_stepper *stepper = &p->s->course.stepper;
+  sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
   if (sw_restart_changed(p->s) || p->redo == SW_BY_START) stepper->restart = 1;
   stepper->plastic = p->redo == SW_DULLY;
 }
 
 void sw_restart_struck(sw_scene *s, int dull) {
-  if (dull) s->course.stepper.plastic = 1;
-  s->course.stepper.restart = 1;
+  sw_course *c = sw_scene_course(s);
+  if (dull) c->stepper.plastic = 1;
+  c->stepper.restart = 1;
 }
 
 /* Accelerations at a step's end may be those of a shock that is over: the next step starts without
  * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
  * of its error. */
 static int is_shaken(const sw_scene *s) {
-  const sw_stepper *stepper = &s->course.stepper;
-  if (!s->contact || stepper->wants_error || stepper->start == stepper->method) return 0;
-  return sw_contact_shaken(s->contact, &s->system);
+  sw_contact *contact = sw_scene_contact(s);
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
+  if (!contact || stepper->wants_error || stepper->start == stepper->method) return 0;
+  return sw_contact_shaken(contact, sw_scene_system(s));
 }
 
 void sw_restart_taken(sw_scene *s) {
-  if (is_shaken(s)) s->course.stepper.restart = 1;
-  s->course.next = SW_AS_BEFORE;
+  sw_course *c = sw_scene_course(s);
+  if (is_shaken(s)) c->stepper.restart = 1;
+  c->next = SW_AS_BEFORE;
 }
 
 void sw_restart_refused(sw_ladder *p, int cut) {
-  if (!p->smooth && !cut) sw_course_jump(&p->s->course);
+  if (!p->smooth && !cut) sw_course_jump(sw_scene_course(p->s));
 }
 
 /* --- steppers and systems that are new ones ------------------------------------------ */
 
 void sw_restart_stepper(sw_scene *s) {
-  if (s->course.next == SW_GOES_ON) s->course.stepper.restart = 0;
+  sw_course *c = sw_scene_course(s);
+  if (c->next == SW_GOES_ON) c->stepper.restart = 0;
 }
 
 int sw_restart_pending(const sw_scene *s) {
-  return sw_restart_changed(s) || s->course.stepper.restart;
+  return sw_restart_changed(s) || sw_scene_course(s)->stepper.restart;
 }
 
 void sw_restart_resume(sw_scene *s, int pending) {
-  s->course.next = s->course.stepper.restart = pending;
+  sw_course *c = sw_scene_course(s);
+  c->next = c->stepper.restart = pending;
 }

@@ -6,12 +6,10 @@
 
 #include "base/alloc.h"
 #include "body/build.h"
-#include "body/hold.h"
 #include "body/touching.h"
 #include "grip/jaws.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
-#include "read/linear.h"
 #include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/wire.h"

@@ -6,9 +6,11 @@
 #include "body/join.h"
 #include "link/hold.h"
 #include "link/joint.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "step/slip.h"
+#include "system/system.h"
 
 static const char *const *integrator_names(void) {
   static const char *names[32];
@@ -63,8 +65,7 @@ __attribute__((constructor)) static void fill_choices(void) {
 
 /* What a wire slides along sticks, and has ends. */
 static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error *err) {
-  for (size_t k = 0; k < s->hold_count; k++) {
-    const sw_hold *h = &s->holds[k];
+  SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->rail) continue;
     const int jumps = h->slider.friction > 0 || isfinite(h->slider.to - h->slider.from);
     if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || (jumps && m->flags & SW_INTEGRATOR_NO_CONTACT))
@@ -78,18 +79,18 @@ static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error
 
 sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err) {
   const sw_integrator *m = sw_integrator_all()[args->integrator];
-  if (!s->wire_count && !s->gone_count)
-    return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", s->name);
-  for (size_t w = 0; w < s->wire_count; w++)
-    if (s->wires[w].beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
+  if (!sw_scene_bodies_made(s))
+    return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", sw_scene_name(s));
+  SW_EACH(wire, wire, s)
+    if (wire->beam.framed && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
       return sw_fail(
           err, SW_EINVAL,
           "scene:run: integrator '%s' is explicit; wire '%s', which is curved at rest, has two "
           "values of EI or rolls, needs an implicit one",
-          m->name, s->wires[w].name);
+          m->name, wire->name);
   if (!args->quasistatic) SW_TRY(check_rails(s, m, err));
   const sw_joint *join = NULL;
-  for (size_t w = 0; w < s->wire_count && !join; w++) join = sw_scene_joined(s, w);
+  for (size_t w = 0; w < sw_scene_wire_slots(s) && !join; w++) join = sw_scene_joined(s, w);
   if (join && !args->quasistatic && !(m->flags & SW_INTEGRATOR_IMPLICIT))
     return sw_fail(err, SW_EINVAL,
                    "scene:run: integrator '%s' is explicit; '%s', which joins wires, needs an "
@@ -118,21 +119,21 @@ static const double MOST_STEPS = 1e15; /* [-] */
 
 sw_status sw_run_check_clock(const sw_scene *s, const sw_run_args *args, double until,
                              sw_error *err) {
-  const double latest = fmax(fabs(s->time), fabs(until)), span = until - s->time;
+  const double latest = fmax(fabs(sw_scene_time(s)), fabs(until)), span = until - sw_scene_time(s);
   const double least = fmax(SW_SHORTEST_STEP, fmax(TICKS * CLOCK * latest, span / MOST_STEPS));
   if (args->dt >= least || !(span > 0)) return SW_OK;
   return sw_fail(err, SW_EINVAL,
                  "scene:run: dt = %g s is too short for t = %.6g to %.6g s; it must be at least "
                  "%.2g s, or the clock would not advance by it or never arrive",
-                 args->dt, s->time, until, least);
+                 args->dt, sw_scene_time(s), until, least);
 }
 
 sw_status sw_scene_check_step(const sw_scene *s, const sw_run_args *args, double until,
                               sw_error *err) {
   const sw_integrator *m = sw_integrator_all()[args->integrator];
   if (args->quasistatic || args->unstable || !(m->leapfrog_limit > 0)) return SW_OK;
-  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(&s->system);
-  const double h = fmin(args->dt, until - s->time);
+  const double most = 0.5 * m->leapfrog_limit * sw_system_stable_dt(sw_scene_system(s));
+  const double h = fmin(args->dt, until - sw_scene_time(s));
   if (!(h > most * (1.0 + 1e-9))) return SW_OK;
   return sw_fail(
       err, SW_EINVAL,

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene:settle: the equilibrium where the scene is. */
-#include <string.h>
 
 #include "body/build.h"
 #include "read/extremes.h"
@@ -9,7 +8,6 @@
 #include "step/jaw.h"
 #include "step/rest.h"
 #include "step/run.h"
-#include "watch/observe.h"
 
 static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "m", 1e-9, 0, 1, SW_PARAM_ABOVE_MIN, NULL,

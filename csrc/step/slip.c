@@ -24,17 +24,17 @@ static int yields(const sw_hold *h) {
 }
 
 int sw_slip_any(const sw_scene *s) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
-    if (yields(sw_scene_hold_in(s, k))) return 1;
+  SW_EACH(hold, h, s)
+    if (yields(h)) return 1;
   return 0;
 }
 
-static int begin(sw_scene *s, double h) {
+static int begin(sw_scene *s, double step) {
   int any = 0;
-  (void)h;
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    sw_feed *f = &sw_scene_hold_in(s, k)->feed;
-    if (!yields(sw_scene_hold_in(s, k))) continue;
+  (void)step;
+  SW_EACH(hold, h, s) {
+    sw_feed *f = &h->feed;
+    if (!yields(h)) continue;
     any = 1;
     f->slip_before = f->slip_growth;
     f->way_before = f->slip_way;
@@ -44,9 +44,9 @@ static int begin(sw_scene *s, double h) {
 }
 
 static void give_up(sw_scene *s) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
-    sw_feed *f = &sw_scene_hold_in(s, k)->feed;
-    if (!yields(sw_scene_hold_in(s, k))) continue;
+  SW_EACH(hold, h, s) {
+    sw_feed *f = &h->feed;
+    if (!yields(h)) continue;
     f->slip_growth = f->slip_before;
     f->slip_way = f->way_before;
   }
@@ -106,8 +106,8 @@ static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
 
 static int correct(sw_scene *s, double h, int first) {
   int good = 1;
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
-    if (yields(sw_scene_hold_in(s, k))) good &= correct_feed(s, sw_scene_hold_in(s, k), h, first);
+  SW_EACH(hold, hold, s)
+    if (yields(hold)) good &= correct_feed(s, hold, h, first);
   return good;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "force/solid.h"
 #include "state/crease.h"
 #include "strand/maker.h"
@@ -75,8 +76,7 @@ static void add_end_hinge(sw_strand_maker *m, const sw_cell_link *link, size_t r
 }
 
 static void add_ring(sw_strand_maker *m, size_t r) {
-  for (size_t i = 0; i < m->lattice->links; i++) {
-    const sw_cell_link *link = &m->lattice->link[i];
+  SW_ITEMS(const sw_cell_link, link, m->lattice->link, m->lattice->links) {
     const double k = m->k[link->group] * link->weight * ring_share(m, link, r);
     if (link->bend) add_end_hinge(m, link, r, k);
     if (!fits(m, link, r)) continue;
@@ -240,10 +240,9 @@ static void find_around(const sw_lattice *l, uint32_t *around, size_t *count) {
  * steps of explicit methods. SW_ENOMEM. */
 static sw_status bound_solids(sw_web *w, const double *x) {
   double at[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
-  double *sum = sw_alloc(w->particles, sizeof *sum);
+  double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;
-  for (size_t n = 0; n < w->solids; n++) {
-    const sw_web_solid *s = &w->solid[n];
+  SW_ITEMS(const sw_web_solid, s, w->solid, w->solids) {
     const size_t size = 3 * s->count;
     for (uint32_t i = 0; i < s->count; i++) sw_store(at + 3 * i, sw_vec_at(x, s->node[i]));
     sw_solid_eval((const sw_solid *)w->shapes + s->shape, at, SW_WANT_STIFFNESS, NULL, H);
@@ -258,7 +257,6 @@ static sw_status bound_solids(sw_web *w, const double *x) {
     w->solid_rate2 = fmax(w->solid_rate2, sum[p] / w->mass[p]);
     w->behind[p] += 0.5 * sum[p];
   }
-  sw_free(sum);
   return SW_OK;
 }
 

@@ -4,17 +4,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 
 size_t sw_system_body_of(const sw_system *s, size_t node) {
-  size_t low = 0, high = s->body_count;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (s->bodies[middle].first_node <= node)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
+  size_t after;
+  SW_FIRST_NOT(s->bodies[after].first_node <= node, after, 1, s->body_count);
+  return after - 1;
 }
 
 void sw_system_lay_out(sw_system *s) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "solve/band3.h"
 #include "solve/band4.h"
 #include "solve/dense.h"
@@ -87,8 +88,7 @@ static void load(sw_system *s) {
     const int web = body->plan->web != NULL;
     (web ? load_web : body->spin_block ? load_spinning : load_chain)(l, body, l->first[b], &pair);
   }
-  for (size_t k = 0; k < l->count; k++) {
-    const sw_bridge *at = &l->list[k];
+  SW_ITEMS(const sw_bridge, at, l->list, l->count) {
     if (is_held(s, at->i) || is_held(s, at->j)) continue;
     add_pair(l, l->chain_pairs + sw_bridges_find(l, at->i, at->j), at->k);
   }

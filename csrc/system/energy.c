@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "system/spin.h"
 
@@ -59,8 +60,7 @@ static double *place_of(const sw_force_class *cls, sw_energies *out) {
 void sw_system_energies(sw_system *s, int lumped, sw_energies *out) {
   sw_error ignored;
   *out = (sw_energies){.kinetic = sw_system_kinetic(s, lumped)};
-  for (size_t k = 0; k < s->body_count; k++) {
-    sw_body *b = &s->bodies[k];
+  SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     aim(s, b, lumped);
     b->field.want = SW_WANT_ENERGY;
     for (size_t i = 0; i < b->term_count; i++) {
@@ -76,8 +76,7 @@ void sw_system_energies(sw_system *s, int lumped, sw_energies *out) {
 double sw_system_rubbed(const sw_system *s) {
   double sum = 0;
   for (size_t b = 0; b < s->body_count; b++)
-    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
-      const sw_term *term = &s->bodies[b].terms[k];
+    SW_ITEMS(const sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {
       if (term->history && term->cls->loses && strcmp(term->cls->loses, "friction") == 0)
         sum += term->history[0];
     }
@@ -118,10 +117,8 @@ static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, 
 
 sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *err) {
   *out = (sw_powers){0};
-  for (size_t k = 0; k < s->body_count; k++) {
-    sw_body *b = &s->bodies[k];
-    for (size_t i = 0; i < b->term_count; i++) {
-      const sw_term *term = &b->terms[i];
+  SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
+    SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       double power;
       if (!has_power(term->cls)) continue;
       b->field.time = time;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/each.h"
 #include "system/bridge.h"
 #include "system/web.h"
 
@@ -55,8 +56,7 @@ void sw_factors_keep(sw_system *s, const sw_stage *stage, const sw_newton *newto
 /* The largest change of an edge by the move from - to, of its length. */
 static double change(const sw_system *s, const double *from, const double *to) {
   double largest = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     const size_t at = 3 * body->first_node;
     const double own = sw_web_change(body, s->x + at, from ? from + at : NULL, to + at);
     if (!(own <= largest)) largest = own;

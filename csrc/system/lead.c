@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "system/lead.h"
 
+#include "base/each.h"
+
 /* Solves at one place while touches come and go. */
 enum { MOST_WAITS = 40 };
 /* Solves that come to rest need up to 7. */
@@ -29,8 +31,7 @@ static void take_block(double *right, const double *u, sw_vec d) {
 }
 
 void sw_lead_rows(sw_system *s, const double *y) {
-  for (size_t k = 0; k < s->held_count; k++) {
-    const sw_held_node *h = &s->held[k];
+  SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     const sw_body *b = &s->bodies[h->body];
     const size_t i = h->node - b->first_node, n = b->plan->nodes;
     const sw_vec d = way_of(s, h, y);
@@ -46,8 +47,7 @@ void sw_lead_rows(sw_system *s, const double *y) {
 }
 
 void sw_lead_update(sw_system *s, const double *y) {
-  for (size_t k = 0; k < s->held_count; k++) {
-    const sw_held_node *h = &s->held[k];
+  SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     if (is_led(s, h)) sw_store(s->delta + 3 * h->node, way_of(s, h, y));
   }
 }

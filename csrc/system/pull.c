@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "system/axial.h"
-
 #include <math.h>
 #include <string.h>
 
+#include "base/each.h"
 #include "system/arrays.h"
+#include "system/axial.h"
 
 /* Changes in a step of more than this are blows, which do not go on [-]. */
 static const double SMOOTH = 0.1;
@@ -37,8 +37,7 @@ void sw_system_sum_pull(const sw_system *s, const double *tension, const double 
 
 void sw_system_add_pull(const sw_system *s, const double *tension, const double *rate, double share,
                         double *sum) {
-  for (size_t i = 0; i < s->body_count; i++) {
-    const sw_body *b = &s->bodies[i];
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
     if (b->plan->web) continue;
     const double c = b->axial_time > 0 ? share * b->axial_time * b->EA : 0.0;
     const size_t end = b->first_edge + sw_plan_axial(b->plan);

@@ -9,7 +9,6 @@
 #include "solve/band4.h"
 #include "solve/dense.h"
 #include "system/bridge.h"
-#include "system/spin.h"
 #include "system/twist.h"
 
 /* An update is the last one when the curve leaves its tangent by less than this share of an edge,

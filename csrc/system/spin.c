@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 #include "solve/band4.h"
 #include "state/hinge.h"
@@ -257,8 +258,7 @@ void sw_spin_begin_stage(sw_system *s, double rate2) {
 }
 
 void sw_spin_end_stage(sw_system *s, double *y) {
-  for (size_t k = 0; k < s->body_count; k++) {
-    sw_body *b = &s->bodies[k];
+  SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     if (!b->roll_block) continue;
     carry_to(b, y + 3 * b->first_node);
     turn_held_edges(s, b);

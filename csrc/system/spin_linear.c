@@ -2,7 +2,6 @@
 /* Small motions of bodies with frames. Turns have inertia where the wire rolls; elsewhere
  * they are without mass, and follow the nodes. */
 #include "solve/band4.h"
-#include "system/roll.h"
 #include "system/spin.h"
 
 /* Edges inside of a hold do not turn by themselves. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/each.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "solve/band3.h"
@@ -15,7 +16,6 @@
 #include "system/factors.h"
 #include "system/join.h"
 #include "system/lead.h"
-#include "system/linear.h"
 #include "system/part.h"
 #include "system/rail.h"
 #include "system/spin.h"
@@ -379,8 +379,7 @@ static long count_turned(size_t m, const double *restrict x, const double *restr
 }
 
 static sw_status check_start(const sw_system *s, const double *y, sw_error *err) {
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     const size_t at = 3 * body->first_node;
     if (count_turned(body->plan->edges, s->x + at, y + at) ||
         (body->plan->web && sw_web_turned(body, s->x + at, y + at, LEAST_ALIGNMENT)))
@@ -429,8 +428,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
                 stage->a);
   else
     for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
-  for (size_t k = 0; k < s->held_count; k++) {
-    sw_held_node *h = &s->held[k];
+  SW_ITEMS(sw_held_node, h, s->held, s->held_count) {
     const sw_body *b = &s->bodies[h->body];
     if (b->plan->web)
       h->reaction = sw_web_reaction(h, b, s->delta + 3 * b->first_node);
@@ -524,8 +522,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
                                  double *a, sw_error *err) {
   if (sw_interrupted()) return SW_EINTR;
   SW_TRY(sw_system_place_holds(s, t, NULL, NULL, a, err));
-  for (size_t b = 0; b < s->body_count; b++) {
-    sw_body *body = &s->bodies[b];
+  SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
     sw_field *f = &body->field;
     f->want = SW_WANT_FORCE;
     f->time = t;
@@ -544,8 +541,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
   }
   if (s->coupling.eval)
     SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     const sw_field *f = &body->field;
     for (size_t i = 0; i < body->plan->nodes; i++)
       for (size_t k = 0; k < 3; k++) {
@@ -555,8 +551,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
           a[3 * (body->first_node + i) + k] = force / body->plan->lumped[i];
       }
   }
-  for (size_t k = 0; k < s->held_count; k++) {
-    sw_held_node *h = &s->held[k];
+  SW_ITEMS(sw_held_node, h, s->held, s->held_count) {
     const sw_body *body = &s->bodies[h->body];
     const double m = body->plan->lumped[h->node - body->first_node];
     h->reaction = sw_sub(sw_scale(sw_load(a + 3 * h->node), m), sw_load(s->delta + 3 * h->node));

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 #include "base/spread.h"
 #include "system/arrays.h"
@@ -147,8 +148,7 @@ sw_status sw_system_add_histories(sw_system *s) {
   if (!size) return SW_OK;
   SW_TRY(sw_system_grow_state(s, size, &next));
   for (size_t b = 0; b < s->body_count; b++)
-    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
-      sw_term *term = &s->bodies[b].terms[k];
+    SW_ITEMS(sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {
       if (!term->cls->state_size) continue;
       term->history = next;
       next += term->cls->state_size(s->bodies[b].plan);
@@ -159,8 +159,7 @@ sw_status sw_system_add_histories(sw_system *s) {
 void sw_system_commit(sw_system *s, double time) {
   for (size_t b = 0; b < s->body_count; b++) {
     s->bodies[b].field.time = time;
-    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
-      const sw_term *term = &s->bodies[b].terms[k];
+    SW_ITEMS(const sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {
       if (term->cls->commit) term->cls->commit(term->args, &s->bodies[b].field, term->history);
     }
   }
@@ -203,8 +202,7 @@ sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, do
                s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
     }
   }
-  for (size_t i = 0; i < s->held_count; i++) {
-    const sw_held_node *h = &s->held[i];
+  SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     place_node(&s->hold_states[h->hold], h->local, x ? x + 3 * h->node : NULL,
                v ? v + 3 * h->node : NULL, a ? a + 3 * h->node : NULL);
   }
@@ -224,8 +222,7 @@ static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
       const int own = body->plan->clamps[c].hold;
       sw_hold_load *to = hold < 0 ? &out[own] : out;
       if (hold >= 0 && own != hold) continue;
-      for (size_t k = 0; k < body->term_count; k++) {
-        const sw_term *term = &body->terms[k];
+      SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
         if (!term->cls->clamp_moment) continue;
         s->bodies[b].field.history = term->history;
         to->moment = sw_add(
@@ -237,8 +234,7 @@ static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
 
 void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force, sw_vec *moment) {
   sw_hold_load sum = {.force = {0, 0, 0}};
-  for (size_t i = 0; i < s->held_count; i++) {
-    const sw_held_node *h = &s->held[i];
+  SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     if (h->hold != hold) continue;
     const sw_vec arm = sw_sub(sw_load(s->x + 3 * h->node), point);
     sum.force = sw_add(sum.force, h->reaction);
@@ -251,8 +247,7 @@ void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *forc
 
 void sw_system_hold_loads(const sw_system *s, sw_hold_load *out) {
   for (size_t k = 0; k < s->hold_count; k++) out[k] = (sw_hold_load){.force = {0, 0, 0}};
-  for (size_t i = 0; i < s->held_count; i++) {
-    const sw_held_node *h = &s->held[i];
+  SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     sw_hold_load *to = &out[h->hold];
     const sw_vec arm = sw_rotate(s->hold_states[h->hold].pose.q, h->local);
     to->force = sw_add(to->force, h->reaction);
@@ -284,8 +279,7 @@ static int is_measured(const sw_system *s, const sw_body *b) {
 
 void sw_system_refresh(sw_system *s) {
   sw_system_add_up_pull(s);
-  for (size_t b = 0; b < s->body_count; b++) {
-    sw_body *body = &s->bodies[b];
+  SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
     aim(s, body, s->x, s->v);
     if (!is_measured(s, body)) sw_field_geometry(&body->field);
     body->field.twist = body->has_twist ? s->twist + body->first_span : NULL;
@@ -295,8 +289,7 @@ void sw_system_refresh(sw_system *s) {
 }
 
 static int is_kinked(const sw_body *b) {
-  for (size_t k = 0; k < b->term_count; k++) {
-    const sw_term *t = &b->terms[k];
+  SW_ITEMS(const sw_term, t, b->terms, b->term_count) {
     if (t->cls->commit && !(t->cls->idle && t->history && t->cls->idle(t->history))) return 1;
   }
   return 0;
@@ -323,8 +316,7 @@ void sw_system_measure(sw_system *s, sw_body *b) {
 }
 
 void sw_system_axial_from_state(sw_system *s) {
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
+  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
     const double *x = s->x + 3 * body->first_node;
     double *T = s->tension + body->first_edge;
     if (body->plan->web) sw_web_axial(body, x, T);
@@ -396,8 +388,7 @@ double sw_system_term_energy(sw_system *s, size_t body, size_t term, double *ben
 double sw_system_stable_dt(const sw_system *s) {
   double smallest = HUGE_VAL;
   for (size_t b = 0; b < s->body_count; b++)
-    for (size_t k = 0; k < s->bodies[b].term_count; k++) {
-      const sw_term *t = &s->bodies[b].terms[k];
+    SW_ITEMS(const sw_term, t, s->bodies[b].terms, s->bodies[b].term_count) {
       if (!t->cls->stable_dt) continue;
       const double dt = t->cls->stable_dt(t->args, s->bodies[b].plan);
       if (dt < smallest) smallest = dt;

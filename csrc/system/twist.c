@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "system/spin.h"
@@ -236,8 +237,7 @@ static void take_turns(sw_system *s) {
 }
 
 void sw_system_follow(sw_system *s, const double *x) {
-  for (size_t b = 0; b < s->body_count; b++) {
-    sw_body *body = &s->bodies[b];
+  SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
     if (body->spin_block) sw_spin_follow(s, body, x);
     for (size_t k = 0; body->has_twist && k < body->plan->span_count; k++)
       s->twist[body->first_span + k] +=

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "base/simd.h"
 #include "solve/band3.h"
 #include "solve/blocks.h"
@@ -24,8 +25,7 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   size_t n = 0;
   for (size_t e = 0; e < w->links; e++, n++)
     if (out) out[n] = (sw_blocks_pair){w->link[e].a, w->link[e].b};
-  for (size_t k = 0; k < w->folds; k++) {
-    const sw_web_fold *f = &w->fold[k];
+  SW_ITEMS(const sw_web_fold, f, w->fold, w->folds) {
     const sw_blocks_pair three[3] = {{f->a, f->b}, {f->a, f->c}, {f->b, f->c}};
     for (int i = 0; i < 3; i++, n++)
       if (out) out[n] = three[i];
@@ -53,14 +53,12 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
 /* With more pairs (more x 2). */
 static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more, sw_blocks **out) {
   if (w->banded) return sw_blocks_new_rings(w->rings, w->per_ring, out);
-  sw_blocks_pair *pairs = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
+  sw_blocks_pair *pairs SW_LOCAL = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
   if (!pairs) return SW_ENOMEM;
   size_t count = pairs_of(w, pairs);
   for (size_t i = 0; i < more; i++)
     pairs[count++] = (sw_blocks_pair){others[2 * i], others[2 * i + 1]};
-  const sw_status status = sw_blocks_new_sparse(w->particles, pairs, count, out);
-  sw_free(pairs);
-  return status;
+  return sw_blocks_new_sparse(w->particles, pairs, count, out);
 }
 
 static size_t between(const sw_blocks *m, size_t a, size_t b) {

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "view/server.h"
 
 enum { INBOX = 1 << 19, HEAD = 2 * sizeof(unsigned), ADDRESS = 40, POLICY = 512 };
@@ -429,8 +430,7 @@ size_t sw_server_pages(sw_server *s, size_t *waiting) {
   size_t count = 0;
   *waiting = 0;
   pthread_mutex_lock(&s->lock);
-  for (int k = 0; k < SW_SERVER_PAGES; k++) {
-    const page *p = &s->pages[k];
+  SW_ITEMS(const page, p, s->pages, SW_SERVER_PAGES) {
     if (!p->connection || p->broken || p->closing) continue;
     count++;
     *waiting += (size_t)p->ready;

@@ -133,17 +133,14 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
 }
 
 int sw_hold_crashed(const sw_scene *s) {
-  for (size_t k = 0; k < sw_scene_hold_slots(s); k++)
-    if (sw_scene_hold_in(s, k)->alive && sw_scene_hold_in(s, k)->watch.crashing &&
-        sw_scene_hold_in(s, k)->watch.crash.time == sw_scene_time(s))
-      return 1;
+  SW_EACH(hold, h, s)
+    if (h->alive && h->watch.crashing && h->watch.crash.time == sw_scene_time(s)) return 1;
   return 0;
 }
 
 sw_status sw_scene_hold_crash(const sw_scene *s, sw_handle hold, double *time, double *depth,
                               const char **obstacle, sw_error *err) {
-  const sw_hold *h = sw_scene_find_hold(s, hold, err);
-  if (!h) return SW_EDEAD;
+  SW_FIND(const sw_hold, h, sw_scene_find_hold(s, hold, err));
   const sw_crash *c = &h->watch.crash;
   *time = c->depth > 0 ? c->time : (double)NAN;
   *depth = c->depth;

@@ -10,10 +10,10 @@
 #include "grip/jaws.h"
 #include "link/hold.h"
 #include "read/extremes.h"
-#include "scene/forces.h"
+#include "scene/events.h"
+#include "scene/parts.h"
 #include "scene/values.h"
-#include "scene/wire.h"
-#include "scene/world.h"
+#include "system/system.h"
 #include "watch/wear.h"
 #include "watch/zone.h"
 
@@ -22,38 +22,40 @@ static sw_status observe_wire(sw_scene *s, size_t w, sw_error *err) {
   SW_TRY(sw_scene_note_extremes(s, w, &now, err));
   sw_scene_watch_kink(s, w, &now);
   sw_scene_watch_breaking(s, w, &now);
-  if (s->wears) SW_TRY(sw_wear_note(s, w, 1, err));
+  if (sw_scene_wears(s)) SW_TRY(sw_wear_note(s, w, 1, err));
   SW_TRY(sw_zones_note(s, w, err));
   return sw_watch_wire(s, w, &now, err);
 }
 
 sw_status sw_scene_begin_watching(sw_scene *s, sw_error *err) {
-  sw_system_refresh(&s->system);
-  for (size_t w = 0; w < s->wire_count; w++) {
-    if (s->wears && !s->wires[w].wear.count) SW_TRY(sw_wear_note(s, w, 0, err));
+  sw_system_refresh(sw_scene_system(s));
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
+    if (sw_scene_wears(s) && !sw_scene_wire_in(s, w)->wear.count)
+      SW_TRY(sw_wear_note(s, w, 0, err));
     SW_TRY(sw_zones_note(s, w, err));
   }
   return SW_OK;
 }
 
 static sw_status log_holds(sw_scene *s, sw_error *err) {
-  for (size_t k = 0; k < s->system.hold_count; k++) {
-    sw_hold *h = &s->holds[s->hold_slot[k]];
-    const sw_hold_state *at = &s->system.hold_states[k];
+  sw_system *system = sw_scene_system(s);
+  for (size_t k = 0; k < system->hold_count; k++) {
+    sw_hold *h = sw_scene_held_by(s, k);
+    const sw_hold_state *at = &system->hold_states[k];
     double row[SW_LOG_SIZE];
-    const sw_vec point =
-        h->cls->hold->rail ? sw_vec_at(s->system.x, s->system.bodies[h->wire].first_node + h->node)
-                           : at->pose.p;
-    sw_system_reaction(&s->system, (int)k, point, &h->force, &h->moment);
+    const sw_vec point = h->cls->hold->rail
+                             ? sw_vec_at(system->x, system->bodies[h->wire].first_node + h->node)
+                             : at->pose.p;
+    sw_system_reaction(system, (int)k, point, &h->force, &h->moment);
     SW_TRY(sw_hold_look_out(s, h, err));
-    row[SW_LOG_TIME] = s->time;
+    row[SW_LOG_TIME] = sw_scene_time(s);
     sw_vec force = h->force, moment = h->moment;
     const int mean = sw_hold_jerked(s, h, &force, &moment);
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, point);
     row[SW_LOG_SPAN] = sw_hold_span(s, mean);
-    if (sw_hold_passes(h)) h->feed.drive = sw_hold_way_of(s, h, s->time, s->system.x).force;
+    if (sw_hold_passes(h)) h->feed.drive = sw_hold_way_of(s, h, sw_scene_time(s), system->x).force;
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
   }
@@ -61,44 +63,48 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
 }
 
 static sw_status observe_contact(sw_scene *s, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   size_t node = 0;
   const double depth = sw_scene_deepest(s, &node);
-  if (depth > s->deepest.value) {
+  if (depth > sw_scene_penetrated(s)->value) {
     size_t b = 0;
-    while (b + 1 < s->system.body_count && s->system.bodies[b + 1].first_node <= node) b++;
-    const sw_body *body = &s->system.bodies[b];
+    while (b + 1 < system->body_count && system->bodies[b + 1].first_node <= node) b++;
+    const sw_body *body = &system->bodies[b];
     const double *arc = body->plan->s;
-    s->deepest = (sw_extreme){depth, arc[node - body->first_node] - arc[0], s->time};
+    *sw_scene_penetrated(s) =
+        (sw_extreme){depth, arc[node - body->first_node] - arc[0], sw_scene_time(s)};
   }
   if (sw_obstacle_log_state(s) == SW_OK) return SW_OK;
   return sw_fail(err, SW_ENOMEM, "out of memory for the forces on obstacles of scene '%s'",
-                 s->name);
+                 sw_scene_name(s));
 }
 
 /* What forces on wires have found. */
 static void tell_news(sw_scene *s) {
+  sw_system *system = sw_scene_system(s);
   sw_force_news news;
-  for (size_t w = 0; w < s->system.body_count; w++) {
-    const sw_body *b = &s->system.bodies[w];
+  for (size_t w = 0; w < system->body_count; w++) {
+    const sw_body *b = &system->bodies[w];
     for (size_t k = 0; k < b->term_count; k++) {
       if (!sw_term_news(&b->terms[k], &news)) continue;
       const int id = b->terms[k].id;
-      const char *name = id >= 0 ? s->forces[id].name : "";
+      const char *name = id >= 0 ? sw_scene_force_in(s, id)->name : "";
       const double s0 = b->plan->s[0];
       sw_scene_tell(s, news.kind, name, news.s - s0, news.value, "%s '%s', wire '%s': %s",
-                    b->terms[k].cls->name, name, s->wires[w].name, news.text);
+                    b->terms[k].cls->name, name, sw_scene_wire_in(s, w)->name, news.text);
     }
   }
 }
 
 sw_status sw_scene_observe(sw_scene *s, sw_error *err) {
-  for (size_t w = 0; w < s->wire_count; w++) s->wires[w].untwisted = 0;
-  SW_TRY(sw_system_place_holds(&s->system, s->time, s->system.x, NULL, NULL, err));
-  sw_system_refresh(&s->system);
+  sw_system *system = sw_scene_system(s);
+  SW_EACH(wire, wire, s) wire->untwisted = 0;
+  SW_TRY(sw_system_place_holds(system, sw_scene_time(s), system->x, NULL, NULL, err));
+  sw_system_refresh(system);
   sw_scene_watch_ties(s);
-  sw_system_commit(&s->system, s->time);
+  sw_system_commit(system, sw_scene_time(s));
   tell_news(s);
-  for (size_t w = 0; w < s->wire_count; w++) SW_TRY(observe_wire(s, w, err));
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) SW_TRY(observe_wire(s, w, err));
   SW_TRY(sw_watch_forces(s, err));
   SW_TRY(sw_watch_ties(s, err));
   SW_TRY(log_holds(s, err));

@@ -5,11 +5,15 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/each.h"
 #include "body/hold.h"
+#include "body/obstacle_log.h"
 #include "edit/forces.h"
+#include "grip/tool.h"
 #include "link/hold.h"
 #include "link/joint.h"
 #include "scene/forces.h"
+#include "scene/gripper.h"
 #include "scene/lookup.h"
 #include "scene/scene.h"
 #include "scene/values.h"
@@ -73,8 +77,7 @@ static sw_vec force_of(const sw_scene *s, size_t slot, int place) {
   double values[SW_FORCE_OUTPUTS_MAX];
   sw_vec sum = sw_v(0, 0, 0);
   for (size_t b = 0; b < s->system.body_count; b++)
-    for (size_t k = 0; k < s->system.bodies[b].term_count; k++) {
-      const sw_term *term = &s->system.bodies[b].terms[k];
+    SW_ITEMS(const sw_term, term, s->system.bodies[b].terms, s->system.bodies[b].term_count) {
       if (term->id != (long)slot) continue;
       term->cls->read(term->args, &s->system.bodies[b].field, term->history, values);
       sum = sw_add(sum, sw_load(values + place));
@@ -114,35 +117,46 @@ void sw_watches_clear(sw_watches *w) {
   *w = (sw_watches){0};
 }
 
-static void read_log(sw_scene *s, int kind, sw_handle of, const double **rows, size_t *count) {
-  const sw_watch *one = find(&s->watches, kind, of);
-  *rows = one ? one->log.rows : NULL;
-  *count = one ? one->log.count / width_of(kind) : 0;
+/* Of a wire, a force or a tie; NULL with err when there is no such object. Of a wire that was taken
+ * away, too. */
+static const sw_log *watched(sw_scene *s, sw_kind kind, sw_handle of, sw_error *err) {
+  static const sw_log empty;
+  double gone;
+  const int what = kind == SW_OF_BODY ? OF_WIRE : kind == SW_OF_FORCE ? OF_FORCE : OF_TIE;
+  const int known = what == OF_FORCE ? sw_scene_find_force(s, of, err) != NULL
+                    : what == OF_TIE ? sw_scene_find_join(s, of, err) != NULL
+                                     : sw_scene_gone_name(s, of, &gone) != NULL ||
+                                           sw_scene_find_body(s, of, err) != NULL;
+  const sw_watch *one = find(&s->watches, what, of);
+  return !known ? NULL : one ? &one->log : &empty;
 }
 
-sw_status sw_scene_wire_log(sw_scene *s, sw_handle wire, const double **rows, size_t *count,
-                            sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  double gone; /* the series of a wire that was taken away can still be read */
-  if (!sw_scene_gone_name(s, wire, &gone) && !sw_scene_find_body(s, wire, err)) return SW_EDEAD;
-  read_log(s, OF_WIRE, wire, rows, count);
-  return SW_OK;
+static const sw_log *log_of(sw_scene *s, sw_kind kind, sw_handle of, sw_error *err) {
+  if (kind == SW_OF_HOLD) {
+    const sw_hold *h = sw_scene_find_hold(s, of, err);
+    return h ? &h->log : NULL;
+  }
+  if (kind == SW_OF_TOOL) {
+    const sw_tool *t = sw_scene_any_tool(s, of, err);
+    return t ? &t->log : NULL;
+  }
+  if (kind != SW_OF_OBSTACLE) return watched(s, kind, of, err);
+  sw_scene_obstacle *o = sw_scene_any_obstacle(s, of, err);
+  if (!o || sw_obstacle_log_fill(s, o) == SW_OK) return o ? &o->log : NULL;
+  sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", o->name);
+  return NULL;
 }
 
-sw_status sw_scene_force_log(sw_scene *s, sw_handle force, const double **rows, size_t *count,
-                             sw_error *err) {
+sw_status sw_scene_log(sw_scene *s, sw_kind kind, sw_handle of, const double **rows, size_t *count,
+                       sw_error *err) {
+  static const size_t width[] = {
+      [SW_OF_BODY] = SW_LOG_WIRE_SIZE,         [SW_OF_HOLD] = SW_LOG_SIZE,
+      [SW_OF_OBSTACLE] = SW_LOG_OBSTACLE_SIZE, [SW_OF_TOOL] = SW_LOG_TOOL_SIZE,
+      [SW_OF_FORCE] = SW_LOG_FORCE_SIZE,       [SW_OF_JOIN] = SW_LOG_FORCE_SIZE};
   SW_TRY(sw_scene_readable(s, err));
-  if (!sw_scene_force_class(s, force))
-    return sw_fail(err, SW_EDEAD, "this force is not of scene '%s' any more", s->name);
-  read_log(s, OF_FORCE, force, rows, count);
-  return SW_OK;
-}
-
-sw_status sw_scene_tie_log(sw_scene *s, sw_handle join, const double **rows, size_t *count,
-                           sw_error *err) {
-  SW_TRY(sw_scene_readable(s, err));
-  if (!sw_scene_find_join(s, join, err)) return SW_EDEAD;
-  read_log(s, OF_TIE, join, rows, count);
+  SW_FIND(const sw_log, log, log_of(s, kind, of, err));
+  *rows = log->rows;
+  *count = log->count / width[kind];
   return SW_OK;
 }
 

@@ -14,12 +14,10 @@ sw_status sw_scene_hold_crash(const sw_scene *scene, sw_handle hold, double *tim
  * to wires (clip, tether): time, force on them [N]. count is 0 where nothing was recorded. */
 enum { SW_LOG_WIRE_SIZE = 3, SW_LOG_FORCE_SIZE = 4 };
 
-sw_status sw_scene_wire_log(sw_scene *scene, sw_handle wire, const double **rows, size_t *count,
-                            sw_error *err);
-/* The same of a tie between wires: on the first one. */
-sw_status sw_scene_tie_log(sw_scene *scene, sw_handle join, const double **rows, size_t *count,
-                           sw_error *err);
-sw_status sw_scene_force_log(sw_scene *scene, sw_handle force, const double **rows, size_t *count,
-                             sw_error *err);
+/* The series of an object: rows as of its kind (SW_LOG_SIZE of a hold, SW_LOG_OBSTACLE_SIZE,
+ * SW_LOG_TOOL_SIZE, ...), also when it was released or taken away; of a tie between wires its force
+ * on the first one. */
+sw_status sw_scene_log(sw_scene *scene, sw_kind kind, sw_handle of, const double **rows,
+                       size_t *count, sw_error *err);
 
 #endif

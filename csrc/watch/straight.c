@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "body/join.h"
+#include "body/touching.h"
 #include "modal/modal.h"
-#include "read/linear.h"
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/wire.h"

@@ -5,14 +5,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "body/touching.h"
 #include "contact/grains.h"
 #include "read/extremes.h"
 #include "record/wear.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/hinge.h"
-#include "watch/observe.h"
+#include "system/system.h"
 
 /* --- places ---------------------------------------------------------------------- */
 
@@ -91,8 +91,7 @@ static sw_status fit(sw_wear *w, const sw_plan *p) {
 /* A number for what holds the wire's direction where. */
 static uint64_t holds_of(const sw_body *b) {
   uint64_t sum = sw_sum(SW_SUM_START, &b->plan->clamp_count, sizeof b->plan->clamp_count);
-  for (size_t c = 0; c < b->plan->clamp_count; c++) {
-    const sw_clamp_hinge *h = &b->plan->clamps[c];
+  SW_ITEMS(const sw_clamp_hinge, h, b->plan->clamps, b->plan->clamp_count) {
     const size_t own[3] = {h->node, (size_t)h->hold, (size_t)(h->side + 1)};
     sum = sw_sum(sum, own, sizeof own);
   }
@@ -168,8 +167,9 @@ static double tension_at(const sw_plan *p, const double *T, size_t k) {
 
 /* T: of its edges [N]. */
 static sw_status count_all(sw_scene *s, size_t w, const double *T) {
-  sw_wear *wear = &s->wires[w].wear;
-  const sw_body *b = &s->system.bodies[w];
+  sw_system *system = sw_scene_system(s);
+  sw_wear *wear = &sw_scene_wire_in(s, w)->wear;
+  const sw_body *b = &system->bodies[w];
   const sw_plan *p = b->plan;
   if (!wear->across) wear->across = sw_alloc(wear->count, sizeof *wear->across);
   sw_vec *across = wear->across;
@@ -178,7 +178,7 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
   const sw_vec t0 = sw_field_tangent(&b->field, 0);
   const sw_vec first =
       start->seen ? sw_carry_unit(start->across, start->tangent, t0) : sw_perpendicular(t0);
-  sw_wear_axes(&s->system, b, first, across);
+  sw_wear_axes(system, b, first, across);
   const uint64_t holds = holds_of(b);
   for (size_t k = 0; k < wear->count; k++) {
     const size_t e = edge_of(p, k);
@@ -187,7 +187,7 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
     if (free_start && k == 0) x->turn = 0;
     turn_place(x, sw_field_tangent(&b->field, e), across_at(b, across, k),
                wear->holds != holds && !(free_start && k == 0));
-    const sw_vec bend = bend_of(&s->system, b, k);
+    const sw_vec bend = bend_of(system, b, k);
     const double tension = tension_at(p, T, k);
     count_place(&wear->cycles[SW_WEAR_SIGNALS * k], x, tension, bend);
     x->load = tension * sw_norm(bend), x->touches = 0;
@@ -215,12 +215,13 @@ static void rub(sw_wear *w, const sw_body *b, size_t node, double share, double 
 }
 
 static void rub_obstacles(const sw_scene *s, const sw_body *b, sw_wear *w) {
+  sw_contact *contact = sw_scene_contact(s);
   size_t k = 0, end = 0;
   sw_contact_push p;
-  if (!s->contact) return;
-  sw_contact_touches_of(s->contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
+  if (!contact) return;
+  sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
   for (; k < end; k++) {
-    if (!sw_contact_push_at(s->contact, &s->system, k, &p)) continue;
+    if (!sw_contact_push_at(contact, sw_scene_system(s), k, &p)) continue;
     const double slid = p.normal_force * sw_norm(p.slip);
     const double work = -sw_dot(sw_madd(p.force, p.normal, -p.normal_force), p.slip);
     rub(w, b, p.node, p.node == p.other ? 1 : 1 - p.at, work, slid);
@@ -230,14 +231,14 @@ static void rub_obstacles(const sw_scene *s, const sw_body *b, sw_wear *w) {
 
 /* Places where two bodies press on each other wear both. */
 static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
-  const size_t pairs = s->pairs ? sw_pairs_count(s->pairs) : 0;
-  const size_t grains = s->grains ? sw_grains_count(s->grains) : 0;
+  const size_t pairs = sw_scene_pairs(s) ? sw_pairs_count(sw_scene_pairs(s)) : 0;
+  const size_t grains = sw_scene_grains(s) ? sw_grains_count(sw_scene_grains(s)) : 0;
   for (size_t k = 0; k < pairs + grains; k++) {
-    const sw_pair_place p =
-        k < pairs ? sw_pairs_place(s->pairs, k) : sw_grains_place(s->grains, k - pairs);
+    const sw_pair_place p = k < pairs ? sw_pairs_place(sw_scene_pairs(s), k)
+                                      : sw_grains_place(sw_scene_grains(s), k - pairs);
     const double slid = p.normal_force * sw_norm(p.slip), work = -sw_dot(p.friction, p.slip);
     for (int i = 0; i < 2; i++) {
-      if (&s->system.bodies[p.body[i]] != b) continue;
+      if (&sw_scene_system(s)->bodies[p.body[i]] != b) continue;
       rub(w, b, p.node[i], 1 - p.at[i], work, slid);
       if (p.at[i] > 0) rub(w, b, p.node[i] + 1u, p.at[i], work, slid);
     }
@@ -269,56 +270,60 @@ static void keep(sw_extreme *kept, double value, double place, double time) {
 }
 
 sw_extreme sw_wear_sidewall(const sw_scene *s, const sw_wear *w) {
+  sw_course *c = sw_scene_course(s);
   const sw_window *window = &w->pressed;
   sw_extreme most = w->sidewall;
   double mean;
   if (!window->marks || window->edges != w->nodes) return most;
-  const int due = sw_window_waits(window) && sw_scene_is_averaged(s) &&
-                  sw_window_full(window, s->course.window);
+  const int due =
+      sw_window_waits(window) && sw_scene_is_averaged(s) && sw_window_full(window, c->window);
   if (most.value > 0 && !due) return most; /* else a record shorter than the window */
-  const size_t i = sw_window_largest(window, s->course.window, &mean);
+  const size_t i = sw_window_largest(window, c->window, &mean);
   keep(&most, mean, w->places[i].s, window->now);
   return most;
 }
 
 /* Single steps of a blow say nothing of how long it lasts: means count, as of other peaks. */
 static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
+  sw_course *c = sw_scene_course(s);
   const int averaged = sw_scene_is_averaged(s);
   double mean;
   press_sides(p, w);
   for (size_t i = 0; i < w->nodes && !averaged; i++)
-    keep(&w->sidewall, pressure_at(w, i), p->s[i], s->time);
+    keep(&w->sidewall, pressure_at(w, i), p->s[i], sw_scene_time(s));
   if (!averaged && !w->pressed.marks) return SW_OK;
   if (w->pressed.edges != w->nodes) SW_TRY(sw_window_fit(&w->pressed, w->nodes, p->s));
-  if (!(s->course.span > 0)) {
+  if (!(c->span > 0)) {
     sw_window_forget(&w->pressed);
     return SW_OK;
   }
   double *values = sw_window_values(&w->pressed);
   for (size_t i = 0; i < w->nodes; i++) values[i] = pressure_at(w, i);
-  if (!sw_window_add(&w->pressed, values, s->time, s->course.span, s->course.window) || !averaged)
+  if (!sw_window_add(&w->pressed, values, sw_scene_time(s), c->span, c->window) || !averaged)
     return SW_OK;
-  const size_t i = sw_window_largest(&w->pressed, s->course.window, &mean);
-  keep(&w->sidewall, mean, p->s[i], s->time);
+  const size_t i = sw_window_largest(&w->pressed, c->window, &mean);
+  keep(&w->sidewall, mean, p->s[i], sw_scene_time(s));
   return SW_OK;
 }
 
 sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
-  sw_wear *wear = &s->wires[w].wear;
-  const sw_body *b = &s->system.bodies[w];
+  sw_system *system = sw_scene_system(s);
+  sw_wear *wear = &sw_scene_wire_in(s, w)->wear;
+  const sw_body *b = &system->bodies[w];
   if (b->plan->web) {
     sw_wear_free(wear);
     wear->partial = 1;
     return SW_OK;
   }
   sw_status status = fit(wear, b->plan);
-  const double *T = rubs ? sw_scene_step_tension(s, b) : sw_system_pull(&s->system, b);
+  const double *T = rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b);
   if (status == SW_OK) status = count_all(s, w, T);
   if (status == SW_OK && rubs) {
     rub_obstacles(s, b, wear), rub_bodies(s, b, wear);
     status = press(s, b->plan, wear);
   }
   if (status != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'", s->wires[w].name);
+    return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'",
+                   sw_scene_wire_in(s, w)->name);
   return SW_OK;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Directions across a wire that turn with it. */
 #include <math.h>
-#include <string.h>
 
 #include "state/clamp.h"
 #include "state/hinge.h"

@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef SW_BASE_EACH_H
+#define SW_BASE_EACH_H
+
+/* For each of count items of an array, for loops that need no number: a pointer goes through it. */
+#define SW_ITEMS(type, item, array, count) \
+  for (type *item = (array), *item##_end = item + (count); item < item##_end; item++)
+
+#endif
