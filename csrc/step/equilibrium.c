@@ -245,7 +245,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   sw_rest_put_aside(p->s, p->kept);
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (found(p, status)) return status;
-  if (sw_rest_dragged(p)) {
+  if (!p->rests && sw_rest_dragged(p)) {
     sw_rest_take_back(p->s, p->kept);
     SW_TRY(sw_rest_before(p, &fell, err));
     if (fell) {

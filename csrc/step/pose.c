@@ -23,6 +23,7 @@ enum { FEW_ITERATIONS = 300 };
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
+  int next;     /* see sw_course */
 } kept;
 
 static void drop(kept *k) {
@@ -32,6 +33,7 @@ static void drop(kept *k) {
 }
 
 static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
+  k->next = s->course.next;
   k->jaws = sw_alloc(s->tool_count, sizeof *k->jaws);
   const sw_status status = k->jaws ? sw_live_take(s, &k->live) : SW_ENOMEM;
   for (size_t i = 0; status == SW_OK && i < s->tool_count; i++) k->jaws[i] = s->tools[i].jaw;
@@ -42,6 +44,7 @@ static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
 
 static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
   s->time = t0;
+  s->course.next = k->next;
   for (size_t i = 0; i < s->tool_count; i++) s->tools[i].jaw = k->jaws[i];
   return sw_live_back(s, &k->live, err);
 }

@@ -178,6 +178,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
     return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", s->name);
   }
   sw_statics p = {.s = s,
+                  .rests = sw_course_rests(&s->course),
                   .args = args,
                   .report = report,
                   .interrupted = interrupted,
@@ -199,7 +200,10 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }
-  sw_course_jump(&s->course);
+  if (status == SW_OK || (p.rests && status != SW_EINTR))
+    sw_course_rest(&s->course);
+  else
+    sw_course_jump(&s->course);
   sw_free(block);
   sw_free(poses);
   return status;

@@ -14,6 +14,7 @@ typedef struct sw_statics {
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
+  int rests;      /* 1: it began in equilibrium, but for what moves in this pose */
   int most_far;   /* see sw_newton */
   double passing; /* share of an edge that nodes of a place on the way may be off [-] */
   double edge;    /* the shortest [m] */

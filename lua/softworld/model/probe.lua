@@ -54,14 +54,23 @@ local function look(context, run)
   return found
 end
 
+-- Of a scene that diverged not all can be read: what its frames tell, of each choice by itself.
+local function look_at_failed(context, run)
+  local found = {}
+  for _, choice in ipairs(registry.list) do
+    local fine, f = pcall(choice.look or function() end, context, run)
+    if not fine and checks.is_interrupt(f) then error(f, 0) end
+    found[choice.name] = fine and f or nil
+  end
+  return found
+end
+
 --- What a run tells to the choices, by their names.
 function probe.facts(context, run) return facts.reading(context.scene, run.start, look, context, run) end
 
 -- What a run that failed tells, if anything.
 local function facts_of_failed(context, run)
-  local fine, found = pcall(probe.facts, context, run)
-  if not fine and checks.is_interrupt(found) then error(found, 0) end
-  return fine and found or nil
+  return facts.reading(context.scene, run.start, look_at_failed, context, run)
 end
 
 --- Expected time of a run of rungs on level k, where one of them may cost much [s]; else nil.
