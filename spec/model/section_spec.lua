@@ -161,6 +161,32 @@ describe("the choice of section", function()
     end)
   end
 
+  -- Choices look at frames, which are theirs: the script's may be too few to see anything press.
+  it("is not blind where the script keeps no frames, or few", function()
+    for _, row in ipairs { { frames = false }, { frame = 10 } } do
+      local scene, _, args = plates(section(0.7), 0.1, row)
+      local run = scene:run(args)
+      assert.equal("springs", run.model.section, tostring(run:why()))
+      assert.is_true(run.met)
+      assert.equal(row.frame and 1 or 0, #run:frames())
+    end
+  end)
+
+  -- Each choice by itself leaves out less than 3/4 of the tolerance: springs two thirds, poses an eighth.
+  it("leaves no more out together with the others than they may", function()
+    local scene, _, args = plates(section(0.7), 0.115, { duration = 0.05 })
+    args.quasistatic = nil
+    for _, name in ipairs { "low", "top" } do
+      local side = name == "top" and 1 or -1
+      scene:find(name):follow { relative = true, duration = 0.05,
+        points = { { 0, 0, 0 }, { 0, 0, -side * 0.115 * R } } }
+    end
+    local run = scene:run(args)
+    local q = run.quantities["top.force"]
+    assert.is_true(run.met, tostring(run:why()))
+    assert.is_true(q.model_error <= 0.75 * q.tolerance, ("%g of %g"):format(q.model_error, q.tolerance))
+  end)
+
   it("gives the same bits twice, and chooses anew where it has left a mesh", function()
     local values = {}
     for k = 1, 2 do
