@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Poses: holds and obstacles go from place to place, and the wires are in equilibrium at each. */
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "body/live.h"
@@ -12,6 +13,7 @@
 #include "scene/world.h"
 #include "step/energy.h"
 #include "step/jaw.h"
+#include "step/passing.h"
 #include "step/rest.h"
 
 enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
@@ -19,23 +21,27 @@ enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 /* Of a trial: what needs more is sooner found in smaller steps [-]. */
 enum { FEW_ITERATIONS = 300 };
 
-/* The scene at the start of a pose in which a tie may break. */
+/* The scene at the start of a pose in which a tie may break, or a wire may go into a clip. */
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
+  double *x;    /* places of nodes */
   int next;     /* see sw_course */
 } kept;
 
 static void drop(kept *k) {
   sw_tape_free(&k->live);
   sw_free(k->jaws);
+  sw_free(k->x);
   *k = (kept){0};
 }
 
 static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
   k->next = s->course.next;
   k->jaws = sw_alloc(s->tool_count, sizeof *k->jaws);
-  const sw_status status = k->jaws ? sw_live_take(s, &k->live) : SW_ENOMEM;
+  k->x = sw_alloc(s->system.freedoms, sizeof *k->x);
+  const sw_status status = k->jaws && k->x ? sw_live_take(s, &k->live) : SW_ENOMEM;
+  if (k->x) memcpy(k->x, s->system.x, s->system.freedoms * sizeof *k->x);
   for (size_t i = 0; status == SW_OK && i < s->tool_count; i++) k->jaws[i] = s->tools[i].jaw;
   if (status == SW_OK) return SW_OK;
   drop(k);
@@ -52,6 +58,14 @@ static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err);
 
+/* The part of a pose of size h in which forces of short reach are followed that it went past: how
+ * far a wire gets into a clip, at which force, else depends on where Newton's iteration ends. */
+static double followed_part(const sw_scene *s, const double *from, double h, int *passed) {
+  const double part = sw_passing_part(h, sw_passing_between(s, from, s->system.x));
+  *passed = part < h;
+  return part;
+}
+
 /* Holds and obstacles go on to t1, the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction halving it shows how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
@@ -64,6 +78,8 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
+  const int shortest = t1 - t0 <= 1.5 * how->passing; /* but for rounding */
+  args.springs = !start->x ? SW_FALL : shortest || !halvings ? SW_SPRING : SW_STAY;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   s->time = t1;
   const sw_status status =
@@ -85,6 +101,14 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     drop(start);
     return pose(s, 0.5 * (t0 + t1), halvings, how, report, err);
   }
+  int passed = 0;
+  const double part = start->x ? followed_part(s, start->x, t1 - t0, &passed) : t1 - t0;
+  if (passed && !shortest) {
+    SW_TRY(put_back(s, start, t0, err));
+    drop(start);
+    return pose(s, t0 + fmax(part, how->passing), halvings, how, report, err);
+  }
+  if (passed) rest.jumped = 1;
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
   SW_TRY(sw_ledger_pose(s, rest.jumped, err));
   if (rest.jumped) {
@@ -97,7 +121,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err) {
   kept start = {0};
-  if (sw_scene_may_break(s)) SW_TRY(keep(s, &start, err));
+  if (sw_scene_may_break(s) || sw_passing_any(s)) SW_TRY(keep(s, &start, err));
   const sw_status status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
   return status;

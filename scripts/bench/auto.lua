@@ -2,35 +2,17 @@
 --- Runs that choose their model: scenes drawn at random, each with a tolerance of 10, 3 or 1 %, against every
 -- fixed model and against far finer runs of the dearest one.
 -- @module bench.auto
+local autohandled = require "bench.autohandled"
 local autopressed = require "bench.autopressed"
+local draw = require "bench.autodraw"
 local sw = require "softworld"
 
 local auto = {}
 
 -- --- scenes: each takes a source of random numbers, gives build(options) -> scene, arguments of the run ---
 
-local function between(random, a, b) return a + (b - a) * random() end
-local function pick(random, list) return list[1 + math.floor(random() * #list)] end
-
-local function wire_of(random)
-  return pick(random, { { E = 5e6, density = 1500, radius = 0.0025 }, { E = 50e6, density = 1500,
-    radius = 0.0025 },
-    { EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.0018 },
-    { EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3, mass_per_length = 0.02, radius = 0.0015 } })
-end
-
-local function made(scene, section, options, more)
-  local args = { segments = 24, rolls = options.rolls, model = options.auto and "auto" or nil }
-  for key, value in pairs(section) do args[key] = value end
-  for key, value in pairs(more) do args[key] = value end
-  return scene:wire(args)
-end
-
-local function finish(scene, options)
-  scene:force{ kind = "damping", mass = 5 }
-  if options.contact then scene:wire_contact{} end
-  return scene
-end
+local between, pick, wire_of = draw.between, draw.pick, draw.wire_of
+local made, finish = draw.made, draw.finish
 
 auto.scenes = {
   { name = "hung", of = function(random)
@@ -141,7 +123,9 @@ auto.scenes = {
   end },
 }
 
-for _, kind in ipairs(autopressed.scenes) do auto.scenes[#auto.scenes + 1] = kind end
+for _, list in ipairs { autohandled.scenes, autopressed.scenes } do
+  for _, kind in ipairs(list) do auto.scenes[#auto.scenes + 1] = kind end
+end
 
 -- --- what is true ------------------------------------------------------------------------------
 
