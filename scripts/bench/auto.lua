@@ -224,9 +224,11 @@ local function one(kind, random, share)
   return out
 end
 
--- Too cheap, or dearer than need be?
+-- Too cheap, or dearer than need be? Where no model suffices, and the run says so, there is none to choose.
 local function rate(row)
   row.too_cheap = row.met and not row.enough[row.rungs]
+  row.some = row.met
+  for _, enough in pairs(row.enough) do row.some = row.some or enough end
   row.cheapest = row.enough[row.rungs] or false
   for word in pairs(row.enough) do
     if row.enough[word] and cheaper(word, row.rungs) and row.times[word] < (row.times[row.rungs] or 0) then
@@ -261,12 +263,13 @@ auto.aims = { held = 0.95, cheapest = 0.9, too_cheap = 0.02, choosing = 0.3, gai
 
 --- Figures of a list of rows.
 function auto.figures(list)
-  local f = { scenes = 0, rows = 0, held = 0, cheapest = 0, too_cheap = 0, choosing = 0, run = 0, rods = 0,
-    finest = 0, failed = 0, over = 0 }
+  local f = { scenes = 0, choices = 0, rows = 0, held = 0, cheapest = 0, too_cheap = 0, choosing = 0, run = 0,
+    rods = 0, finest = 0, failed = 0, over = 0 }
   for _, r in ipairs(list) do
     if r.failed then f.failed = f.failed + 1
     else
       f.scenes, f.rows, f.held = f.scenes + 1, f.rows + r.rows, f.held + r.held
+      f.choices = f.choices + (r.some and 1 or 0)
       f.cheapest, f.too_cheap = f.cheapest + (r.cheapest and 1 or 0), f.too_cheap + (r.too_cheap and 1 or 0)
       f.choosing, f.run = f.choosing + r.probes, f.run + r.cost
       local rods, meshes = r.times.drwo or 0, r.times.phne or 0
@@ -312,8 +315,9 @@ function auto.print(seed)
     print(("  %.1f %% of %d bars hold (aim %g: %s); %.1f %% the cheapest that suffices (aim %g: %s), %.1f "
       .. "%% too "
       .. "cheap (aim %g: %s)"):format(100 * f.held / f.rows, f.rows, 100 * aims.held,
-      verdict(f.held >= aims.held * f.rows), 100 * f.cheapest / f.scenes, 100 * aims.cheapest,
-      verdict(f.cheapest >= aims.cheapest * f.scenes), 100 * f.too_cheap / f.scenes, 100 * aims.too_cheap,
+      verdict(f.held >= aims.held * f.rows), 100 * f.cheapest / f.choices,
+      100 * aims.cheapest, verdict(f.cheapest >= aims.cheapest * f.choices),
+      100 * f.too_cheap / f.scenes, 100 * aims.too_cheap,
       verdict(f.too_cheap <= aims.too_cheap * f.scenes)))
     print(("  choosing %.3g s, over 20 ms and 0.3 of the run in %d scenes; the runs %.3g s; the finest "
       .. "model at least %.3g times as much"):format(f.choosing, f.over, f.run,

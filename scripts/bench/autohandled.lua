@@ -33,11 +33,11 @@ local function clipped(random)
   end
 end
 
--- It lies on a table as it came off the spool, and is drawn along by its start.
+-- It lies on a table as it came off the spool, and is lifted and drawn along by its start.
 local function spooled(random)
-  local section, duration = draw.wire_of(random), draw.pick(random, { 1, 4 })
+  local section, duration = draw.wire_of(random), draw.pick(random, { 2, 10 })
   local bend, mu = draw.between(random, 0.12, 0.4), draw.between(random, 0.05, 0.4)
-  local pull, lift = draw.between(random, 0.03, 0.12), draw.pick(random, { 0, 0.03 })
+  local pull, lift = draw.between(random, 0.03, 0.12), draw.between(random, 0.03, 0.1)
   return function(options)
     local scene, r, length = sw.scene { name = "spooled" }, section.radius, 0.4
     scene:obstacle { name = "table", shape = "plane", friction = mu }
@@ -49,7 +49,7 @@ local function spooled(random)
     local w = draw.made(scene, section, options, { name = "w", path = path, rest = "path" })
     scene:clamp(w, { s = 0, name = "hand" }):follow { relative = true, duration = duration,
       points = { { 0, 0, 0 }, { -pull, 0, lift } } }
-    return draw.finish(scene, options), { "hand.force", "tip" }, duration
+    return draw.finish(scene, options), { "hand.mean_force", "tip" }, duration
   end
 end
 
