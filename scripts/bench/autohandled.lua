@@ -49,7 +49,7 @@ local function spooled(random)
     local w = draw.made(scene, section, options, { name = "w", path = path, rest = "path" })
     scene:clamp(w, { s = 0, name = "hand" }):follow { relative = true, duration = duration,
       points = { { 0, 0, 0 }, { -pull, 0, lift } } }
-    return draw.finish(scene, options), { "hand.mean_force", "tip" }, duration
+    return draw.finish(scene, options), { "hand.force", "tip" }, duration
   end
 end
 
