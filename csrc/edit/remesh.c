@@ -216,7 +216,8 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
 /* More than this is lost when a wire that has moved gets frames [rad]. */
 static const double LEAST_TWIST = 1e-3;
 
-/* One that has moved becomes one that rolls, where nothing twists it: its frames go along it. */
+/* One that has moved becomes one that rolls, with the frames that it has or, where nothing twists
+ * it, such as go along it. */
 static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh *m = &w->mesh;
@@ -224,11 +225,12 @@ static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
     if (!(fabs(w->twisted[k].twist) <= LEAST_TWIST))
       return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved and is twisted by %.3g rad",
                      w->name, w->twisted[k].twist);
+  const int framed = w->mesh.rest != NULL;
   const sw_vec along = sw_unit_or(sw_sub(sw_load(m->x + 3), sw_load(m->x)), sw_v(1, 0, 0));
-  SW_TRY(sw_mesh_add_frames(m, sw_perpendicular(along), 1, 0.0));
+  if (!framed) SW_TRY(sw_mesh_add_frames(m, sw_perpendicular(along), 1, 0.0));
   w->beam.rolls = w->beam.framed = 1;
   sw_scene_forget_mesh(s, wire);
-  sw_scene_frame_holds(s, wire);
+  if (!framed) sw_scene_frame_holds(s, wire);
   return SW_OK;
 }
 
@@ -236,8 +238,7 @@ static sw_status change_beam(sw_scene *s, size_t wire, const sw_redrawing *as, s
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   size_t segments;
   const int rolls = as->rolls && !w->beam.rolls, drawn = is_drawn(w);
-  if (!drawn && (w->beam.rolls != as->rolls || as->EA != 1) &&
-      (!rolls || w->mesh.rest || as->EA != 1))
+  if (!drawn && (w->beam.rolls != as->rolls || as->EA != 1) && (!rolls || as->EA != 1))
     return sw_fail(err, SW_EINVAL, "redraw: wire '%s' has moved since it was drawn", w->name);
   w->beam.EA *= as->EA, w->beam.EI *= as->EI, w->beam.GJ *= as->GJ, w->beam.E *= as->EA;
   for (int k = 0; k < 2; k++) w->beam.EI_axis[k] *= as->EI;

@@ -7,9 +7,9 @@
 #include "integrate/integrate.h"
 
 /* How the next step begins: with the state's accelerations; anew, for the scene was changed and
- * they are stale; or with them although the system is a new one, for they are those of its forces.
- */
-enum { SW_GOES_ON = -1, SW_AS_BEFORE = 0, SW_ANEW = 1 };
+ * they are stale; likewise, from an equilibrium that was found and not changed since; or with them
+ * although the system is a new one, for they are those of its forces. */
+enum { SW_GOES_ON = -1, SW_AS_BEFORE = 0, SW_ANEW = 1, SW_FROM_REST = 2 };
 
 typedef struct sw_course {
   int next;        /* SW_AS_BEFORE, ...: how the next step begins */
@@ -29,6 +29,9 @@ typedef struct sw_course {
 
 /* The scene was changed, or its state jumped. */
 static inline void sw_course_jump(sw_course *course) { course->next = SW_ANEW; }
+/* It came to rest. */
+static inline void sw_course_rest(sw_course *course) { course->next = SW_FROM_REST; }
+static inline int sw_course_rests(const sw_course *course) { return course->next == SW_FROM_REST; }
 /* It was changed, but goes on as if it were not. */
 static inline void sw_course_go_on(sw_course *course) { course->next = SW_GOES_ON; }
 

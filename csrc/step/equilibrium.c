@@ -12,6 +12,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "state/mesh.h"
+#include "step/passing.h"
 #include "step/statics.h"
 
 enum { SLIDES = 8, MOST_REDOS = 20 };
@@ -83,6 +84,8 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
   if (status == SW_OK && !newton->statics && hbar > first_step(s) && sw_scene_has_contact(s) &&
       thrown(p))
     status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
+  if (status == SW_OK && p->args->springs == SW_SPRING && sw_passing_too_far(s, p->y))
+    status = sw_fail(err, SW_ENOCONV, "a wire would spring past a clip");
   p->report->negative = r.negative;
   if (status != SW_OK) memcpy(system->tension, p->tension, system->edges * sizeof(double));
   return status;
@@ -107,7 +110,7 @@ static double take(sw_statics *p, int trial) {
 }
 
 /* Have obstacles moved since contact knew them? Then friction drags the wires. */
-static int dragged(const sw_statics *p) {
+int sw_rest_dragged(const sw_statics *p) {
   return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
          sw_contact_moves(sw_scene_contact(p->s));
 }
@@ -183,7 +186,7 @@ static sw_status transient(sw_statics *p, sw_error *err) {
   const sw_newton newton = {
       .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
   /* what is dragged along must not be kept from it by inertia */
-  double tau = dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
+  double tau = sw_rest_dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
   p->report->transient = 1;
   while (p->report->iterations < (size_t)p->args->max_iterations) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
@@ -192,7 +195,7 @@ static sw_status transient(sw_statics *p, sw_error *err) {
     if (sw_rest_stops(status)) return status;
     if (status != SW_OK) {
       tau *= 0.25;
-      if (p->too_far && tau < time_scale(s) && dragged(p)) {
+      if (p->too_far && tau < time_scale(s) && sw_rest_dragged(p)) {
         *p->too_far = 1;
         return sw_fail(err, SW_ENOCONV, "obstacles drag the wires too far in one step");
       }
@@ -224,16 +227,7 @@ static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
   return status;
 }
 
-sw_status sw_rest_find(sw_statics *p, sw_error *err) {
-  sw_rest_put_aside(p->s, p->kept);
-  sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
-  if (status == SW_ENOCONV && dragged(p)) { /* touches may begin to slide one by one */
-    sw_rest_take_back(p->s, p->kept);
-    const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
-    status = sw_rest_newton(p, (int)fmin(most, (double)p->args->max_iterations), err);
-  }
-  if ((status == SW_OK && p->report->negative == 0) || sw_rest_stops(status)) return status;
-  sw_rest_take_back(p->s, p->kept);
+sw_status sw_rest_continue(sw_statics *p, sw_error *err) {
   for (int k = 0;; k++) {
     int again = 0;
     SW_TRY(transient(p, err));
@@ -241,4 +235,36 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
     if (!again || k == MOST_NUDGES) return SW_OK;
     nudge(p, k);
   }
+}
+
+static int found(const sw_statics *p, sw_status status) {
+  return (status == SW_OK && p->report->negative == 0) || sw_rest_stops(status);
+}
+
+sw_status sw_rest_find(sw_statics *p, sw_error *err) {
+  int fell = 0;
+  sw_rest_put_aside(p->s, p->kept);
+  sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
+  if (found(p, status)) return status;
+  if (!p->rests && sw_rest_dragged(p)) {
+    sw_rest_take_back(p->s, p->kept);
+    SW_TRY(sw_rest_before(p, &fell, err));
+    if (fell) {
+      sw_rest_put_aside(p->s, p->kept);
+      status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
+      if (found(p, status)) return status;
+    }
+  }
+  if (status == SW_ENOCONV && sw_rest_dragged(p)) { /* touches may begin to slide one by one */
+    sw_rest_take_back(p->s, p->kept);
+    const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
+    status = sw_rest_newton(p, (int)fmin(most, (double)p->args->max_iterations), err);
+  }
+  if (found(p, status)) return status;
+  sw_rest_take_back(p->s, p->kept);
+  if (p->args->springs == SW_STAY && p->too_far) {
+    *p->too_far = 1;
+    return sw_fail(err, SW_ENOCONV, "a wire may spring past a clip");
+  }
+  return sw_rest_continue(p, err);
 }

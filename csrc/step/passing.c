@@ -11,7 +11,18 @@ static const double WELL_ENOUGH = 1.25;
 /* No part is made shorter than this for what is passed: it is passed at tens of m/s [s]. */
 static const double SHORTEST = 1e-5;
 
-double sw_passing_of(const sw_scene *s, const double *x) {
+int sw_passing_any(const sw_scene *s) {
+  const sw_system *system = sw_scene_system(s);
+  for (size_t w = 0; sw_scene_force_slots(s) && w < system->body_count; w++)
+    for (size_t k = 0; k < system->bodies[w].term_count; k++) {
+      const sw_term *term = &system->bodies[w].terms[k];
+      if (!term->cls->oversteps || !term->history) continue;
+      if (!term->cls->idle || !term->cls->idle(term->history)) return 1;
+    }
+  return 0;
+}
+
+double sw_passing_between(const sw_scene *s, const double *from, const double *to) {
   sw_system *system = sw_scene_system(s);
   double most = 0;
   for (size_t w = 0; sw_scene_force_slots(s) && w < system->body_count; w++) {
@@ -19,12 +30,21 @@ double sw_passing_of(const sw_scene *s, const double *x) {
     SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       if (!term->cls->oversteps) continue;
       sw_field now = b->field; /* its own places may be those of a trial that is gone */
-      now.x = system->x + 3 * b->first_node;
+      now.x = from + 3 * b->first_node;
+      now.statics = 0;
       most =
-          fmax(most, term->cls->oversteps(term->args, &now, term->history, x + 3 * b->first_node));
+          fmax(most, term->cls->oversteps(term->args, &now, term->history, to + 3 * b->first_node));
     }
   }
   return most;
+}
+
+double sw_passing_of(const sw_scene *s, const double *x) {
+  return sw_passing_between(s, sw_scene_system(s)->x, x);
+}
+
+int sw_passing_too_far(const sw_scene *s, const double *x) {
+  return sw_passing_of(s, x) > WELL_ENOUGH;
 }
 
 double sw_passing_part(double h, double over) {

@@ -6,8 +6,13 @@
 
 #include "scene/scene.h"
 
-/* How far a step to places x goes over what forces on the way allow: 1 and less is well [-]. */
+/* Is there a force that wires may pass in the coming step? */
+int sw_passing_any(const sw_scene *scene);
+/* How far a step from places to others goes over what forces on the way allow, with what they knew
+ * at its start: 1 and less is well [-]; one from where the scene is. */
+double sw_passing_between(const sw_scene *scene, const double *from, const double *to);
 double sw_passing_of(const sw_scene *scene, const double *x);
+int sw_passing_too_far(const sw_scene *scene, const double *x);
 /* The part that is to be taken instead of one of size h that goes so far [s]. */
 double sw_passing_part(double h, double over);
 

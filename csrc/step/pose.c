@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Poses: holds and obstacles go from place to place, and the wires are in equilibrium at each. */
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "body/live.h"
 #include "contact/contact.h"
 #include "edit/edit.h"
+#include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
 #include "step/energy.h"
 #include "step/jaw.h"
+#include "step/passing.h"
 #include "step/rest.h"
 
 enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
@@ -18,21 +21,28 @@ enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 /* Of a trial: what needs more is sooner found in smaller steps [-]. */
 enum { FEW_ITERATIONS = 300 };
 
-/* The scene at the start of a pose in which a tie may break. */
+/* The scene at the start of a pose in which a tie may break, or a wire may go into a clip. */
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
+  double *x;    /* places of nodes */
+  int next;     /* see sw_course */
 } kept;
 
 static void drop(kept *k) {
   sw_tape_free(&k->live);
   sw_free(k->jaws);
+  sw_free(k->x);
   *k = (kept){0};
 }
 
 static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
+  const sw_system *system = sw_scene_system(s);
+  k->next = sw_scene_course(s)->next;
   k->jaws = sw_alloc(sw_scene_tool_slots(s), sizeof *k->jaws);
-  const sw_status status = k->jaws ? sw_live_take(s, &k->live) : SW_ENOMEM;
+  k->x = sw_alloc(system->freedoms, sizeof *k->x);
+  const sw_status status = k->jaws && k->x ? sw_live_take(s, &k->live) : SW_ENOMEM;
+  if (k->x) memcpy(k->x, system->x, system->freedoms * sizeof *k->x);
   for (size_t i = 0; status == SW_OK && i < sw_scene_tool_slots(s); i++)
     k->jaws[i] = sw_scene_tool_in(s, i)->jaw;
   if (status == SW_OK) return SW_OK;
@@ -42,12 +52,21 @@ static sw_status keep(const sw_scene *s, kept *k, sw_error *err) {
 
 static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) {
   sw_scene_set_time(s, t0);
+  sw_scene_course(s)->next = k->next;
   for (size_t i = 0; i < sw_scene_tool_slots(s); i++) sw_scene_tool_in(s, i)->jaw = k->jaws[i];
   return sw_live_back(s, &k->live, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err);
+
+/* The part of a pose of size h in which forces of short reach are followed that it went past: how
+ * far a wire gets into a clip, at which force, else depends on where Newton's iteration ends. */
+static double followed_part(const sw_scene *s, const double *from, double h, int *passed) {
+  const double part = sw_passing_part(h, sw_passing_between(s, from, sw_scene_system(s)->x));
+  *passed = part < h;
+  return part;
+}
 
 /* Holds and obstacles go on to t1, the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction halving it shows how much it does. */
@@ -61,6 +80,8 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
+  const int shortest = t1 - t0 <= 1.5 * how->passing; /* but for rounding */
+  args.springs = !start->x ? SW_FALL : shortest || !halvings ? SW_SPRING : SW_STAY;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
   const sw_status status =
@@ -82,6 +103,14 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     drop(start);
     return pose(s, 0.5 * (t0 + t1), halvings, how, report, err);
   }
+  int passed = 0;
+  const double part = start->x ? followed_part(s, start->x, t1 - t0, &passed) : t1 - t0;
+  if (passed && !shortest) {
+    SW_TRY(put_back(s, start, t0, err));
+    drop(start);
+    return pose(s, t0 + fmax(part, how->passing), halvings, how, report, err);
+  }
+  if (passed) rest.jumped = 1;
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
   SW_TRY(sw_ledger_pose(s, rest.jumped, err));
   if (rest.jumped) {
@@ -94,7 +123,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err) {
   kept start = {0};
-  if (sw_scene_may_break(s)) SW_TRY(keep(s, &start, err));
+  if (sw_scene_may_break(s) || sw_passing_any(s)) SW_TRY(keep(s, &start, err));
   const sw_status status = one_pose(s, t1, halvings, how, report, &start, err);
   drop(&start);
   return status;

@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step of slow handling: from one equilibrium to the next. */
+#include <math.h>
+
 #include "base/quota.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/energy.h"
 #include "step/ladder.h"
+#include "step/passing.h"
 #include "step/rest.h"
 #include "step/run.h"
+
+static const double SHORTEST_PASSING = 1.0 / 64; /* of a pose step [-] */
 
 /* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed. */
 static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   sw_scene *s = p->s;
+  double most = HUGE_VAL; /* where a clip is passed: twice the pose that was taken last */
   while (sw_scene_time(s) < t) {
-    double h = t - sw_scene_time(s);
+    const double t0 = sw_scene_time(s);
+    double h = fmin(most, t - t0);
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     SW_TRY(sw_quota_take(err));
     SW_TRY(sw_ladder_make_room(p, &h, err));
@@ -20,8 +27,11 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
     if (!(part > sw_scene_time(s)))
       return sw_fail(err, SW_ENOCONV, "wire is fed too fast to follow it");
     SW_TRY(sw_ledger_open(s, err));
-    const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt};
+    const sw_pose_args how = {p->interrupted, SW_SHORTEST_BREAK * p->args->dt,
+                              SHORTEST_PASSING * p->args->dt};
+    const int passes = sw_passing_any(s);
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
+    most = passes ? 2 * (sw_scene_time(s) - t0) : HUGE_VAL;
     sw_scene_course(s)->span = 0;
     SW_TRY(sw_step_observe(s, err));
   }

@@ -177,6 +177,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   if (!block || !poses)
     return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_statics p = {.s = s,
+                  .rests = sw_course_rests(sw_scene_course(s)),
                   .args = args,
                   .report = report,
                   .interrupted = interrupted,
@@ -198,7 +199,10 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   } else if (status != SW_EINTR) {
     sw_rest_take_back(s, p.begun);
   }
-  sw_course_jump(sw_scene_course(s));
+  if (status == SW_OK || (p.rests && status != SW_EINTR))
+    sw_course_rest(sw_scene_course(s));
+  else
+    sw_course_jump(sw_scene_course(s));
   return status;
 }
 

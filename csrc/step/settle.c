@@ -22,7 +22,7 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, co
   report->ok = status == SW_OK;
   if (status != SW_OK)
     sw_fail(&report->reason, status, "%.400s", why->text[0] ? why->text : sw_status_text(status));
-  sw_course_jump(sw_scene_course(s));
+  if (status != SW_OK) sw_course_jump(sw_scene_course(s));
 }
 
 enum { MOST_ROUNDS = 100 };

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "body/live.h"
+#include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
 #include "step/jaw.h"
@@ -18,6 +19,7 @@ typedef struct poser {
   int (*interrupted)(void);
   sw_settle_report *report;
   sw_tape start;  /* what all trials begin with */
+  int next;       /* how the course would go on from there */
   sw_jaw *before; /* (tools) as the pose found them */
   double *speed;  /* (tools) of jaws in the trial that came nearest [m/s] */
   double nearest; /* how far its force was off; INFINITY = none went well [-] */
@@ -25,6 +27,7 @@ typedef struct poser {
 
 static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   sw_settle_report trial = {0};
+  sw_scene_course(p->s)->next = p->next;
   const sw_status status =
       sw_scene_rest(p->s, since, too_far, p->args, p->interrupted, &trial, err);
   trial.iterations += p->report->iterations;
@@ -69,6 +72,7 @@ static sw_status search_on(poser *p, sw_error *err) {
   for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
     sw_tape_free(&p->start);
     SW_TRY(sw_live_take(p->s, &p->start));
+    p->next = sw_scene_course(p->s)->next;
     const sw_status status = search(p, sw_scene_time(p->s), NULL, err);
     if (status == SW_ENOCONV || status == SW_EINTR) {
       sw_jaw_end_rest(p->s, 0);
@@ -84,6 +88,7 @@ static sw_status prepare(poser *p) {
   p->before = sw_alloc(n, sizeof *p->before);
   p->speed = sw_alloc(n, sizeof *p->speed);
   if (!p->before || !p->speed) return SW_ENOMEM;
+  p->next = sw_scene_course(p->s)->next;
   for (size_t k = 0; k < n; k++) p->before[k] = sw_scene_tool_in(p->s, k)->jaw;
   return sw_live_take(p->s, &p->start);
 }

@@ -14,6 +14,7 @@ typedef struct sw_statics {
   const sw_settle_args *args;
   sw_settle_report *report;
   int (*interrupted)(void);
+  int rests;      /* 1: it began in equilibrium, but for what moves in this pose */
   int most_far;   /* see sw_newton */
   double passing; /* share of an edge that nodes of a place on the way may be off [-] */
   double edge;    /* the shortest [m] */
@@ -44,5 +45,12 @@ int sw_rest_stops(sw_status status);
 sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err);
 /* The equilibrium from where the scene is; in some way. */
 sw_status sw_rest_find(sw_statics *p, sw_error *err);
+/* The same by continuation, which goes where the wires would. */
+sw_status sw_rest_continue(sw_statics *p, sw_error *err);
+/* Have obstacles moved since contact knew them? Then friction drags the wires. */
+int sw_rest_dragged(const sw_statics *p);
+/* Wires that do not rest where a pose begins come to rest before obstacles move on: then *fell
+ * is 1. */
+sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err);
 
 #endif

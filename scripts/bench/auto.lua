@@ -2,35 +2,17 @@
 --- Runs that choose their model: scenes drawn at random, each with a tolerance of 10, 3 or 1 %, against every
 -- fixed model and against far finer runs of the dearest one.
 -- @module bench.auto
+local autohandled = require "bench.autohandled"
 local autopressed = require "bench.autopressed"
+local draw = require "bench.autodraw"
 local sw = require "softworld"
 
 local auto = {}
 
 -- --- scenes: each takes a source of random numbers, gives build(options) -> scene, arguments of the run ---
 
-local function between(random, a, b) return a + (b - a) * random() end
-local function pick(random, list) return list[1 + math.floor(random() * #list)] end
-
-local function wire_of(random)
-  return pick(random, { { E = 5e6, density = 1500, radius = 0.0025 }, { E = 50e6, density = 1500,
-    radius = 0.0025 },
-    { EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.0018 },
-    { EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3, mass_per_length = 0.02, radius = 0.0015 } })
-end
-
-local function made(scene, section, options, more)
-  local args = { segments = 24, rolls = options.rolls, model = options.auto and "auto" or nil }
-  for key, value in pairs(section) do args[key] = value end
-  for key, value in pairs(more) do args[key] = value end
-  return scene:wire(args)
-end
-
-local function finish(scene, options)
-  scene:force{ kind = "damping", mass = 5 }
-  if options.contact then scene:wire_contact{} end
-  return scene
-end
+local between, pick, wire_of = draw.between, draw.pick, draw.wire_of
+local made, finish = draw.made, draw.finish
 
 auto.scenes = {
   { name = "hung", of = function(random)
@@ -141,7 +123,9 @@ auto.scenes = {
   end },
 }
 
-for _, kind in ipairs(autopressed.scenes) do auto.scenes[#auto.scenes + 1] = kind end
+for _, list in ipairs { autohandled.scenes, autopressed.scenes } do
+  for _, kind in ipairs(list) do auto.scenes[#auto.scenes + 1] = kind end
+end
 
 -- --- what is true ------------------------------------------------------------------------------
 
@@ -240,9 +224,11 @@ local function one(kind, random, share)
   return out
 end
 
--- Too cheap, or dearer than need be?
+-- Too cheap, or dearer than need be? Where no model suffices, and the run says so, there is none to choose.
 local function rate(row)
   row.too_cheap = row.met and not row.enough[row.rungs]
+  row.some = row.met
+  for _, enough in pairs(row.enough) do row.some = row.some or enough end
   row.cheapest = row.enough[row.rungs] or false
   for word in pairs(row.enough) do
     if row.enough[word] and cheaper(word, row.rungs) and row.times[word] < (row.times[row.rungs] or 0) then
@@ -277,12 +263,13 @@ auto.aims = { held = 0.95, cheapest = 0.9, too_cheap = 0.02, choosing = 0.3, gai
 
 --- Figures of a list of rows.
 function auto.figures(list)
-  local f = { scenes = 0, rows = 0, held = 0, cheapest = 0, too_cheap = 0, choosing = 0, run = 0, rods = 0,
-    finest = 0, failed = 0, over = 0 }
+  local f = { scenes = 0, choices = 0, rows = 0, held = 0, cheapest = 0, too_cheap = 0, choosing = 0, run = 0,
+    rods = 0, finest = 0, failed = 0, over = 0 }
   for _, r in ipairs(list) do
     if r.failed then f.failed = f.failed + 1
     else
       f.scenes, f.rows, f.held = f.scenes + 1, f.rows + r.rows, f.held + r.held
+      f.choices = f.choices + (r.some and 1 or 0)
       f.cheapest, f.too_cheap = f.cheapest + (r.cheapest and 1 or 0), f.too_cheap + (r.too_cheap and 1 or 0)
       f.choosing, f.run = f.choosing + r.probes, f.run + r.cost
       local rods, meshes = r.times.drwo or 0, r.times.phne or 0
@@ -328,8 +315,9 @@ function auto.print(seed)
     print(("  %.1f %% of %d bars hold (aim %g: %s); %.1f %% the cheapest that suffices (aim %g: %s), %.1f "
       .. "%% too "
       .. "cheap (aim %g: %s)"):format(100 * f.held / f.rows, f.rows, 100 * aims.held,
-      verdict(f.held >= aims.held * f.rows), 100 * f.cheapest / f.scenes, 100 * aims.cheapest,
-      verdict(f.cheapest >= aims.cheapest * f.scenes), 100 * f.too_cheap / f.scenes, 100 * aims.too_cheap,
+      verdict(f.held >= aims.held * f.rows), 100 * f.cheapest / f.choices,
+      100 * aims.cheapest, verdict(f.cheapest >= aims.cheapest * f.choices),
+      100 * f.too_cheap / f.scenes, 100 * aims.too_cheap,
       verdict(f.too_cheap <= aims.too_cheap * f.scenes)))
     print(("  choosing %.3g s, over 20 ms and 0.3 of the run in %d scenes; the runs %.3g s; the finest "
       .. "model at least %.3g times as much"):format(f.choosing, f.over, f.run,

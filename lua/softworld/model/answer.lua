@@ -47,6 +47,18 @@ local function choice_of(state)
     why = state.why or state.doubt or "there is no dearer one", error = state.change }
 end
 
+-- Why bars are too long where nothing else tells.
+local function together(model)
+  if model.spread then return "the tolerance is below what the cable's spread makes worth computing" end
+  for _, q in ipairs(model.quantities) do
+    if not q.met then
+      return ("what the model may leave out of %s, %s, and edges and steps, %s, are together more than was "
+        .. "asked for, %s"):format(q.name, number.text(q.model_error, q.unit),
+        number.text(q.discretisation, q.unit), number.text(q.tolerance, q.unit))
+    end
+  end
+end
+
 -- Bars with what rungs leave out.
 local function widen(context, result, model)
   model.quantities = result:error_bars()
@@ -61,8 +73,7 @@ local function widen(context, result, model)
   end
   model.dear = not met and context.dear or nil
   if not met and (model.dear or not result.advice) then
-    result.advice = model.short[1] or model.blind or model.dear
-      or "the tolerance is below what the cable's spread makes worth computing"
+    result.advice = model.short[1] or model.blind or model.dear or together(model)
   end
   result.met = met
 end

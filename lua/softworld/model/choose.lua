@@ -75,7 +75,7 @@ local function refined(context)
   end
   affordable(context)
   job.restore()
-  function job.arrange() steps = probe.arrange(context, decide.rungs(context)) end
+  function job.arrange() steps = probe.arrange(context, decide.rungs(context), nil, true) end
   local total = { wall = 0, cpu = 0 }
   local result = trust.work(job, function(k, name)
     return refine.computer(job, steps, context.run_once, total)(k, name)
@@ -215,6 +215,7 @@ function choose.run(scene, given, check, run_once)
   end
   if job.close then job.close() end
   if not fine then error(result, 0) end
+  if given.frames == false then scene:clear_frames() end -- they were for the choices
   return answer.add(context, result)
 end
 

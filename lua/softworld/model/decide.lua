@@ -219,6 +219,7 @@ function decide.look(context, state)
   return false
 end
 
+-- What the others leave out counts in what one may, as far as it is known.
 local function decide_all(context)
   for _, state in ipairs(context.states) do
     if state.by ~= "given" then
@@ -226,6 +227,16 @@ local function decide_all(context)
       repeat until decide.look(context, state)
     end
   end
+end
+
+-- Do the choices together leave out more than they may, each of them being allowed?
+local function is_overdrawn(context)
+  local here = probe.of(context, decide.rungs(context), 1)
+  for _, q in ipairs(here.ok and context.job.quantities or {}) do
+    local left = decide.left_out(context, q.name)
+    if left > MODEL * quantity.asked(q, here.values[q.name] or NONE) then return true end
+  end
+  return false
 end
 
 --- Decide all choices until nothing changes: what is chosen later may undo what was free before. Returns
@@ -239,7 +250,7 @@ function decide.settle(context)
       local name = state.choice.name
       same = same and (state.choice.steady or before[name] == now[name])
     end
-    if same then break end
+    if same and not is_overdrawn(context) then break end
   end
   local base = probe.of(context, decide.rungs(context), 1)
   if not base.ok then

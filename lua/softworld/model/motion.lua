@@ -39,7 +39,7 @@ function motion.apply(context, rung, changes)
   changes.quasistatic = rung == 1 or nil
   if rung == 1 then
     changes.dt = (context.args.dt or usual_dt) * POSES
-    if context.args.frames ~= false and not context.args.frame then changes.each_frame = true end
+    changes.each_frame = true
   end
 end
 

@@ -14,6 +14,8 @@ local trust = require "softworld.run.trust"
 local probe = {}
 
 local LONGEST = 60 -- that a computation on the way is expected to take [s]
+local USUAL = 0.04 -- between frames, where the script says nothing [s]
+local MOMENTS = 25 -- frames of a run at least, of a duration that is known [-]
 
 -- Options of the run in place of those given.
 local function changes_of(context, rungs)
@@ -31,19 +33,29 @@ local function stiffen(factors)
   end
 end
 
---- Set the scene, as it begins, for rungs; returns the steps of the levels of its run.
-function probe.arrange(context, rungs, factors)
+-- Options of runs whose frames choices look at: of each step, or so many that nothing passes between them.
+-- As the script says in the run that it keeps.
+local function with_frames(context, options, each_step, last)
+  local args = context.args
+  local told = args.frames ~= false and args.frame or nil
+  if type(options.frames) ~= "table" then options.frames = nil end
+  if last and told then return options end
+  options.frame = each_step and options.dt
+    or math.min(told or USUAL, (args.duration or math.huge) / MOMENTS)
+  if options.frame <= 0 then options.frame = nil end
+  return options
+end
+
+--- Set the scene, as it begins, for rungs; returns the steps of the levels of its run. last: the run is the
+-- script's, not one on the way.
+function probe.arrange(context, rungs, factors, last)
   local changes = changes_of(context, rungs)
-  local each_frame = changes.each_frame
+  local each_step = changes.each_frame
   context.job.shape = changes.shape
   changes.each_frame, changes.shape = nil, nil
   stiffen(factors)
   local steps = context.job.steps(changes)
-  return not each_frame and steps or function(k)
-    local options = steps(k)
-    options.frame = options.dt
-    return options
-  end
+  return function(k) return with_frames(context, steps(k), each_step, last) end
 end
 
 local function look(context, run)
@@ -54,14 +66,23 @@ local function look(context, run)
   return found
 end
 
+-- Of a scene that diverged not all can be read: what its frames tell, of each choice by itself.
+local function look_at_failed(context, run)
+  local found = {}
+  for _, choice in ipairs(registry.list) do
+    local fine, f = pcall(choice.look or function() end, context, run)
+    if not fine and checks.is_interrupt(f) then error(f, 0) end
+    found[choice.name] = fine and f or nil
+  end
+  return found
+end
+
 --- What a run tells to the choices, by their names.
 function probe.facts(context, run) return facts.reading(context.scene, run.start, look, context, run) end
 
 -- What a run that failed tells, if anything.
 local function facts_of_failed(context, run)
-  local fine, found = pcall(probe.facts, context, run)
-  if not fine and checks.is_interrupt(found) then error(found, 0) end
-  return fine and found or nil
+  return facts.reading(context.scene, run.start, look_at_failed, context, run)
 end
 
 --- Expected time of a run of rungs on level k, where one of them may cost much [s]; else nil.

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rest before obstacles move on. Wires that begin far from equilibrium, drawn straight or let go,
+ * do not come to rest while obstacles drag them: continuation then takes steps so long that inertia
+ * tells no way, and Newton's iteration may end anywhere. Both find the way where nothing moves. */
+#include <math.h>
+
+#include "body/live.h"
+#include "scene/world.h"
+#include "step/statics.h"
+
+/* Wires that Newton's iteration shifts by less are at rest already, of the longest one [-]. */
+static const double AT_REST = 1e-4;
+
+static double shift_from(const sw_statics *p, const double *before) {
+  const sw_system *s = &p->s->system;
+  double largest = 0;
+  for (size_t i = 0; i < s->nodes; i++)
+    largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(before, i)));
+  return largest;
+}
+
+/* Where nothing moves; *far: is that elsewhere? */
+static sw_status find(sw_statics *p, int *far, sw_error *err) {
+  sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
+  if (sw_rest_stops(status)) return status;
+  if (status != SW_OK || p->report->negative > 0) {
+    sw_rest_take_back(p->s, p->kept);
+    status = sw_rest_continue(p, err);
+  }
+  *far = status == SW_OK && shift_from(p, p->kept) > AT_REST * sw_rest_longest(p->s);
+  return status;
+}
+
+sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err) {
+  sw_scene *s = p->s;
+  const sw_pose *const from = s->part_from;
+  const double now = s->time, part = s->part, touched = p->touched;
+  const int most_far = p->most_far, transient = p->report->transient;
+  const size_t negative = p->report->negative;
+  sw_tape start = {0};
+  sw_error why = {"out of memory"};
+  *fell = 0;
+  sw_status status = sw_live_take(s, &start);
+  if (status == SW_OK) {
+    s->time = touched, s->part_from = p->from_poses, s->part = 0;
+    p->most_far = 0;
+    status = find(p, fell, &why);
+    s->time = now, s->part_from = from, s->part = part;
+    p->most_far = most_far, p->touched = touched, p->report->transient = transient;
+  }
+  if (sw_rest_stops(status)) {
+    sw_fail(err, status, "%s", why.text);
+  } else if (!*fell) {
+    status = sw_live_back(s, &start, err);
+    p->report->negative = negative;
+  }
+  sw_tape_free(&start);
+  return status;
+}
