@@ -241,3 +241,15 @@ int sw_contact_moves(const sw_contact *c) {
   }
   return 0;
 }
+
+size_t sw_contact_index(const sw_contact *c, int id) {
+  size_t low = 0, high = c->count; /* they ascend */
+  while (low < high) {
+    const size_t o = low + (high - low) / 2;
+    if (c->obstacles[o].id < id)
+      low = o + 1;
+    else
+      high = o;
+  }
+  return low < c->count && c->obstacles[low].id == id ? low : c->count;
+}

@@ -140,6 +140,8 @@ void sw_contact_match(const sw_contact *c, sw_glance *at);
  */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
 /* A place along a candidate as a mean of nodes. */
+/* The obstacle with the owner's number, or count. */
+size_t sw_contact_index(const sw_contact *c, int id);
 sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
 struct sw_place;
@@ -234,19 +236,6 @@ static inline double sw_contact_aslant(const sw_contact *c, size_t node, size_t 
 /* Velocity of the obstacle's material at world point p [m/s]. */
 static inline sw_vec sw_obstacle_velocity(const sw_contact_at *o, sw_vec p) {
   return sw_add(o->v, sw_cross(o->omega, sw_sub(p, o->pose.p)));
-}
-
-/* The obstacle with the owner's number, or count. */
-static inline size_t sw_contact_index(const sw_contact *c, int id) {
-  size_t low = 0, high = c->count; /* they ascend */
-  while (low < high) {
-    const size_t o = low + (high - low) / 2;
-    if (c->obstacles[o].id < id)
-      low = o + 1;
-    else
-      high = o;
-  }
-  return low < c->count && c->obstacles[low].id == id ? low : c->count;
 }
 
 #endif

@@ -52,6 +52,11 @@ void sw_scene_end_look(sw_scene *s, int running) { s->running = running, s->look
 void sw_scene_go_part(sw_scene *s, const sw_pose *from, double share) {
   s->part_from = from, s->part = share;
 }
+
+const sw_pose *sw_scene_part(const sw_scene *s, double *share) {
+  *share = s->part;
+  return s->part_from;
+}
 void sw_scene_renumber(sw_scene *s) { s->build = ++s->builds; }
 void sw_scene_forget_mesh(sw_scene *s, size_t wire) {
   s->kept.changed = wire + 1;

@@ -79,6 +79,7 @@ int sw_scene_begin_look(sw_scene *scene);
 void sw_scene_end_look(sw_scene *scene, int running);
 /* Holds are at this share of their way from these poses; NULL: at its end. */
 void sw_scene_go_part(sw_scene *scene, const sw_pose *from, double share);
+const sw_pose *sw_scene_part(const sw_scene *scene, double *share); /* both */
 /* The built system is another one now, as if it were built anew. */
 void sw_scene_renumber(sw_scene *scene);
 /* The wire has other nodes: contact remembers nothing of it, and its velocities jump. */

@@ -5,14 +5,15 @@
 #include <math.h>
 
 #include "body/live.h"
-#include "scene/world.h"
+#include "scene/parts.h"
 #include "step/statics.h"
+#include "system/system.h"
 
 /* Wires that Newton's iteration shifts by less are at rest already, of the longest one [-]. */
 static const double AT_REST = 1e-4;
 
 static double shift_from(const sw_statics *p, const double *before) {
-  const sw_system *s = &p->s->system;
+  const sw_system *s = sw_scene_system(p->s);
   double largest = 0;
   for (size_t i = 0; i < s->nodes; i++)
     largest = fmax(largest, sw_dist(sw_vec_at(s->x, i), sw_vec_at(before, i)));
@@ -33,8 +34,9 @@ static sw_status find(sw_statics *p, int *far, sw_error *err) {
 
 sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err) {
   sw_scene *s = p->s;
-  const sw_pose *const from = s->part_from;
-  const double now = s->time, part = s->part, touched = p->touched;
+  double part;
+  const sw_pose *const from = sw_scene_part(s, &part);
+  const double now = sw_scene_time(s), touched = p->touched;
   const int most_far = p->most_far, transient = p->report->transient;
   const size_t negative = p->report->negative;
   sw_tape start = {0};
@@ -42,10 +44,10 @@ sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err) {
   *fell = 0;
   sw_status status = sw_live_take(s, &start);
   if (status == SW_OK) {
-    s->time = touched, s->part_from = p->from_poses, s->part = 0;
+    sw_scene_set_time(s, touched), sw_scene_go_part(s, p->from_poses, 0);
     p->most_far = 0;
     status = find(p, fell, &why);
-    s->time = now, s->part_from = from, s->part = part;
+    sw_scene_set_time(s, now), sw_scene_go_part(s, from, part);
     p->most_far = most_far, p->touched = touched, p->report->transient = transient;
   }
   if (sw_rest_stops(status)) {
