@@ -3,6 +3,7 @@
 local sw = require "softworld"
 local flat = require "softworld.model.flat"
 local mesh = require "softworld.model.mesh"
+local probe = require "softworld.model.probe"
 
 local R, E = 0.01, 1e6
 
@@ -100,6 +101,25 @@ it("a tube whose wall is a quarter of its radius has elements, of 16 cubes acros
     local time = mesh.time({ body = b, share = 0.1, length = 0.1 }, mesh.elements, 1)
     assert.is_true(time > 0 and time < math.huge, tostring(time))
   end
+end)
+
+-- By the rule, by what the level before took, and by what that grew by over the rule.
+it("a level is expected to take what those before it did, and to grow as they did", function()
+  local wire = { body = body(section(0.7)), share = 0.1, length = 0.1 }
+  local context = { probes = {}, pressed_fixed = { wire }, iterations = 100 }
+  local rungs = { motion = 1, twist = 1, contact = 1, grip = 1, section = mesh.springs }
+  local function rule(k) return mesh.time(wire, mesh.springs, k, 100) end
+  assert.is_near(rule(3), probe.expected(context, rungs, 3), 1e-9 * rule(3))
+  local function took(k, time) context.probes[probe.key(rungs, k)] = { level = { ok = true, cpu = time } } end
+  took(1, 10 * rule(1))
+  assert.is_near(10 * rule(3), probe.expected(context, rungs, 3), 1e-9 * rule(3))
+  took(2, 15 * rule(2))
+  assert.is_near(15 * 1.5 * rule(3), probe.expected(context, rungs, 3), 1e-6 * rule(3))
+  assert.is_near(15 * 1.5 ^ 2 * rule(4), probe.expected(context, rungs, 4), 1e-6 * rule(4))
+  local levels = { [3] = { ok = true, cpu = rule(3) } } -- faster than feared
+  assert.is_near(rule(4), probe.expected(context, rungs, 4, levels), 1e-9 * rule(4))
+  rungs.section = 1
+  assert.is_nil(probe.expected(context, rungs, 3))
 end)
 
 describe("the choice of section", function()

@@ -39,19 +39,27 @@ local function suffices(job, k, contact)
   return true
 end
 
--- No finer levels than can be waited for; two tell a bar.
+-- Is level k one that nobody waits for? Two levels tell a bar.
+local function is_dear(context, k)
+  if k < 3 then return false end
+  local time = probe.expected(context, decide.rungs(context), k, context.job.levels)
+  if not time or time <= LONGEST then return false end
+  context.dear = time == math.huge and ("there is no finer mesh than that of level %d"):format(k - 1)
+    or ("edges and steps of level %d would take about %s: not computed"):format(k, number.duration(time))
+  return true
+end
+
+-- No finer levels than can be waited for, as far as it is known; and as it turns out, from level to level.
 local function affordable(context)
-  local job, rungs = context.job, decide.rungs(context)
+  local job = context.job
   job.most, context.dear = context.most, nil
   for k = 3, context.most do
-    local time = probe.expected(context, rungs, k)
-    if time and time > LONGEST then
+    if is_dear(context, k) then
       job.most = k - 1
-      context.dear = time == math.huge and ("there is no finer mesh than that of level %d"):format(k - 1)
-        or ("edges and steps of level %d would take about %s: not computed"):format(k, number.duration(time))
-      return
+      break
     end
   end
+  function job.enough(k, good) return good >= 2 and is_dear(context, k) end
 end
 
 -- The finest run of the rungs chosen.

@@ -15,6 +15,7 @@ local probe = {}
 
 local LONGEST = 60 -- that a computation on the way is expected to take [s]
 local USUAL = 0.04 -- between frames, where the script says nothing [s]
+local MOST_GROWTH = 2 -- of a level's time, over that by rule, from one to the next [-]
 local MOMENTS = 25 -- frames of a run at least, of a duration that is known [-]
 
 -- Options of the run in place of those given.
@@ -85,14 +86,46 @@ local function facts_of_failed(context, run)
   return facts.reading(context.scene, run.start, look_at_failed, context, run)
 end
 
---- Expected time of a run of rungs on level k, where one of them may cost much [s]; else nil.
-function probe.expected(context, rungs, k)
+--- The name of a computation: of rungs on level k, and a label.
+function probe.key(rungs, k, label)
+  local words = { k, label or "" }
+  for _, choice in ipairs(registry.list) do words[#words + 1] = rungs[choice.name] end
+  return table.concat(words, " ")
+end
+
+-- By what rungs are made of alone.
+local function rule(context, rungs, k)
   local sum
   for _, choice in ipairs(registry.list) do
     local time = choice.expected and choice.expected(context, rungs[choice.name], k)
     if time then sum = (sum or 0) + time end
   end
   return sum
+end
+
+-- What a run of rungs on level k took, on the way or by the levels of the job [s]; nil: there was none.
+local function taken(context, rungs, k, levels)
+  local known = context.probes[probe.key(rungs, k)]
+  local level = levels and levels[k] or known and known.level
+  return level and level.ok and level.cpu > 0 and level.cpu or nil
+end
+
+--- Expected time of a run of rungs on level k, where one of them may cost much [s]; else nil. By what the
+-- level before took, if it was computed (levels: of the job), and if that grew faster than by the rule, as
+-- iterations may, so it may again.
+function probe.expected(context, rungs, k, levels)
+  local time = rule(context, rungs, k)
+  if not time or time == math.huge then return time end
+  for j = k - 1, 1, -1 do
+    local last = taken(context, rungs, j, levels)
+    if last then
+      local before = j > 1 and taken(context, rungs, j - 1, levels)
+      local growth = before and last / before * rule(context, rungs, j - 1) / rule(context, rungs, j) or 1
+      growth = math.max(1, math.min(MOST_GROWTH, growth))
+      return last * time / rule(context, rungs, j) * growth ^ (k - j)
+    end
+  end
+  return time
 end
 
 local function compute(context, rungs, k, factors)
@@ -119,19 +152,13 @@ local function compute(context, rungs, k, factors)
   return result
 end
 
-local function key_of(rungs, k, label)
-  local words = { k, label or "" }
-  for _, choice in ipairs(registry.list) do words[#words + 1] = rungs[choice.name] end
-  return table.concat(words, " ")
-end
-
 --- What was computed of rungs on level k; nil: nothing.
-function probe.known(context, rungs, k) return context.probes[key_of(rungs, k)] end
+function probe.known(context, rungs, k) return context.probes[probe.key(rungs, k)] end
 
 --- The values and facts of rungs (by the choices' names) on level k; of what was computed before the same.
 -- A computation that raises counts as one that failed.
 function probe.of(context, rungs, k, factors, label)
-  local key = key_of(rungs, k, label)
+  local key = probe.key(rungs, k, label)
   local known = context.probes[key]
   if known then return known end
   local begun = os.clock()

@@ -308,6 +308,7 @@ local function climb(job, compute)
   local good, bad, result = first, 0, nil
   if job.prepare then job.prepare() end
   for k = first + 1, job.most do
+    if k > first + 1 and job.enough and job.enough(k, good) then break end
     if k > first + 1 then
       check_wires(job)
       job.restore()
