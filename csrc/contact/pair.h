@@ -92,6 +92,7 @@ struct sw_pairs {
   size_t stage;           /* number of the stage, counted all along */
   double first;           /* share of the step's first stage in what this one begins from [-] */
   double *base_stiffness; /* (bodies) for the forces of each [N/m] */
+  double *edge;           /* (bodies) the longest of each [m] */
   sw_rubbing *rubbing;    /* (bodies) of each one's touches, after an update */
   int updates;            /* of the stage so far [-] */
   double *largest;        /* (bodies) normal force that its friction takes as given [N] */

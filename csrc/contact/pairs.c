@@ -14,9 +14,10 @@ sw_status sw_pairs_new(const sw_pair_rule *rules, size_t count, sw_pairs **out) 
   if (!p) return SW_ENOMEM;
   p->rules = sw_alloc(count * count, sizeof *p->rules);
   p->base_stiffness = sw_alloc(count, sizeof *p->base_stiffness);
+  p->edge = sw_alloc(count, sizeof *p->edge);
   p->largest = sw_alloc(count, sizeof *p->largest);
   p->rubbing = sw_alloc(count, sizeof *p->rubbing);
-  if (!p->rules || !p->base_stiffness || !p->largest || !p->rubbing) {
+  if (!p->rules || !p->base_stiffness || !p->edge || !p->largest || !p->rubbing) {
     sw_pairs_free(p);
     return SW_ENOMEM;
   }
@@ -35,6 +36,7 @@ void sw_pairs_free(sw_pairs *p) {
   if (!p) return;
   sw_free(p->rules);
   sw_free(p->base_stiffness);
+  sw_free(p->edge);
   sw_free(p->largest);
   sw_free(p->rubbing);
   sw_free(p->near);
@@ -70,6 +72,12 @@ static double force_of(const sw_system *s, const sw_body *b) {
   return force;
 }
 
+static double longest_edge(const sw_plan *p) {
+  double longest = 0;
+  for (size_t e = 0; e < p->edges; e++) longest = fmax(longest, p->rest[e]);
+  return longest;
+}
+
 sw_status sw_pairs_fail(sw_status status, sw_error *err) {
   if (status != SW_ELIMIT)
     return sw_fail(err, status, "contact of wires: %s", sw_status_text(status));
@@ -84,10 +92,12 @@ sw_status sw_pairs_begin_step(sw_pairs *p, sw_system *s, sw_contact_regime regim
   p->h = h, p->nominal = nominal;
   p->barrier_count = p->impact_count = p->pressed_count = 0;
   p->least_reserve = 0;
-  for (size_t b = 0; b < s->body_count; b++)
-    if (takes_part(p, b))
-      sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &p->base_stiffness[b],
-                           &p->rate2);
+  for (size_t b = 0; b < s->body_count; b++) {
+    if (!takes_part(p, b)) continue;
+    sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &p->base_stiffness[b],
+                         &p->rate2);
+    p->edge[b] = longest_edge(s->bodies[b].plan);
+  }
   const sw_status status = sw_pairs_choose(p, s);
   return status == SW_OK ? SW_OK : sw_pairs_fail(status, err);
 }

@@ -10,7 +10,7 @@
 
 #include "contact/lean.h"
 
-/* Wires whose radii together are below this share of the longer edge meet by curves, as on pegs
+/* Wires whose radii together are below this share of their longest edge meet by curves, as on pegs
  * [-]. */
 static const double ROUND = 0.9;
 /* A wire whose curvature times the radii is above this begins to go round the other one. What it is
@@ -31,13 +31,12 @@ static sw_vec edge_of(const double *x, size_t node) {
   return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
 }
 
-/* Are the segments short of what curves need? */
-static int is_fine(const sw_system *s, const sw_near *n) {
-  const sw_plan *p = s->bodies[n->body[0]].plan, *q = s->bodies[n->body[1]].plan;
-  const double one = p->rest[n->one - s->bodies[n->body[0]].first_node];
-  const double two = q->rest[n->two - s->bodies[n->body[1]].first_node];
+/* Do the wires meet by chords wherever they do? One answer for all their segments. */
+static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (n->body[0] == n->body[1] && n->two < n->one + OWN_CURVES) return 1;
-  return !(p->beam.radius + q->beam.radius < ROUND * fmax(one, two));
+  const double one = s->bodies[n->body[0]].plan->beam.radius;
+  const double two = s->bodies[n->body[1]].plan->beam.radius;
+  return !(one + two < ROUND * fmax(p->edge[n->body[0]], p->edge[n->body[1]]));
 }
 
 /* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and
@@ -56,8 +55,8 @@ static double off_middle(const sw_system *s, uint32_t body, uint32_t node, doubl
   return off;
 }
 
-double sw_pair_bulge(const sw_system *s, const sw_near *n) {
-  if (is_fine(s, n)) return 0;
+double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n) {
+  if (are_fine(p, s, n)) return 0;
   return 0.125 *
          (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
 }
@@ -179,7 +178,7 @@ static int crosses(const sw_system *s, const sw_pair *k, double sine) {
 void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
   const sw_near n = {.one = k->one, .two = k->two, .body = {k->body[0], k->body[1]}};
   const double middle[2] = {0.5, 0.5};
-  if (is_fine(s, &n) || (k->parallel && runs_along(s->x, k))) return;
+  if (are_fine(p, s, &n) || (k->parallel && runs_along(s->x, k))) return;
   const sw_pair_memory *m = sw_pair_recall(p, k, middle, SW_CROSSING);
   k->smooth = 1; /* to find the curves' place */
   k->smooth = crosses(s, k, m && m->smooth ? STILL_ACROSS : ACROSS);

@@ -10,7 +10,7 @@
 void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k);
 /* How far the smooth curves of two segments stand off them together, where they may meet by those
  * [m]. */
-double sw_pair_bulge(const sw_system *s, const sw_near *n);
+double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n);
 
 /* A place along one of a pair's segments. */
 sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at);

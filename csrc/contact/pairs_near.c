@@ -123,7 +123,7 @@ static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t 
   if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
   n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
-  n.bulge = sw_pair_bulge(s, &n);
+  n.bulge = sw_pair_bulge(p, s, &n);
   n.known = n.distance -= n.bulge;
   if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
   if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * radii(s, n.body))) return SW_OK;
@@ -345,7 +345,7 @@ sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
     }
     n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
                                       sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
-    n->distance -= n->bulge = sw_pair_bulge(s, n);
+    n->distance -= n->bulge = sw_pair_bulge(p, s, n);
     n->known = n->distance, n->travel = travel_of(p, n);
     if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
       SW_TRY(add_pair(p, s, n, sum));
