@@ -16,7 +16,8 @@ static const double SHORTEST_PASSING = 1.0 / 64; /* of a pose step [-] */
 /* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed. */
 static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   sw_scene *s = p->s;
-  double most = HUGE_VAL; /* where a clip is passed: twice the pose that was taken last */
+  double most = HUGE_VAL; /* where a clip is passed: twice the pose that was taken last, at least
+                             the shortest one */
   while (sw_scene_time(s) < t) {
     const double t0 = sw_scene_time(s);
     double h = fmin(most, t - t0);
@@ -31,7 +32,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
                               SHORTEST_PASSING * p->args->dt};
     const int passes = sw_passing_any(s);
     SW_TRY(sw_scene_pose(s, part, &how, p->report, err));
-    most = passes ? 2 * (sw_scene_time(s) - t0) : HUGE_VAL;
+    most = passes ? fmax(how.passing, 2 * (sw_scene_time(s) - t0)) : HUGE_VAL;
     sw_scene_course(s)->span = 0;
     SW_TRY(sw_step_observe(s, err));
   }
