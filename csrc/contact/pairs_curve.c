@@ -22,8 +22,6 @@ static const double GOES_ROUND = 0.5;
 /* Wires begin to cross where the sine of the angle between them is above the second one, and go on
  * until it is below the first: strands of a twisted pair lie along each other [-]. */
 static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
-/* So many edges are between two segments of one wire whose curves share no node [-]. */
-enum { OWN_CURVES = 4 };
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
@@ -33,7 +31,7 @@ static sw_vec edge_of(const double *x, size_t node) {
 
 /* Do the wires meet by chords wherever they do? One answer for all their segments. */
 static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
-  if (n->body[0] == n->body[1] && n->two < n->one + OWN_CURVES) return 1;
+  if (n->body[0] == n->body[1]) return 1; /* where it coils up it lies along itself at any angle */
   const double one = s->bodies[n->body[0]].plan->beam.radius;
   const double two = s->bodies[n->body[1]].plan->beam.radius;
   return !(one + two < ROUND * fmax(p->edge[n->body[0]], p->edge[n->body[1]]));
