@@ -45,14 +45,24 @@ local function beyond(difference, bounds)
   return false
 end
 
+-- To the faces, edges and corners of a cube.
+local ways = {}
+for k = 0, 26 do
+  local way = { k % 3 - 1, k // 3 % 3 - 1, k // 9 - 1 }
+  if vec.norm(way) > 0 then ways[#ways + 1] = vec.unit(way) end
+end
+table.sort(ways, function(a, b) -- along the axes first
+  local p, q = math.max(a[1] ^ 2, a[2] ^ 2, a[3] ^ 2), math.max(b[1] ^ 2, b[2] ^ 2, b[3] ^ 2)
+  if p ~= q then return p > q end
+  for i = 1, 3 do if a[i] ~= b[i] then return a[i] < b[i] end end
+  return false
+end)
+
 local function branches(plan, base)
-  for axis = 1, 3 do
-    for sign = -1, 1, 2 do
-      local nudge = { 0, 0, 0 }
-      nudge[axis] = sign * NUDGE
-      local other = random_scenes.outcome(plan, { nudge = nudge })
-      if not other.ok or random_scenes.difference(plan, base, other).place > SAME.place then return true end
-    end
+  for _, way in ipairs(ways) do
+    local nudge = { NUDGE * way[1], NUDGE * way[2], NUDGE * way[3] }
+    local other = random_scenes.outcome(plan, { nudge = nudge })
+    if not other.ok or random_scenes.difference(plan, base, other).place > SAME.place then return true end
   end
   return false
 end
