@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "contact/touch.h"
 
 enum { FEW = 8 }; /* obstacles that need no tree [-] */
@@ -243,13 +244,7 @@ int sw_contact_moves(const sw_contact *c) {
 }
 
 size_t sw_contact_index(const sw_contact *c, int id) {
-  size_t low = 0, high = c->count; /* they ascend */
-  while (low < high) {
-    const size_t o = low + (high - low) / 2;
-    if (c->obstacles[o].id < id)
-      low = o + 1;
-    else
-      high = o;
-  }
-  return low < c->count && c->obstacles[low].id == id ? low : c->count;
+  size_t o;
+  SW_FIRST_NOT(c->obstacles[o].id < id, o, 0, c->count); /* they ascend */
+  return o < c->count && c->obstacles[o].id == id ? o : c->count;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "contact/curve.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
@@ -370,15 +371,9 @@ size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
 
 /* The first touch of a node that is not before this one: they are in the order of nodes. */
 static size_t first_touch(const sw_contact *c, size_t node) {
-  size_t low = 0, high = c->touch_count;
-  while (low < high) {
-    const size_t i = low + (high - low) / 2;
-    if (c->touches[i].node < node)
-      low = i + 1;
-    else
-      high = i;
-  }
-  return low;
+  size_t i;
+  SW_FIRST_NOT(c->touches[i].node < node, i, 0, c->touch_count);
+  return i;
 }
 
 void sw_contact_touches_of(const sw_contact *c, size_t node, size_t end_node, size_t *first,

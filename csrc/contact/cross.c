@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 #include "contact/touch.h"
 
 /* A segment that moves less than this share of its skin cannot get through
@@ -38,17 +39,10 @@ static void add_barrier(sw_contact *c, sw_barrier *b) {
 
 /* Candidates are in the order of their nodes. */
 static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *looks) {
-  size_t low = 0, high = c->candidate_count;
-  while (low < high) {
-    const size_t i = low + (high - low) / 2;
-    ++*looks;
-    if (c->candidates[i].node < node)
-      low = i + 1;
-    else
-      high = i;
-  }
-  for (; low < c->candidate_count && c->candidates[low].node == node; low++)
-    if (c->candidates[low].obstacle == obstacle && !c->candidates[low].segment) return 1;
+  size_t i;
+  SW_FIRST_NOT((++*looks, c->candidates[i].node < node), i, 0, c->candidate_count);
+  for (; i < c->candidate_count && c->candidates[i].node == node; i++)
+    if (c->candidates[i].obstacle == obstacle && !c->candidates[i].segment) return 1;
   return 0;
 }
 

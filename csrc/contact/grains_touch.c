@@ -2,21 +2,16 @@
 /* Touches of an iterate: where they are, and what they remember. */
 #include <math.h>
 
+#include "base/halving.h"
 #include "base/interrupt.h"
 #include "contact/grain.h"
 
 /* --- memory ------------------------------------------------------------------------ */
 
 static size_t first_memory(const sw_grains *g, const sw_grain_pair *k) {
-  size_t low = 0, high = g->memory_count;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (sw_grain_order(&g->memory[middle].pair, k) < 0)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  size_t i;
+  SW_FIRST_NOT(sw_grain_order(&g->memory[i].pair, k) < 0, i, 0, g->memory_count);
+  return i;
 }
 
 /* Of the same two; of a place on a wire the nearest one, up to a segment away. */

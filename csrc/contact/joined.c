@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/halving.h"
 
 typedef struct couple {
   uint32_t a, b;
@@ -64,16 +65,10 @@ void sw_joined_free(sw_joined *j) {
 }
 
 int sw_joined_are(const sw_joined *j, uint32_t a, uint32_t b) {
-  size_t low = j->first[a], high = j->first[a + 1];
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (j->partner[middle] == b) return 1;
-    if (j->partner[middle] < b)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return 0;
+  const size_t end = j->first[a + 1];
+  size_t i;
+  SW_FIRST_NOT(j->partner[i] < b, i, j->first[a], end);
+  return i < end && j->partner[i] == b;
 }
 
 int sw_joined_nearly(const sw_joined *j, uint32_t a, uint32_t b) {

@@ -4,6 +4,7 @@
  * two segments has the nearest place: the touch of a node is the same one on either. */
 #include <math.h>
 
+#include "base/halving.h"
 #include "contact/pair.h"
 #include "contact/same.h"
 
@@ -11,16 +12,10 @@
 
 /* Memory is in the order of the segments: the first of these, or what comes after. */
 static uint32_t first_memory(const sw_pairs *p, uint32_t one, uint32_t two) {
-  size_t low = 0, high = p->memory_count;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    const sw_pair_memory *m = &p->memory[middle];
-    if (m->one < one || (m->one == one && m->two < two))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return (uint32_t)low;
+  const sw_pair_memory *m = p->memory;
+  size_t i;
+  SW_FIRST_NOT(m[i].one < one || (m[i].one == one && m[i].two < two), i, 0, p->memory_count);
+  return (uint32_t)i;
 }
 
 void sw_pairs_match(sw_pairs *p) {

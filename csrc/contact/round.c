@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+#include "base/halving.h"
+
 /* A wire meets what is round, its own radius added, by its curve up to so many of its edges,
  * whatever it does; and up to so many as long as it does not go round it [-]. */
 static const double THIN = 0.9, THICK = 4.0;
@@ -45,15 +47,9 @@ static double bend_beside(const sw_system *s, const sw_body *b, size_t node, int
 }
 
 static size_t first_memory(const sw_contact *c, size_t node) {
-  size_t low = 0, high = c->memory_count;
-  while (low < high) {
-    const size_t i = low + (high - low) / 2;
-    if (c->memory[i].node < node)
-      low = i + 1;
-    else
-      high = i;
-  }
-  return low;
+  size_t i;
+  SW_FIRST_NOT(c->memory[i].node < node, i, 0, c->memory_count);
+  return i;
 }
 
 void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
