@@ -1,23 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Pegs and rings are often thinner than a wire's edges are long. A wire meets them with its smooth curve: no
 -- place along an edge of it holds better than another.
-local core = require "softworld.core"
 local vec = require "softworld.vec"
+local drawing = require "contact.drawn"
 
-local T, H, N = 1, 0.01, 20 -- pull [N], edge [m], edges on each side of the peg
+local H = drawing.H
 local WIRE = 0.0005 -- its radius [m]
-
-local function round_path(slope, radius)
-  local path, R, top = {}, math.max(3 * H, 2 * radius), WIRE + 0.1 * H
-  for i = -60, 60 do
-    local a = i / 60 * slope
-    path[#path + 1] = { R * math.sin(a), 0, top + R * (math.cos(a) - 1) }
-  end
-  local foot, arm = path[1], N * H - R * slope
-  table.insert(path, 1, { foot[1] - arm * math.cos(slope), 0, foot[3] - arm * math.sin(slope) })
-  path[#path + 1] = { -path[1][1], 0, path[1][3] }
-  return path
-end
 
 local flat = { axis = { 1, 0, 0 }, angle = math.pi / 2 }
 local function rod(shape, r)
@@ -33,37 +21,15 @@ local shapes = {
   end,
 }
 
--- A wire bent over a peg is drawn by three of its edges: least, mean and largest pull over T. All is seen
--- turned by q; from the other end where o.swap is true.
 local function drawn(o)
-  local slope, q = o.angle / 2, o.turn or { 1, 0, 0, 0 }
-  local function see(p) return vec.rotate(q, p) end
-  local path = round_path(slope, o.radius)
-  for i, p in ipairs(path) do path[i] = see(p) end
-  if o.swap then for i = 1, #path // 2 do path[i], path[#path + 1 - i] = path[#path + 1 - i], path[i] end end
-  local s = core.scene{ gravity = { 0, 0, 0 } }
-  local w = s:wire{ EA = 1e5, EI = T * H * H / o.taut, mass_per_length = 0.05, radius = WIRE, path = path,
-    segments = math.floor(2 * N * (o.fine or 1)) }
-  local peg = shapes[o.shape or "cylinder"](o.radius)
-  peg.at, peg.friction = see(peg.at), o.mu or 0
-  local turn = vec.turn(peg.rotation.axis, peg.rotation.angle)
-  peg.rotation = vec.multiply(q, turn)
-  s:obstacle(peg)
-  local x, z = math.cos(slope), math.sin(slope)
-  s:force{ kind = "point", on = w, s = o.swap and w.length or 0, force = see{ -T * x, 0, -T * z } }
-  s:force{ kind = "damping", mass = 20, on = w }
-  local drag = 20 * 0.05 * w.length * H -- at the speed of an edge a second [N]
-  local pin, dt = s:pin(w, { s = o.swap and 0 or w.length }), o.dt or 0.002
-  assert.is_true(s:advance({ dt = dt }, 1).ok)
-  pin:follow{ points = { { 0, 0, 0 }, see{ 3 * H * x, 0, -3 * H * z } }, relative = true, speed = H,
-    law = "linear" }
-  local least, most, sum = math.huge, 0, 0
-  for i = 1, 100 do
-    assert.is_true(s:advance({ dt = dt }, 1.5 + 0.02 * i).ok)
-    local pull = (vec.norm(pin:force()) - drag) / T
-    least, most, sum = math.min(least, pull), math.max(most, pull), sum + pull / 100
-  end
-  return least, sum, most
+  o.round = o.radius
+  return drawing.pull(o, WIRE, function(scene, see)
+    local peg = shapes[o.shape or "cylinder"](o.radius)
+    peg.at, peg.friction = see(peg.at), o.mu or 0
+    local turn = vec.turn(peg.rotation.axis, peg.rotation.angle)
+    peg.rotation = vec.multiply(o.turn or { 1, 0, 0, 0 }, turn)
+    scene:obstacle(peg)
+  end)
 end
 
 local function check(o, bound)

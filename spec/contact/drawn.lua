@@ -1,0 +1,52 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- A wire bent over what lies across it is drawn by three of its edges. No specs of its own.
+local core = require "softworld.core"
+local vec = require "softworld.vec"
+
+local drawn = { T = 1, H = 0.01 } -- pull [N], edge [m]
+local T, H, N = drawn.T, drawn.H, 20 -- edges on each side
+
+local function bent_path(slope, radius, round)
+  local path, R, top = {}, math.max(3 * H, 2 * round), radius + 0.1 * H
+  for i = -60, 60 do
+    local a = i / 60 * slope
+    path[#path + 1] = { R * math.sin(a), 0, top + R * (math.cos(a) - 1) }
+  end
+  local foot, arm = path[1], N * H - R * slope
+  table.insert(path, 1, { foot[1] - arm * math.cos(slope), 0, foot[3] - arm * math.sin(slope) })
+  path[#path + 1] = { -path[1][1], 0, path[1][3] }
+  return path
+end
+
+--- Least, mean and largest pull over T. o.taut: T h^2/EI; o.angle: of the bend [rad]; o.round: radius of what
+-- is below [m]; o.dt [s]; o.fine: so many times as many edges. All is seen turned by o.turn, from the other
+-- end where o.swap is true. put(scene, see) puts what is below the origin, if o.first before the wire.
+function drawn.pull(o, radius, put)
+  local slope, q = o.angle / 2, o.turn or { 1, 0, 0, 0 }
+  local function see(p) return vec.rotate(q, p) end
+  local path = bent_path(slope, radius, o.round or 0)
+  for i, p in ipairs(path) do path[i] = see(p) end
+  if o.swap then for i = 1, #path // 2 do path[i], path[#path + 1 - i] = path[#path + 1 - i], path[i] end end
+  local s = core.scene{ gravity = { 0, 0, 0 } }
+  if o.first then put(s, see) end
+  local w = s:wire{ EA = 1e5, EI = T * H * H / o.taut, mass_per_length = 0.05, radius = radius, path = path,
+    segments = math.floor(2 * N * (o.fine or 1)) }
+  if not o.first then put(s, see) end
+  local x, z = math.cos(slope), math.sin(slope)
+  s:force{ kind = "point", on = w, s = o.swap and w.length or 0, force = see{ -T * x, 0, -T * z } }
+  s:force{ kind = "damping", mass = 20, on = w }
+  local drag = 20 * 0.05 * w.length * H -- at the speed of an edge a second [N]
+  local pin, dt = s:pin(w, { s = o.swap and 0 or w.length }), o.dt or 0.002
+  assert(s:advance({ dt = dt }, 1).ok)
+  pin:follow{ points = { { 0, 0, 0 }, see{ 3 * H * x, 0, -3 * H * z } }, relative = true, speed = H,
+    law = "linear" }
+  local least, most, sum = math.huge, 0, 0
+  for i = 1, 100 do
+    assert(s:advance({ dt = dt }, 1.5 + 0.02 * i).ok)
+    local pull = (vec.norm(pin:force()) - drag) / T
+    least, most, sum = math.min(least, pull), math.max(most, pull), sum + pull / 100
+  end
+  return least, sum, most
+end
+
+return drawn
