@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact of wires with wires and with themselves. Segments are round rods; the law is
- * that of contact with obstacles. Crossing segments touch at their nearest points, nearly
- * parallel ones at each other's nodes. What two wires do to each other stays in the
- * matrix as links between their nodes. */
+ * that of contact with obstacles. Wires that cross touch where their smooth curves are nearest,
+ * or their segments; nearly parallel segments touch at each other's nodes. What two wires do to
+ * each other stays in the matrix as links between their nodes. */
 #ifndef SW_CONTACT_PAIRS_H
 #define SW_CONTACT_PAIRS_H
 

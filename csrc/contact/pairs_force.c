@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch's force and stiffness among the four nodes of its segments. Besides the law's
- * own stiffness K at the touch there is that of the turning normal: with the nearest
- * points free to slide, the distance d has the second derivative
+/* A touch's force and stiffness among the nodes of its places, two of a segment or three of a
+ * curve. Besides the law's own stiffness K at the touch there is that of the turning normal: with
+ * the nearest points free to slide, the distance d has the second derivative
  *   (1/d) [ w_i w_j (I - n n') - g_i' Q^-1 g_j ]
- * between nodes i and j, where w are the weights of the touch (negative on the second
- * segment), Q the second derivatives of |r|^2/2 with respect to the places along the
- * segments, and g its mixed ones. The normal force N adds -N times that. */
+ * between nodes i and j, where w are the weights of the touch (negative on the second segment), Q
+ * the second derivatives of |r|^2/2 with respect to the places along the wires, and g its mixed
+ * ones. The normal force N adds -N times that. */
 #include "contact/pair.h"
 
 enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is round and thin beside a wire's edges meets the wire's smooth curve, as edges and corners
- * do: chords would hold a wire that slides over a peg (spec/contact/pegs_spec). */
+/* What is round meets the wire's smooth curve, if it is thin beside the wire's edges or, up to four
+ * of them, the wire does not go round it; as edges and corners do: chords would hold a wire that
+ * slides over a peg (spec/contact/pegs_spec). */
 #ifndef SW_CONTACT_ROUND_H
 #define SW_CONTACT_ROUND_H
 
