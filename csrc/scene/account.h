@@ -17,8 +17,8 @@ typedef struct sw_retries {
 
 /* Where the energy of a run came from and went. The remainder of each step,
  *   change of energy - work + losses,
- * is booked by itself: below 0 as lost by the integrator (or by contact, in steps in which touches
- * began or ended), above 0 as gap. */
+ * is booked: below 0 as lost by the integrator (or by contact, in steps in which touches began or
+ * ended), above 0 as gap, but for what a method gives back that it took while nothing touched. */
 typedef struct sw_ledger {
   double kinetic, stored, gravity;                                   /* now [J] */
   double at_start;                                                   /* their sum then [J] */

@@ -105,10 +105,12 @@ static sw_status log_row(sw_scene *s) {
 }
 
 /* The energy that a method makes by itself goes to and fro, also where energy oscillates
- * between kinds. So it counts by its rise above its least value. Energy made by touches stays. */
-static void book_gain(sw_scene *s, double gain) {
+ * between kinds. So it counts by its rise above its least value. Energy made by touches stays.
+ * Gives what the step adds to what was gained [J]. */
+static double book_gain(sw_scene *s, double gain) {
   sw_books *b = &s->books;
-  if (!isfinite(gain)) return; /* not judged */
+  const double before = b->sums.gained;
+  if (!isfinite(gain)) return 0.0; /* not judged */
   if (sw_ledger_referees(s) && b->step.touching) {
     b->made += fmax(0.0, gain);
     b->lowest = b->rise;
@@ -118,15 +120,50 @@ static void book_gain(sw_scene *s, double gain) {
     b->highest_rise = fmax(b->highest_rise, b->rise - b->lowest);
   }
   b->sums.gained = b->made + b->highest_rise;
+  return b->sums.gained - before;
 }
 
-static void book_left(sw_ledger *l, double left, int steady) {
+/* Losses of a step are known by what they take at its ends, so that they may be booked too high:
+ * damping where its power changed within the step, friction where its force began in it, a strike
+ * where the step gave some of it back. So much of them that they exceed the step's loss by. */
+static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
+  const double before = b->powers.damping, after = step->powers.damping;
+  const double mean = sw_ledger_over_step(before, after, 1.0);
+  const double least = mean > 0 ? step->damping * fmin(1.0, fmin(before, after) / mean) : 0.0;
+  double left = fmax(0.0, excess);
+  struct {
+    double *lost, most;
+  } parts[] = {{&step->damping, step->damping - least},
+               {&step->impact, step->impact},
+               {&step->friction, 0.5 * step->friction}};
+  for (size_t k = 0; k < 3; k++) {
+    const double part = fmin(left, fmax(0.0, parts[k].most));
+    *parts[k].lost -= part, left -= part;
+  }
+  return fmax(0.0, excess) - left;
+}
+
+/* A step's remainder, of which it gained so much. What a method does to energy where nothing
+ * touches goes to and fro: it counts as lost in sum. */
+static void book_left(sw_ledger *l, const sw_step_energy *step, double left, double gained) {
+  double *lost = step->steady ? &l->integrator : &l->contact;
+  l->gap += gained;
+  left -= gained;
+  if (step->touching && left > 0)
+    l->gap += left;
+  else
+    *lost -= left;
+  if (*lost >= 0) return;
+  l->gap -= *lost;
+  *lost = 0;
+}
+
+/* Of an equilibrium: nothing goes to and fro. */
+static void book_left_at_rest(sw_ledger *l, double left) {
   if (left > 0)
     l->gap += left;
-  else if (steady)
-    l->integrator -= left;
   else
-    l->contact -= left;
+    l->integrator -= left;
 }
 
 /* Losses that histories count, since the last step. */
@@ -141,9 +178,9 @@ static double book_histories(sw_scene *s) {
   return all - before;
 }
 
-static void book_step(sw_scene *s) {
+static void book_step(sw_scene *s, int at_rest) {
   sw_books *b = &s->books;
-  const sw_step_energy *step = &b->step;
+  sw_step_energy *step = &b->step;
   sw_ledger *l = &b->sums;
   const double work = step->holds + step->obstacles + step->feeds + step->forces;
   const double change = step->to.kinetic - b->now.kinetic +
@@ -151,21 +188,27 @@ static void book_step(sw_scene *s) {
                         sw_ledger_potential(&b->now, b->contact);
   l->by_holds += step->holds, l->by_obstacles += step->obstacles;
   l->by_feeds += step->feeds, l->by_forces += step->forces;
+  const double histories = book_histories(s);
+  const double losses = step->damping + step->friction + step->impact + histories;
+  const double given = fmin(fmax(0.0, change - work + losses), step->let_out);
+  const double gained = book_gain(s, step->gain);
+  double left = change - work + losses - given;
+  if (!at_rest) left -= booked_too_high(b, step, left - gained);
   l->damping += step->damping, l->friction += step->friction, l->impact += step->impact;
-  const double lost = step->damping + step->friction + step->impact + book_histories(s);
   b->work += step->work;
   l->steps++;
-  const double given = fmin(fmax(0.0, change - work + lost), step->let_out);
   l->by_changes += given;
-  book_left(l, change - work + lost - given, step->steady);
-  book_gain(s, step->gain);
+  if (at_rest)
+    book_left_at_rest(l, left);
+  else
+    book_left(l, step, left, gained);
   if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;
   take_as_now(b, &step->to, step->contact);
   b->powers = step->powers;
 }
 
 sw_status sw_ledger_close(sw_scene *s) {
-  book_step(s);
+  book_step(s, 0);
   SW_TRY(sw_ledger_note_workers(s, 1));
   return log_row(s);
 }
@@ -185,7 +228,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   const double before = b->sums.integrator;
   step->gain = 0; /* poses are not judged */
-  book_step(s);
+  book_step(s, 1);
   if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
   if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);

@@ -36,6 +36,10 @@ double sw_ledger_work(sw_scene *scene, double t1, int changed);
  * SW_ENOMEM. */
 sw_status sw_ledger_note_workers(sw_scene *scene, int logged);
 
+/* Energy over a step of size h by the powers at its ends [J]: the trapezoid, but where what is
+ * damped dies out within the step. */
+double sw_ledger_over_step(double before, double after, double h);
+
 /* 1: the run's method is explicit and has lumped masses. */
 int sw_ledger_lumped(const sw_scene *scene);
 /* Stored between bodies, obstacles and ties [J]. */

@@ -51,9 +51,7 @@ double sw_ledger_contact(sw_scene *s) {
   return sum;
 }
 
-/* Energy over a step by the powers at its ends: the trapezoid, but where what is damped dies out
- * within the step. */
-static double over_step(double before, double after, double h) {
+double sw_ledger_over_step(double before, double after, double h) {
   const int dies = before > 4.0 * after || after > 4.0 * before;
   return h * (dies && before > 0 && after > 0 ? sqrt(before * after) : 0.5 * (before + after));
 }
@@ -62,9 +60,9 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
   sw_step_energy *step = &b->step;
   const double before = b->powers.given;
   const double dead = b->now.loads - step->to.loads;
-  step->forces = dead + over_step(before, step->powers.given, h);
+  step->forces = dead + sw_ledger_over_step(before, step->powers.given, h);
   *most += dead + h * fmax(before, step->powers.given);
-  step->damping = over_step(b->powers.damping, step->powers.damping, h);
+  step->damping = sw_ledger_over_step(b->powers.damping, step->powers.damping, h);
 }
 
 static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
