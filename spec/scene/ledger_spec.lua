@@ -320,7 +320,7 @@ describe("energy is not made", function()
   -- A stiff cable springs open on a floor. Nothing drives it, so that only gains are from nowhere: those the
   -- referee lets pass, 1 % and its allowance of one step. Of what damping, friction and strikes take, the
   -- powers at a step's ends know one part in ten: booked one step beside the other, that was 3 to 17 %.
-  it("but what was gained, where blows, damping and friction are booked by their values at steps' ends", function()
+  it("but what was gained, where blows, damping and friction are booked", function()
     local path = {}
     for i = 0, 40 do
       local a = math.pi * i / 40
