@@ -3,11 +3,14 @@
 
 #include <math.h>
 
-/* Changes of the gap below this do not keep an iteration going [m]. */
-static const double GAP_TOLERANCE = 2e-8;
+/* Depths below this are no more than rounding of what a script says [m]. */
+static const double PLACED = 2e-8;
+/* A gap below this does not keep an iteration going: far below the depth of what lies, in steps of
+ * any size, or a wire is held back by what it leaves [m]. */
+static const double GAP_TOLERANCE = 1e-11;
 /* Errors of a friction spring's length below this do not keep an iteration going: far
  * below its length at the onset of sliding, however stiff it is [m]. */
-static const double SPRING_TOLERANCE = 1e-11;
+static const double SPRING_TOLERANCE = 1e-12;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
 static const double TURN_TOLERANCE = 0.98;
 /* Nor does the linearisation of the direction, by this share of the force [-]. */
@@ -283,16 +286,18 @@ int sw_press_apart(const sw_press *p) {
   return p->active ? p->gap_after <= GAP_TOLERANCE : p->gap_after >= -GAP_TOLERANCE;
 }
 
-int sw_press_was_put(double depth, int first) { return depth > (first ? GAP_TOLERANCE : DEEPEST); }
+int sw_press_lies(const sw_press *p) { return p->gap_after <= PLACED; }
+
+int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED : DEEPEST); }
 
 double sw_press_forgiven(double depth, double explained, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
-  return fmax(0.0, depth - explained - speed * h - GAP_TOLERANCE);
+  return fmax(0.0, depth - explained - speed * h - PLACED);
 }
 
 double sw_press_let_out(double depth, double explained, double forgiven) {
   const double left = depth - explained - forgiven;
-  return left > GAP_TOLERANCE ? left : 0.0;
+  return left > PLACED ? left : 0.0;
 }
 
 int sw_press_is_short(int statics, double h, double nominal) {

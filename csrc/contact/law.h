@@ -104,6 +104,9 @@ void sw_press_close(sw_press *press);
 /* Opened, does it stay open after an update by shift, with nothing left of its friction? */
 int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 
+/* Does it touch as near as a script may place it? */
+int sw_press_lies(const sw_press *press);
+
 /* Is a depth where nothing touched before one that no touch gets into by itself? Then it was placed
  * there. first: nothing at all touched before. */
 int sw_press_was_put(double depth, int first);

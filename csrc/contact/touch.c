@@ -368,10 +368,8 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->gap_after = press->gap;
   if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
-  if (c->regime == SW_CONTACT_STATIC && !last && !web && !press->active) {
-    press->active = 1; /* what just touches may be all that bears the wire */
-    press->active = sw_press_apart(press);
-  }
+  if (c->regime == SW_CONTACT_STATIC && !last && !web && !press->active)
+    press->active = sw_press_lies(press); /* it may be all that bears the wire */
   t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
   begin_friction(c, s, m, last, y, t);
   if (t->held) press->active = 0;
