@@ -81,7 +81,8 @@ describe("a wire on a table that stops", function()
             assert.is_true(s:advance({ dt = dt }, START + T).ok)
             -- the step in which it leaves is known to h: 5 m/s2 h^2, and what it lay deep, 2 um
             local off = w:position(0.3)[3] - radius - thrown()
-            assert.is_true(math.abs(off) < 5 * dt ^ 2 + 2e-6, ("%d, %g s: off by %g m"):format(segments, dt, off))
+            local what = ("%d edges, %g s: off by %g m"):format(segments, dt, off)
+            assert.is_true(math.abs(off) < 5 * dt ^ 2 + 2e-6, what)
           end
         end
       end)
