@@ -7,10 +7,10 @@
 static const double PLACED = 2e-8;
 /* A gap below this does not keep an iteration going: far below the depth of what lies, in steps of
  * any size, or a wire is held back by what it leaves [m]. */
-static const double GAP_TOLERANCE = 1e-11;
+static const double GAP_TOLERANCE = 1e-13;
 /* Errors of a friction spring's length below this do not keep an iteration going: far
  * below its length at the onset of sliding, however stiff it is [m]. */
-static const double SPRING_TOLERANCE = 1e-12;
+static const double SPRING_TOLERANCE = 1e-14;
 /* Nor turns of the sliding direction with a cosine above this [-]. */
 static const double TURN_TOLERANCE = 0.98;
 /* Nor does the linearisation of the direction, by this share of the force [-]. */

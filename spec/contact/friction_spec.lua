@@ -113,3 +113,35 @@ describe("a wire on a table, pulled along", function()
     end
   end)
 end)
+
+-- A wire on a slope, tan of it below and above mu. It holds: friction's spring gives way by the share of
+-- its 1000 m/hbar^2 that holds the weight, less than g h^2/1000. It slides by the formula, to what the
+-- first step does not know, h over the time.
+describe("a cable on a slope, in steps of any size", function()
+  for _, segments in ipairs{ 10, 40 } do
+    for _, dt in ipairs{ 2e-2, 1e-2, 1e-3, 1e-4, 5e-5, 2e-5 } do
+      local duration = math.min(0.3, 1500 * dt)
+      local function way(slope)
+        local s = core.scene{ gravity = { G * math.sin(slope), 0, -G * math.cos(slope) } }
+        local w = s:wire{ E = 3e9, density = 3000, radius = 0.0015, from = { 0, 0, 0.0015 },
+          to = { 0.3, 0, 0.0015 }, segments = segments }
+        s:obstacle{ shape = "plane", friction = MU }
+        local r = s:advance({ dt = dt }, duration)
+        assert.is_true(r.ok, r.reason)
+        return w:position(0.15)[1] - 0.15
+      end
+
+      it(("holds, %d edges, %g ms"):format(segments, 1e3 * dt), function()
+        local off = way(0.25)
+        assert.is_true(math.abs(off) < 1e-3 * G * dt ^ 2, ("gave way by %g m"):format(off))
+      end)
+
+      it(("slides, %d edges, %g ms"):format(segments, 1e3 * dt), function()
+        local slope = 0.5
+        local want = 0.5 * G * (math.sin(slope) - MU * math.cos(slope)) * duration ^ 2
+        local off = way(slope) / want - 1
+        assert.is_true(math.abs(off) < 0.1 * dt / duration + 1e-6, ("off by %g"):format(off))
+      end)
+    end
+  end
+end)
