@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "base/halving.h"
 #include "contact/curve.h"
+#include "contact/tally.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out) {
@@ -361,10 +362,8 @@ double sw_contact_penetration(const sw_contact *c, size_t *node) {
   return deepest;
 }
 
-size_t sw_contact_count(const sw_contact *c) {
-  size_t n = 0;
-  for (size_t i = 0; i < c->touch_count; i++) n += c->touches[i].press.normal_force > 0;
-  return n;
+sw_presses sw_contact_presses(const sw_contact *c) {
+  return SW_PRESSES(sw_touch, c->touches, c->touch_count);
 }
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
@@ -399,17 +398,6 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
   return p->normal_force > 0;
 }
 
-double sw_contact_energy(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (!(t->press.normal_force > 0)) continue;
-    sum += 0.5 * t->press.normal_force * t->press.normal_force / t->press.k;
-    sum += 0.5 * sw_norm2(t->press.tangential) / sw_press_grip(&t->press);
-  }
-  return sum;
-}
-
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
@@ -417,15 +405,6 @@ int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
   if (o == c->count) return 0;
   *from = c->start[o].pose, *to = c->now[o].pose;
   return 1;
-}
-
-double sw_contact_rubbed(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_press *p = &c->touches[i].press;
-    if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
-  }
-  return sum;
 }
 
 double sw_contact_hardened(const sw_contact *c) {
@@ -442,13 +421,6 @@ double sw_contact_fastest(const sw_contact *c) {
 }
 
 int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
-
-double sw_contact_emerged(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++)
-    sum += c->touches[i].let_out * c->touches[i].press.normal_force;
-  return sum;
-}
 
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;

@@ -10,17 +10,10 @@
 #include "contact/cell.h"
 #include "contact/grain.h"
 
-static const double RESERVE = 1.5; /* of what gravity and speeds can close in the step [-] */
+static const double RESERVE = 1.5; /* of what speeds can close in the step [-] */
 static const double LEAST = 0.25;  /* of the radii's sum: what is as near is chosen [-] */
 
-static int takes_part(const sw_grains *g, size_t body) {
-  for (size_t k = 0; k < g->bodies; k++)
-    if (g->rules[g->bodies * body + k].on) return 1;
-  return 0;
-}
-
-/* Of what touches there [m]. */
-static double radius_of(const sw_body *b) {
+double sw_grain_radius(const sw_body *b) {
   return b->plan->web ? b->plan->web->skin : b->plan->beam.radius;
 }
 
@@ -66,8 +59,8 @@ static double widest(const sw_grains *g, const sw_system *s) {
   for (size_t k = 0; k < s->body_count; k++) {
     const sw_body *b = &s->bodies[k];
     const double *x = s->x + 3 * b->first_node;
-    if (!takes_part(g, k)) continue;
-    radius = fmax(radius, radius_of(b));
+    if (!sw_mutual_takes_part(&g->m, k)) continue;
+    radius = fmax(radius, sw_grain_radius(b));
     length2 = fmax(length2, longest2(b, x));
     for (size_t i = 0; i < 3 * b->plan->nodes; i++) far = fmax(far, fabs(x[i]));
   }
@@ -102,23 +95,14 @@ static sw_status fill(sw_grains *g, const sw_system *s, double width, grid *out)
   out->head = (uint32_t *)(void *)(out->things + most);
   memset(out->head, 0, out->size * sizeof *out->head);
   for (size_t k = 0; k < s->body_count; k++)
-    if (takes_part(g, k)) put_body(out, s, (uint32_t)k);
+    if (sw_mutual_takes_part(&g->m, k)) put_body(out, s, (uint32_t)k);
   return SW_OK;
 }
 
 /* --- choosing ---------------------------------------------------------------------- */
 
-static double speed_between(const sw_system *s, const sw_grain_pair *k) {
-  const uint32_t one[2] = {k->node[0], k->end[0]}, two[2] = {k->node[1], k->end[1]};
-  double most = 0;
-  for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 2; j++)
-      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->v, one[i]), sw_vec_at(s->v, two[j]))));
-  return sqrt(most);
-}
-
 static double reserve_of(const sw_grains *g, double reach, double speed) {
-  return fmax(LEAST * reach + g->fall, g->least_reserve) + RESERVE * g->h * speed;
+  return fmax(LEAST * reach + g->m.fall, g->m.least_reserve) + RESERVE * g->m.h * speed;
 }
 
 /* Of a body's node by itself [N/m]. */
@@ -126,14 +110,9 @@ static double stiffness_at(const sw_grains *g, const sw_system *s, uint32_t body
   const sw_body *b = &s->bodies[body];
   const size_t i = node - b->first_node;
   const sw_plan *p = b->plan;
-  if (!p->web) return fmax(g->base[body], g->rate2 * p->beam.mass * p->rest[i]);
-  const double own = fmax(g->base[body], g->rate2 * p->lumped[i]);
-  return g->regime == SW_CONTACT_EXPLICIT ? own : fmax(own, sw_contact_hardness(p->web, i));
-}
-
-static int is_held(const sw_system *s, uint32_t body, uint32_t node) {
-  const sw_body *b = &s->bodies[body];
-  return b->plan->held[node - b->first_node] != SW_FREE;
+  if (!p->web) return fmax(g->m.base[body], g->m.rate2 * p->beam.mass * p->rest[i]);
+  const double own = fmax(g->m.base[body], g->m.rate2 * p->lumped[i]);
+  return g->m.regime == SW_CONTACT_EXPLICIT ? own : fmax(own, sw_contact_hardness(p->web, i));
 }
 
 /* More than this near each other are of particles much closer than they should be [-]. */
@@ -148,41 +127,38 @@ static int counts(const sw_system *s, const thing *t, const thing *u) {
 }
 
 /* Are they parts of one object that hang together? */
-static int is_one(const sw_grains *g, const sw_system *s, const sw_grain_pair *k) {
-  const uint32_t first = (uint32_t)s->bodies[k->body[0]].first_node;
-  const uint32_t one[2] = {k->node[0], k->end[0]}, two[2] = {k->node[1], k->end[1]};
-  if (k->body[0] != k->body[1]) return 0;
+static int is_one(const sw_grains *g, const sw_system *s, const sw_ends *e) {
+  const uint32_t first = (uint32_t)s->bodies[e->body[0]].first_node;
+  const uint32_t one[2] = {e->node[0], e->end[0]}, two[2] = {e->node[1], e->end[1]};
+  if (e->body[0] != e->body[1]) return 0;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
       if (one[i] == two[j] ||
-          sw_joined_nearly(&g->joined[k->body[0]], one[i] - first, two[j] - first))
+          sw_joined_nearly(&g->joined[e->body[0]], one[i] - first, two[j] - first))
         return 1;
   return 0;
 }
 
-static double hardness(const sw_grains *g, const sw_system *s, const sw_grain_pair *k) {
+static double hardness(const sw_grains *g, const sw_system *s, const sw_ends *e) {
   double least = HUGE_VAL;
   for (int n = 0; n < 2; n++)
-    least = fmin(least, fmax(stiffness_at(g, s, k->body[n], k->node[n]),
-                             stiffness_at(g, s, k->body[n], k->end[n])));
+    least = fmin(least, fmax(stiffness_at(g, s, e->body[n], e->node[n]),
+                             stiffness_at(g, s, e->body[n], e->end[n])));
   return least;
 }
 
 static sw_status look_at(sw_grains *g, const sw_system *s, const thing *t, const thing *u) {
   double at[2];
-  sw_grain_pair k = {
-      .node = {t->node, u->node}, .end = {t->end, u->end}, .body = {t->body, u->body}};
-  if (!sw_grain_rule(g, k.body)->on || !counts(s, t, u)) return SW_OK;
-  k.reach = radius_of(&s->bodies[k.body[0]]) + radius_of(&s->bodies[k.body[1]]);
-  const double gap = sw_grain_nearest(s->x, &k, at) - k.reach;
-  if (!(gap < reserve_of(g, k.reach, speed_between(s, &k))) || is_one(g, s, &k)) return SW_OK;
-  if (g->pair_count == MOST_NEAR) return SW_ELIMIT;
-  k.usual = hardness(g, s, &k);
-  k.held = 1;
-  for (int n = 0; n < 2; n++)
-    k.held &= is_held(s, k.body[n], k.node[n]) && is_held(s, k.body[n], k.end[n]);
-  SW_TRY(sw_grow((void **)&g->pairs, &g->pair_capacity, g->pair_count + 1, sizeof *g->pairs));
-  g->pairs[g->pair_count++] = k;
+  sw_grain_pair k = {.of = {{t->node, u->node}, {t->end, u->end}, {t->body, u->body}}};
+  if (!sw_mutual_rule(&g->m, k.of.body)->on || !counts(s, t, u)) return SW_OK;
+  k.reach = sw_grain_radius(&s->bodies[t->body]) + sw_grain_radius(&s->bodies[u->body]);
+  const double gap = sw_grain_nearest(s->x, &k.of, at) - k.reach;
+  if (!(gap < reserve_of(g, k.reach, sw_ends_speed(s, &k.of))) || is_one(g, s, &k.of)) return SW_OK;
+  if (g->m.pair_count == MOST_NEAR) return SW_ELIMIT;
+  k.usual = hardness(g, s, &k.of);
+  k.held = sw_ends_held(s, &k.of);
+  SW_TRY(sw_grow((void **)&g->pairs, &g->pair_capacity, g->m.pair_count + 1, sizeof *g->pairs));
+  g->pairs[g->m.pair_count++] = k;
   return SW_OK;
 }
 
@@ -202,25 +178,18 @@ static sw_status look_around(sw_grains *g, const sw_system *s, const grid *all, 
   return SW_OK;
 }
 
-static int by_number(uint32_t p, uint32_t q) { return p < q ? -1 : p > q; }
-
-int sw_grain_order(const sw_grain_pair *p, const sw_grain_pair *q) {
-  if (p->node[0] != q->node[0]) return by_number(p->node[0], q->node[0]);
-  if (p->end[0] != q->end[0]) return by_number(p->end[0], q->end[0]);
-  if (p->node[1] != q->node[1]) return by_number(p->node[1], q->node[1]);
-  return by_number(p->end[1], q->end[1]);
+static int by_order(const void *p, const void *q) {
+  return sw_ends_order(&((const sw_grain_pair *)p)->of, &((const sw_grain_pair *)q)->of);
 }
-
-static int by_order(const void *p, const void *q) { return sw_grain_order(p, q); }
 
 static sw_status search(sw_grains *g, const sw_system *s) {
   grid all;
   double speed = 0, reach = 0;
   for (size_t k = 0; k < s->body_count; k++) {
     const sw_body *b = &s->bodies[k];
-    if (!takes_part(g, k)) continue;
-    reach = fmax(reach, 2.0 * radius_of(b));
-    for (size_t i = 0; g->h > 0 && i < b->plan->nodes; i++)
+    if (!sw_mutual_takes_part(&g->m, k)) continue;
+    reach = fmax(reach, 2.0 * sw_grain_radius(b));
+    for (size_t i = 0; g->m.h > 0 && i < b->plan->nodes; i++)
       speed = fmax(speed, 2.0 * sw_norm(sw_vec_at(s->v, b->first_node + i)));
   }
   SW_TRY(fill(g, s, widest(g, s) + reserve_of(g, reach, speed), &all));
@@ -228,29 +197,21 @@ static sw_status search(sw_grains *g, const sw_system *s) {
     if (sw_interrupted()) return SW_EINTR;
     SW_TRY(look_around(g, s, &all, k));
   }
-  if (g->pair_count) qsort(g->pairs, g->pair_count, sizeof *g->pairs, by_order);
+  if (g->m.pair_count) qsort(g->pairs, g->m.pair_count, sizeof *g->pairs, by_order);
   return SW_OK;
 }
 
-static sw_status plan_links(sw_system *s, const sw_grain_pair *k) {
-  for (int i = 0; i < (k->end[0] != k->node[0] ? 2 : 1); i++)
-    for (int j = 0; j < (k->end[1] != k->node[1] ? 2 : 1); j++)
-      SW_TRY(sw_system_plan_bridge(s, i ? k->end[0] : k->node[0], j ? k->end[1] : k->node[1]));
+static sw_status plan_links(sw_system *s, const sw_ends *e) {
+  for (int i = 0; i < (e->end[0] != e->node[0] ? 2 : 1); i++)
+    for (int j = 0; j < (e->end[1] != e->node[1] ? 2 : 1); j++)
+      SW_TRY(sw_system_plan_bridge(s, i ? e->end[0] : e->node[0], j ? e->end[1] : e->node[1]));
   return SW_OK;
 }
 
-sw_status sw_grains_choose(sw_grains *g, sw_system *s) {
-  const int still = g->regime == SW_CONTACT_STATIC;
-  g->fall = still ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * g->h * g->h;
-  g->pair_count = 0, g->looked = 0;
+sw_status sw_grains_choose(sw_mutual *m, sw_system *s) {
+  sw_grains *g = sw_grains_of(m);
   SW_TRY(search(g, s));
-  const size_t n = g->pair_count;
-  SW_TRY(sw_grow((void **)&g->now, &g->now_capacity, n, sizeof *g->now));
-  SW_TRY(sw_grow((void **)&g->last, &g->last_capacity, n, sizeof *g->last));
-  for (size_t i = 0; i < n; i++) {
-    const sw_grain_pair *k = &g->pairs[i];
-    g->now[i] = (sw_grain_touch){.pair = *k};
-    if (!k->held) SW_TRY(plan_links(s, k));
-  }
+  for (size_t i = 0; i < m->pair_count; i++)
+    if (!g->pairs[i].held) SW_TRY(plan_links(s, &g->pairs[i].of));
   return SW_OK;
 }

@@ -61,12 +61,6 @@ double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n) {
 
 /* --- places ----------------------------------------------------------------------------------- */
 
-/* On a curve's piece around a node: at the middle between edges v is 0 or 1. */
-static sw_bow around(uint32_t before, double v) {
-  const double a = 0.5 * (1.0 - v) * (1.0 - v), c = 0.5 * v * v;
-  return (sw_bow){before, 3, {a, 1.0 - a - c, c}, {v - 1.0, 1.0 - 2.0 * v, v}};
-}
-
 /* The curve goes on beside its segment, by half an edge. Its first and last halves of one are
  * straight. */
 sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
@@ -75,13 +69,7 @@ sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
   const size_t i = node - b->first_node;
   const uint32_t late = at >= 0.5;
   if (!k->smooth || (late ? i + 1 == b->plan->edges : i == 0)) return sw_bow_chord(node, at);
-  return around(node + late - 1, late ? at - 0.5 : at + 0.5);
-}
-
-/* The second derivative of half the squared distance by a place, firmness added; the curve never
- * bends so much that a place is none of the nearest [m2]. */
-double sw_pair_rise(double along2, double bends, double firm) {
-  return fmax(along2 * (1.0 + firm) + bends, 0.3 * along2);
+  return sw_bow_around(node + late - 1, late ? at - 0.5 : at + 0.5);
 }
 
 /* Both places, and how far they may go. */
@@ -132,13 +120,13 @@ static search find(const sw_system *s, const sw_pair *k, const double *y, const 
   search f = begin(s, k, at);
   for (int turn = 0; turn < MOST_TURNS; turn++) {
     const sw_bow bow[2] = {sw_pair_bow(s, k, 0, f.at[0]), sw_pair_bow(s, k, 1, f.at[1])};
-    const sw_vec d = sw_pair_apart(y, bow);
+    const sw_vec d = sw_bows_apart(y, bow);
     const sw_vec a = sw_bow_along(y, &bow[0]), b = sw_bow_along(y, &bow[1]);
     const double aa = sw_norm2(a), bb = sw_norm2(b);
     const double rest[2] = {sw_dot(a, d) + k->firm[0] * aa * (f.at[0] - 0.5),
                             -sw_dot(b, d) + k->firm[1] * bb * (f.at[1] - 0.5)};
-    const double rise[2] = {sw_pair_rise(aa, sw_dot(d, sw_bow_bend(y, &bow[0])), k->firm[0]),
-                            sw_pair_rise(bb, -sw_dot(d, sw_bow_bend(y, &bow[1])), k->firm[1])};
+    const double rise[2] = {sw_meet_rise(aa, sw_dot(d, sw_bow_bend(y, &bow[0])), k->firm[0]),
+                            sw_meet_rise(bb, -sw_dot(d, sw_bow_bend(y, &bow[1])), k->firm[1])};
     step(&f, rest, rise, sw_dot(a, b));
     if (fabs(f.ahead[0]) < SHARP && fabs(f.ahead[1]) < SHARP) break;
   }
@@ -177,7 +165,7 @@ void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
   const sw_near n = {.one = k->one, .two = k->two, .body = {k->body[0], k->body[1]}};
   const double middle[2] = {0.5, 0.5};
   if (are_fine(p, s, &n) || (k->parallel && runs_along(s->x, k))) return;
-  const sw_pair_memory *m = sw_pair_recall(p, k, middle, SW_CROSSING);
+  const sw_met *m = sw_pair_recall(p, k, middle, SW_CROSSING);
   k->smooth = 1; /* to find the curves' place */
   k->smooth = crosses(s, k, m && m->smooth ? STILL_ACROSS : ACROSS);
   k->parallel &= !k->smooth;
@@ -194,7 +182,7 @@ static sw_vec square_to(sw_vec v, sw_vec along) {
 }
 
 sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2]) {
-  const sw_vec d = sw_pair_apart(y, bow);
+  const sw_vec d = sw_bows_apart(y, bow);
   const sw_vec a = sw_bow_along(y, &bow[0]), b = sw_bow_along(y, &bow[1]);
   const sw_vec across = sw_cross(a, b), up = sw_v(0, 0, 1);
   if (slides[0] && slides[1])
@@ -203,8 +191,8 @@ sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2])
   return sw_unit_or(square_to(d, slides[0] ? a : b), up);
 }
 
-sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y,
-                       const sw_pair_touch *t, sw_vec normal, double steady) {
+sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y, const sw_meet *t,
+                       sw_vec normal, double steady) {
   sw_vec out = normal;
   if (!k->smooth || !(steady > 0)) return normal;
   for (int side = 0; side < 2; side++) {

@@ -20,7 +20,7 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
 /* Towards wire one there, square to what may slide. */
 sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2]);
 /* The same for a touch that has had this normal force for a while [N]. */
-sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y,
-                       const sw_pair_touch *t, sw_vec normal, double steady);
+sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y, const sw_meet *t,
+                       sw_vec normal, double steady);
 
 #endif

@@ -46,19 +46,11 @@ static sw_vec middle_of(const double *x, uint32_t node) {
   return sw_lerp(sw_vec_at(x, node), sw_vec_at(x, node + 1u), 0.5);
 }
 
-/* 1: some wire of the rules takes part. */
-/* Meshes of particles have no edges and so no pairs; the scene refuses rules for them. */
-static int takes_part(const sw_pairs *p, size_t body) {
-  for (size_t k = 0; k < p->bodies; k++)
-    if (p->rules[p->bodies * body + k].on) return 1;
-  return 0;
-}
-
 static double longest_segment(const sw_pairs *p, const sw_system *s) {
   double longest = 0;
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
-    for (size_t e = 0; takes_part(p, b) && e < body->plan->edges; e++) {
+    for (size_t e = 0; sw_mutual_takes_part(&p->m, b) && e < body->plan->edges; e++) {
       const double *x = s->x + 3 * (body->first_node + e);
       longest = fmax(longest, sw_norm2(sw_sub(sw_load(x + 3), sw_load(x))));
     }
@@ -69,7 +61,7 @@ static double longest_segment(const sw_pairs *p, const sw_system *s) {
 static double widest_radius(const sw_pairs *p, const sw_system *s) {
   double widest = 0;
   for (size_t b = 0; b < s->body_count; b++)
-    if (takes_part(p, b)) widest = fmax(widest, s->bodies[b].plan->beam.radius);
+    if (sw_mutual_takes_part(&p->m, b)) widest = fmax(widest, s->bodies[b].plan->beam.radius);
   return widest;
 }
 
@@ -85,7 +77,7 @@ static sw_status fill_grid(sw_pairs *p, const sw_system *s, double width, grid *
   memset(g->head, 0, g->size * sizeof *g->head);
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
-    if (!takes_part(p, b)) continue;
+    if (!sw_mutual_takes_part(&p->m, b)) continue;
     for (size_t e = 0; e < body->plan->edges; e++) {
       const size_t k = g->count++;
       g->node[k] = (uint32_t)(body->first_node + e), g->body[k] = (uint32_t)b;
@@ -120,7 +112,7 @@ static const size_t MOST_NEAR = 30000000;
 static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t k, size_t m) {
   sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
   double at[2];
-  if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
+  if (!sw_mutual_rule(&p->m, n.body)->on || !apart_along(s, &n)) return SW_OK;
   n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   n.bulge = sw_pair_bulge(p, s, &n);
@@ -219,22 +211,10 @@ sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
 
 /* --- pairs of a step --------------------------------------------------------------- */
 
-static double speed_between(const sw_system *s, const sw_near *n) {
-  double most = 0;
-  for (uint32_t i = 0; i < 2; i++)
-    for (uint32_t j = 0; j < 2; j++)
-      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->v, n->one + i), sw_vec_at(s->v, n->two + j))));
-  return sqrt(most);
-}
-
-static int all_held(const sw_system *s, const sw_near *n) {
-  const uint32_t nodes[2] = {n->one, n->two};
-  for (size_t k = 0; k < 2; k++) {
-    const sw_body *b = &s->bodies[n->body[k]];
-    const size_t i = nodes[k] - b->first_node;
-    if (b->plan->held[i] == SW_FREE || b->plan->held[i + 1] == SW_FREE) return 0;
-  }
-  return 1;
+static double longest_edge(const sw_plan *p) {
+  double longest = 0;
+  for (size_t e = 0; e < p->edges; e++) longest = fmax(longest, p->rest[e]);
+  return longest;
 }
 
 /* Segments that part by less than this along the shorter of them touch along their length,
@@ -262,8 +242,8 @@ static const double RESERVE = 1.5; /* [-] */
 /* Gap up to which a pair is chosen: a share of its radii, what gravity and its speed (or a
  * larger one) can close in the step. */
 static double reserve_of(const sw_pairs *p, double reach, double fast) {
-  const double reserve = 0.25 * reach + p->fall + RESERVE * p->h * fast;
-  return reserve > p->least_reserve ? reserve : p->least_reserve;
+  const double reserve = 0.25 * reach + p->m.fall + RESERVE * p->m.h * fast;
+  return reserve > p->m.least_reserve ? reserve : p->m.least_reserve;
 }
 
 static double travel_of(const sw_pairs *p, const sw_near *n) {
@@ -293,31 +273,32 @@ static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
   int slides[2];
   if (k->smooth && sw_pair_crossing(s, k, s->x, at, slides))
     bow[0] = sw_pair_bow(s, k, 0, at[0]), bow[1] = sw_pair_bow(s, k, 1, at[1]);
-  for (uint32_t i = 0; i < bow[0].count; i++)
-    for (uint32_t j = 0; j < bow[1].count; j++)
-      SW_TRY(sw_system_plan_bridge(s, bow[0].first + i, bow[1].first + j));
+  for (uint32_t i = 0; i < bow[0].spot.count; i++)
+    for (uint32_t j = 0; j < bow[1].spot.count; j++)
+      SW_TRY(sw_system_plan_bridge(s, bow[0].spot.node[i], bow[1].spot.node[j]));
   return SW_OK;
 }
 
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
-  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
-  sw_pair *k = &p->pairs[p->pair_count++];
+  const sw_ends ends = sw_segments(n->one, n->two, n->body);
+  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->m.pair_count + 1, sizeof *p->pairs));
+  sw_pair *k = &p->pairs[p->m.pair_count++];
   *k = (sw_pair){.one = n->one,
                  .two = n->two,
                  .body = {n->body[0], n->body[1]},
                  .parallel = is_parallel(s->x, n, sum),
-                 .held = all_held(s, n),
+                 .held = sw_ends_held(s, &ends),
                  .reach = sum,
-                 .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
-                               p->rate2 * lighter_mass(s, n)),
-                 .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
-  k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->h * speed_between(s, n);
+                 .usual = fmax(fmin(p->m.base[n->body[0]], p->m.base[n->body[1]]),
+                               p->m.rate2 * lighter_mass(s, n)),
+                 .stops = p->m.h > 0 ? lighter_mass(s, n) / (p->m.h * p->m.h) : HUGE_VAL};
+  k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->m.h * sw_ends_speed(s, &ends);
   return SW_OK;
 }
 
 /* Which of them cross; with that, the matrix' pattern. */
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
-  for (size_t i = 0; i < p->pair_count; i++) {
+  for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
     sw_pair_find_curves(p, s, k);
     if (k->bridged) SW_TRY(plan_bridges(s, k));
@@ -325,29 +306,34 @@ static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
   return SW_OK;
 }
 
-sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
-  const int still = p->regime == SW_CONTACT_STATIC;
-  const double fast = still ? 0.0 : 2.0 * fastest(s);
-  p->fall = still ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * p->h * p->h;
+/* How near it may be told to be: 1, it is chosen. */
+static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
+  const sw_ends ends = sw_segments(n->one, n->two, n->body);
+  const int still = p->m.regime == SW_CONTACT_STATIC;
+  const double sum = radii(s, n->body);
+  double at[2];
+  n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
+  if (n->distance - sum >= reserve_of(p, sum, fast)) return 0;
+  n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
+                                    sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
+  n->distance -= n->bulge = sw_pair_bulge(p, s, n);
+  n->known = n->distance, n->travel = travel_of(p, n);
+  return n->distance - sum < reserve_of(p, sum, still ? 0.0 : sw_ends_speed(s, &ends));
+}
+
+sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
+  sw_pairs *p = sw_pairs_of(m);
+  const double fast = m->regime == SW_CONTACT_STATIC ? 0.0 : 2.0 * fastest(s);
+  for (size_t b = 0; b < s->body_count; b++)
+    if (sw_mutual_takes_part(m, b)) p->edge[b] = longest_edge(s->bodies[b].plan);
   SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
-  p->pair_count = p->touch_count = p->last_count = 0;
   p->least_left = -HUGE_VAL;
   SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
-    if (sw_interrupted()) return SW_EINTR;
     sw_near *n = &p->near[k];
-    double at[2];
     const double sum = radii(s, n->body);
-    n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
-    if (n->distance - sum >= reserve_of(p, sum, fast)) {
-      p->least_left = larger(p->least_left, sum - n->distance);
-      continue;
-    }
-    n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
-                                      sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
-    n->distance -= n->bulge = sw_pair_bulge(p, s, n);
-    n->known = n->distance, n->travel = travel_of(p, n);
-    if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
+    if (sw_interrupted()) return SW_EINTR;
+    if (may_touch(p, s, n, fast))
       SW_TRY(add_pair(p, s, n, sum));
     else
       p->least_left = larger(p->least_left, sum - n->distance);

@@ -64,8 +64,7 @@ void sw_scene_drop_rules(sw_scene *s, size_t keep) {
 sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err));
-  *count = s->built && s->pairs ? sw_pairs_count(s->pairs) : 0;
-  if (s->built && s->grains) *count += sw_grains_count(s->grains);
+  *count = s->built ? sw_scene_places(s) : 0;
   return SW_OK;
 }
 
@@ -87,7 +86,7 @@ static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) 
 
 /* Of a wire and an object of particles the object comes first, whichever has the edge there. */
 static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
-  if (s->system.bodies[p.body[0]].plan->web) return p;
+  if (s->system.bodies[p.body[0]].plan->web || !s->system.bodies[p.body[1]].plan->web) return p;
   return (sw_pair_place){.body = {p.body[1], p.body[0]},
                          .node = {p.node[1], p.node[0]},
                          .at = {p.at[1], p.at[0]},
@@ -98,10 +97,7 @@ static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
 }
 
 void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
-  const size_t wires = s->pairs ? sw_pairs_count(s->pairs) : 0;
-  const sw_pair_place p = number < wires
-                              ? sw_pairs_place(s->pairs, number)
-                              : loose_first(s, sw_grains_place(s->grains, number - wires));
+  const sw_pair_place p = loose_first(s, sw_scene_place(s, number));
   sw_vec at[2];
   for (int k = 0; k < 2; k++) {
     at[k] = touched_at(s, &p, k, &out->s[k]);

@@ -6,7 +6,7 @@
 
 #include "body/section.h"
 #include "body/spin.h"
-#include "contact/grains.h"
+#include "body/touching.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
 #include "scene/parts.h"
@@ -113,11 +113,9 @@ static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place
 }
 
 static void press_wires(const sw_scene *s, const sw_body *b, float *out) {
-  const size_t pairs = sw_scene_pairs(s) ? sw_pairs_count(sw_scene_pairs(s)) : 0;
-  const size_t grains = sw_scene_grains(s) ? sw_grains_count(sw_scene_grains(s)) : 0;
-  for (size_t k = 0; k < pairs + grains; k++) {
-    const sw_pair_place p = k < pairs ? sw_pairs_place(sw_scene_pairs(s), k)
-                                      : sw_grains_place(sw_scene_grains(s), k - pairs);
+  const size_t count = sw_scene_places(s);
+  for (size_t k = 0; k < count; k++) {
+    const sw_pair_place p = sw_scene_place(s, k);
     press_place(s, b, &p, out);
   }
 }
