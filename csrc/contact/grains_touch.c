@@ -46,20 +46,17 @@ static double softness(const sw_system *s, const sw_ends *e) {
   return fmin(SOFTEST, most);
 }
 
-/* The touch of a pair there; slides: 1, it follows the nearest places. */
-static sw_meet touch_of(const sw_system *s, const sw_grains *g, const sw_grain_pair *k,
-                        const double at[2], int slides) {
-  sw_meet t = {.of = k->of,
-               .pair = (uint32_t)(k - g->pairs),
-               .emerges = 1, /* as slowly as meshes */
-               .at = {at[0], at[1]},
-               .reach = k->reach,
-               .usual = k->usual,
-               .press = {.soft = softness(s, &k->of), .by_place = 1}};
-  for (int n = 0; n < 2; n++) {
-    t.bow[n] = sw_bow_between(k->of.node[n], k->of.end[n], at[n]);
-    t.slides[n] = slides && at[n] > 0 && at[n] < 1;
-  }
+/* A new touch of a pair there, or NULL; slides: 1, it follows the nearest places. */
+static sw_meet *new_touch(sw_grains *g, const sw_system *s, const sw_grain_pair *k,
+                          const double at[2], const sw_bow bow[2], int slides) {
+  sw_meet *t = sw_meet_new(&g->m);
+  if (!t) return NULL;
+  t->of = k->of, t->pair = (uint32_t)(k - g->pairs);
+  t->reach = k->reach, t->usual = k->usual;
+  t->emerges = 1; /* let out as slowly as meshes are */
+  t->press.soft = softness(s, &k->of), t->press.by_place = 1;
+  for (int n = 0; n < 2; n++)
+    t->at[n] = at[n], t->bow[n] = bow[n], t->slides[n] = slides && at[n] > 0 && at[n] < 1;
   return t;
 }
 
@@ -123,26 +120,27 @@ static sw_status find(sw_grains *g, const sw_system *s, const double *y, const s
   const sw_meet *last = k->last ? &m->last[k->last - 1] : NULL;
   double at[2];
   sw_vec normal;
-  if (passes(s->x, y, k, at, &normal)) {
-    sw_meet t = touch_of(s, g, k, at, 0);
-    const sw_vec d = sw_bows_apart(y, t.bow);
-    const double gap = sw_dot(normal, d) - k->reach;
-    t.barred = 1, t.aslant = sw_norm(d) - k->reach - gap;
-    return sw_meet_add(m, s, y, t, gap, normal, recall(m, s, &k->of, at), last, HUGE_VAL);
-  }
-  const int own = owns(s, y, &k->of, at);
-  if (!own) {
+  const int barred = passes(s->x, y, k, at, &normal), own = !barred && owns(s, y, &k->of, at);
+  if (!barred && !own) {
     if (!last || !(last->press.normal_force > 0)) return SW_OK;
     at[0] = last->at[0], at[1] = last->at[1]; /* one that pushed stays where it was */
   }
-  const sw_meet t = touch_of(s, g, k, at, own);
-  const sw_vec d = sw_bows_apart(y, t.bow);
-  double distance = sw_norm(d);
-  if (!(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
+  const sw_bow bow[2] = {sw_bow_between(k->of.node[0], k->of.end[0], at[0]),
+                         sw_bow_between(k->of.node[1], k->of.end[1], at[1])};
+  const sw_vec d = sw_bows_apart(y, bow);
+  double distance = barred ? sw_dot(normal, d) : sw_norm(d);
+  if (!barred && !(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
   const sw_met *met = recall(m, s, &k->of, at);
-  normal = sw_unit_or(d, met ? met->normal : sw_v(0, 0, 1));
-  sw_meet_side(met, k->reach, &normal, &distance);
-  return sw_meet_add(m, s, y, t, distance - k->reach, normal, met, last, HUGE_VAL);
+  if (!barred) {
+    normal = sw_unit_or(d, met ? met->normal : sw_v(0, 0, 1));
+    sw_meet_side(met, k->reach, &normal, &distance);
+  }
+  sw_meet *t = new_touch(g, s, k, at, bow, own);
+  if (!t) return SW_ENOMEM;
+  t->barred = barred;
+  if (barred) t->aslant = sw_norm(d) - distance;
+  sw_meet_add(m, s, y, t, distance - k->reach, normal, met, last, HUGE_VAL);
+  return SW_OK;
 }
 
 sw_status sw_grains_find(sw_mutual *m, const sw_system *s, const double *y) {

@@ -99,25 +99,30 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
   sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
 
-sw_status sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet t, double gap,
-                      sw_vec normal, const sw_met *met, const sw_meet *last, double stops) {
-  sw_press *press = &t.press;
+sw_meet *sw_meet_new(sw_mutual *m) {
+  if (sw_grow((void **)&m->touches, &m->touch_capacity, m->touch_count + 1, sizeof *m->touches) !=
+      SW_OK)
+    return NULL;
+  return memset(&m->touches[m->touch_count], 0, sizeof *m->touches);
+}
+
+void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, double gap,
+                 sw_vec normal, const sw_met *met, const sw_meet *last, double stops) {
+  sw_press *press = &t->press;
   const int pressed = met && met->normal_force > 0;
-  t.stage = m->stage;
+  t->stage = m->stage;
   press->gap = gap, press->normal = normal;
-  if (!(sw_norm2(t.square) > 0)) t.square = normal;
-  press->k = t.stiffer = stiffness_of(m, &t, met, last);
-  forgive(m, s, met, &t);
-  press->gap += t.forgiven;
+  if (!(sw_norm2(t->square) > 0)) t->square = normal;
+  press->k = t->stiffer = stiffness_of(m, t, met, last);
+  forgive(m, s, met, t);
+  press->gap += t->forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, last && m->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
-  t.far = is_far(m, &t, last, pressed);
-  if (pressed && !last && m->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
-    press->active |= press->gap < STILL_NEAR * t.reach;
-  begin_friction(m, s, y, &t, met, last, stops);
-  SW_TRY(sw_grow((void **)&m->touches, &m->touch_capacity, m->touch_count + 1, sizeof *m->touches));
-  m->touches[m->touch_count++] = t;
-  return SW_OK;
+  t->far = is_far(m, t, last, pressed);
+  if (pressed && !last && m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING)
+    press->active |= press->gap < STILL_NEAR * t->reach;
+  begin_friction(m, s, y, t, met, last, stops);
+  m->touch_count++;
 }
 
 /* Axes further apart than this have not just passed each other: in a knot, normals turn by
@@ -214,8 +219,11 @@ void sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
   m->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &m->spots);
   find_scales(m);
-  for (size_t i = 0; i < m->touch_count; i++)
-    sw_spots_add(&m->spots, s, spot_of(m, &m->touches[i]));
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    if (sw_press_slides(&t->press, sw_mutual_rule(m, t->of.body)->friction))
+      sw_spots_add(&m->spots, s, spot_of(m, t));
+  }
   sw_spots_follow(&m->spots, s);
 }
 

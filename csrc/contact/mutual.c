@@ -221,6 +221,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
                     .steady = t->press.normal_force,
                     .k = sw_press_eased(&t->press, t->usual, t->stiffer),
                     .normal = t->press.normal,
+                    .soft = t->press.soft,
                     .sliding = t->press.next_sliding,
                     .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
     if (out->normal_force > 0)
@@ -322,6 +323,20 @@ static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) 
   return 1;
 }
 
+/* What is remembered is what touches, until a step looks: for read-outs. */
+static sw_status show(sw_mutual *m, const sw_met *met) {
+  sw_meet *t = sw_meet_new(m);
+  if (!t) return SW_ENOMEM;
+  t->of = met->of, t->kind = met->kind;
+  t->at[0] = met->at[0], t->at[1] = met->at[1];
+  sw_press *p = &t->press;
+  p->normal = met->normal, p->normal_force = met->normal_force, p->gap_after = -met->depth;
+  p->k = met->depth > 0 ? met->normal_force / met->depth : met->k, p->soft = met->soft;
+  p->tangential = sw_scale(met->elastic, -sw_press_grip(p));
+  m->touch_count++;
+  return SW_OK;
+}
+
 sw_status sw_mutual_inherit(sw_mutual *m, const void *memory, size_t bytes, const size_t *new_node,
                             const size_t *new_body) {
   size_t kept = 0;
@@ -332,6 +347,7 @@ sw_status sw_mutual_inherit(sw_mutual *m, const void *memory, size_t bytes, cons
   }
   m->memory_count = kept;
   if (kept) qsort(m->memory, kept, sizeof *m->memory, in_order);
+  for (size_t i = 0; i < kept; i++) SW_TRY(show(m, &m->memory[i]));
   return SW_OK;
 }
 

@@ -8,33 +8,34 @@
 #include "contact/lean.h"
 #include "contact/pairs_curve.h"
 
-/* A pair's touch at these places of its segments. */
-static sw_meet touch_of(const sw_pairs *p, const sw_system *s, const sw_pair *k, sw_meet_kind kind,
-                        const double at[2]) {
-  sw_meet t = {.of = sw_segments(k->one, k->two, k->body),
-               .pair = (uint32_t)(k - p->pairs),
-               .kind = kind,
-               .at = {at[0], at[1]},
-               .firm = {k->firm[0], k->firm[1]},
-               .reach = k->reach,
-               .usual = k->usual};
-  for (int side = 0; side < 2; side++) t.bow[side] = sw_pair_bow(s, k, side, at[side]);
+/* A new touch of a pair at these places of its segments, or NULL. */
+static sw_meet *new_touch(sw_pairs *p, const sw_pair *k, sw_meet_kind kind, const double at[2],
+                          const sw_bow bow[2], const int slides[2]) {
+  sw_meet *t = sw_meet_new(&p->m);
+  if (!t) return NULL;
+  t->of = sw_segments(k->one, k->two, k->body);
+  t->pair = (uint32_t)(k - p->pairs), t->kind = kind;
+  t->reach = k->reach, t->usual = k->usual;
+  for (int n = 0; n < 2; n++)
+    t->at[n] = at[n], t->bow[n] = bow[n], t->slides[n] = slides[n], t->firm[n] = k->firm[n];
   return t;
 }
 
 /* The touch at given places, unless the wires are apart there. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                           sw_meet_kind kind, const double at[2], int slides_one, int slides_two) {
-  sw_meet t = touch_of(p, s, k, kind, at);
-  t.slides[0] = slides_one, t.slides[1] = slides_two;
-  const sw_vec d = sw_bows_apart(y, t.bow);
+  const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
+  const sw_vec d = sw_bows_apart(y, bow);
   double distance = sw_norm(d);
   if (!(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
-  const sw_met *m = sw_pair_recall(p, k, at, kind);
+  const sw_met *met = sw_pair_recall(p, k, at, kind);
   const sw_meet *last = sw_pair_last(p, k, at, kind);
-  sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
-  sw_meet_side(m, k->reach, &normal, &distance);
-  return sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, m, last, k->stops);
+  sw_vec normal = sw_unit_or(d, met ? met->normal : sw_v(0, 0, 1));
+  sw_meet_side(met, k->reach, &normal, &distance);
+  sw_meet *t = new_touch(p, k, kind, at, bow, (int[2]){slides_one, slides_two});
+  if (!t) return SW_ENOMEM;
+  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last, k->stops);
+  return SW_OK;
 }
 
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -42,13 +43,15 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
   for (size_t i = 0; i < p->m.barrier_count; i++) {
     const sw_pair_barrier *b = &p->barriers[i];
     if (b->one != k->one || b->two != k->two) continue;
-    sw_meet t = touch_of(p, s, k, SW_CROSSING, b->at);
-    const sw_vec d = sw_bows_apart(y, t.bow);
+    const sw_bow bow[2] = {sw_pair_bow(s, k, 0, b->at[0]), sw_pair_bow(s, k, 1, b->at[1])};
+    const sw_vec d = sw_bows_apart(y, bow);
     const double gap = sw_dot(b->normal, d) - k->reach;
-    *found = t.barred = 1;
-    t.aslant = sw_norm(d) - k->reach - gap;
-    SW_TRY(sw_meet_add(&p->m, s, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
-                       sw_pair_last(p, k, b->at, SW_CROSSING), k->stops));
+    sw_meet *t = new_touch(p, k, SW_CROSSING, b->at, bow, (int[2]){0, 0});
+    if (!t) return SW_ENOMEM;
+    *found = t->barred = 1;
+    t->aslant = sw_norm(d) - k->reach - gap;
+    sw_meet_add(&p->m, s, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
+                sw_pair_last(p, k, b->at, SW_CROSSING), k->stops);
   }
   return SW_OK;
 }
@@ -68,19 +71,21 @@ static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
 /* The touch of two smooth curves. */
 static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                               const double at[2], const int slides[2]) {
-  sw_meet t = touch_of(p, s, k, SW_CROSSING, at);
-  t.slides[0] = slides[0], t.slides[1] = slides[1];
-  sw_vec normal = sw_pair_normal(y, t.bow, slides);
-  double distance = sw_dot(normal, sw_bows_apart(y, t.bow));
+  const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};
+  sw_vec normal = sw_pair_normal(y, bow, slides);
+  double distance = sw_dot(normal, sw_bows_apart(y, bow));
   if (!(distance < (1.0 + SW_LISTED_GAP) * k->reach)) return SW_OK;
-  const sw_met *m = sw_pair_recall(p, k, at, SW_CROSSING);
+  const sw_met *met = sw_pair_recall(p, k, at, SW_CROSSING);
   const sw_meet *last = sw_pair_last(p, k, at, SW_CROSSING);
-  sw_meet_side(m, k->reach, &normal, &distance);
+  sw_meet_side(met, k->reach, &normal, &distance);
   if (is_had(p, k, at)) return SW_OK;
-  t.steady = m ? m->steady : 0;
-  t.square = normal;
-  normal = sw_pair_leaning(s, k, y, &t, normal, t.steady);
-  return sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, m, last, k->stops);
+  sw_meet *t = new_touch(p, k, SW_CROSSING, at, bow, slides);
+  if (!t) return SW_ENOMEM;
+  t->steady = met ? met->steady : 0;
+  t->square = normal;
+  normal = sw_pair_leaning(s, k, y, t, normal, t->steady);
+  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last, k->stops);
+  return SW_OK;
 }
 
 static sw_vec edge(const double *y, uint32_t e) {
