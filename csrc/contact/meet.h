@@ -159,9 +159,6 @@ double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at
 /* How fast a place is passed through in a step of h, beyond just being reached [m/s]. */
 double sw_meet_excess(const sw_system *system, const sw_bow bow[2], double reach, sw_vec normal,
                       double h);
-/* In shorter steps than this share of the nominal one depth is taken as it comes [-]. */
-#define SW_SMALLEST_CARE (1.0 / 64)
-
 /* The second derivative of half the squared distance by a place along a wire [m2]: of its slope
  * squared, its bend along the distance, and how firmly it keeps to the middle of its edge [m2],
  * [m2], [-]. */

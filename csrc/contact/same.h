@@ -11,4 +11,7 @@
 /* Slower approaches are left to the integrator; their energy does not matter [m/s]. */
 #define SW_SLOWEST_IMPACT 5e-4
 
+/* In shorter steps than this share of the nominal one depth is taken as it comes [-]. */
+#define SW_SMALLEST_CARE (1.0 / 64)
+
 #endif

@@ -329,50 +329,61 @@ static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candi
   return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
 }
 
+/* What its place says of a touch. */
+static void take_place(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at,
+                       const double *y, const sw_place *place, sw_touch *t) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  t->obstacle = k->obstacle, t->segment = k->segment;
+  t->node = k->node, t->other = k->other, t->body = k->body;
+  t->feature = place->near.feature;
+  t->at = at;
+  t->spot = sw_contact_spot(s, k, at);
+  t->sharp = place->sharp, t->edge = place->edge;
+  t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
+  t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  t->held = sw_contact_is_held(s, k);
+  t->candidate = (size_t)(k - c->candidates);
+  t->stage = c->stage;
+}
+
+/* What does and does not press in this iterate. */
+static void activate(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                     const sw_memory *m, const sw_touch *last, sw_press *press) {
+  const sw_web *web = s->bodies[k->body].plan->web;
+  const int still = c->regime == SW_CONTACT_STATIC;
+  if (still && m && web && web->per_ring) press->spare = SPARE_PULLS;
+  sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
+  if (!still || last || web || press->active) return;
+  press->active = 1; /* what just touches may be all that bears the wire */
+  press->active = sw_press_apart(press);
+}
+
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
-  const sw_pose *pose = &c->now[k->obstacle].pose;
   const double at = k->segment ? near->at : 0.0;
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
-  const double usual = end_stiffness(c, s, k, y, sw_rotate(pose->q, near->normal));
-  const double stiffness = stiffness_of(c, k, m, last, usual);
-  const double kept = m ? m->steady : 0.0, steady = place->sharp ? kept : 0.0;
+  const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_web *web = s->bodies[k->body].plan->web;
   sw_touch *const t = new_touch(c);
   if (!t) return SW_ENOMEM;
   sw_press *press = &t->press;
-  t->obstacle = k->obstacle, t->segment = k->segment;
-  t->node = k->node, t->other = k->other, t->body = k->body;
-  t->feature = near->feature;
-  t->at = at;
-  t->spot = sw_contact_spot(s, k, at);
-  t->sharp = place->sharp, t->edge = place->edge;
-  t->steady = kept;
-  t->point = sw_pose_point(*pose, near->point), t->local = near->point;
-  t->known = m != NULL;
-  t->stiffer = stiffness, t->usual = usual;
-  t->held = sw_contact_is_held(s, k);
-  t->candidate = (size_t)(k - c->candidates);
-  t->stage = c->stage;
-  press->normal = sw_contact_leaning(c, s, k, place, steady);
+  take_place(c, s, k, at, y, place, t);
+  t->steady = m ? m->steady : 0.0, t->known = m != NULL;
+  t->usual = end_stiffness(c, s, k, y, out);
+  t->stiffer = stiffness_of(c, k, m, last, t->usual);
+  press->normal = sw_contact_leaning(c, s, k, place, place->sharp ? t->steady : 0.0);
   press->gap = near->gap - k->skin;
-  press->k = c->softer ? sw_contact_softer(c, s, k, stiffness) : stiffness;
+  press->k = c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer;
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (web && !web->per_ring) press->soft = fmin(SOFTEST, (double)web->particles);
   forgive(c, s, k, m, y, t);
-  if (m && web) t->hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
+  if (m && web) t->hardened = 0.5 * m->depth * fmax(0.0, t->stiffer * m->depth - m->normal_force);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
-  if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
-  sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
-  if (c->regime == SW_CONTACT_STATIC && !last && !web && !press->active) {
-    press->active = 1; /* what just touches may be all that bears the wire */
-    press->active = sw_press_apart(press);
-  }
-  t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  activate(c, s, k, m, last, press);
   begin_friction(c, s, m, last, y, t);
   if (t->held) press->active = 0;
   take_in(c);
