@@ -21,8 +21,6 @@ typedef struct sw_grains {
   sw_joined *joined;    /* (bodies) of objects that touch themselves */
   sw_grain_pair *pairs; /* (m.pair_count) of this step, in order */
   size_t pair_capacity;
-  void *grid; /* work of the search */
-  size_t grid_capacity;
 } sw_grains;
 
 static inline sw_grains *sw_grains_of(sw_mutual *m) { return (sw_grains *)(void *)m; }
@@ -30,9 +28,6 @@ static inline sw_grains *sw_grains_of(sw_mutual *m) { return (sw_grains *)(void 
 /* What sw_finder says. */
 sw_status sw_grains_choose(sw_mutual *grains, sw_system *system);
 sw_status sw_grains_find(sw_mutual *grains, const sw_system *system, const double *y);
-
-/* Of what touches there [m]. */
-double sw_grain_radius(const sw_body *body);
 
 /* Nearest places of both at positions x; their distance [m]. */
 static inline double sw_grain_nearest(const double *x, const sw_ends *e, double at[2]) {

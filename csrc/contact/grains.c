@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/cells.h"
 #include "contact/grain.h"
 
 static int is_loose(const sw_body *b) { return b->plan->web && !b->plan->web->per_ring; }
@@ -26,7 +27,6 @@ static void free_own(sw_mutual *m) {
   for (size_t b = 0; g->joined && b < m->bodies; b++) sw_joined_free(&g->joined[b]);
   sw_free(g->joined);
   sw_free(g->pairs);
-  sw_free(g->grid);
 }
 
 /* --- review ---------------------------------------------------------------------------- */
@@ -46,7 +46,7 @@ static int widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   const double needed = 2.0 * stray(s, x1, h);
   double least = HUGE_VAL;
   for (size_t b = 0; b < s->body_count; b++)
-    least = fmin(least, 2.0 * sw_grain_radius(&s->bodies[b]));
+    least = fmin(least, 2.0 * sw_thing_radius(&s->bodies[b]));
   if (!(needed > fmax(0.25 * least + m->fall, m->least_reserve))) return 0;
   m->least_reserve = 1.5 * needed;
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;

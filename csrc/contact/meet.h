@@ -108,6 +108,8 @@ struct sw_mutual {
   size_t barrier_count;    /* of what keeps some on their sides for the rest of the step */
   sw_meet *touches, *last; /* of this iterate and of the one before, in the order of pairs */
   size_t touch_count, touch_capacity, last_count, last_capacity;
+  void *grid; /* work of the search for what is near */
+  size_t grid_capacity;
   sw_spots spots; /* work of the refinement */
   sw_hit *hits;   /* at the end of stages of this trial */
   size_t hit_count, hit_capacity;

@@ -33,8 +33,8 @@ void sw_mutual_free(sw_mutual *m) {
   if (!m) return;
   m->finder->free(m);
   sw_spots_free(&m->spots);
-  void *const blocks[] = {m->rules, m->base, m->rubbing, m->touches,
-                          m->last,  m->hits, m->memory,  m->next_memory};
+  void *const blocks[] = {m->grid, m->rules, m->base,   m->rubbing,    m->touches,
+                          m->last, m->hits,  m->memory, m->next_memory};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(m);
 }

@@ -60,8 +60,6 @@ typedef struct sw_pairs {
   double listed_reach; /* gap up to which it is complete there [m] */
   double *before;      /* (nodes x 3) positions at the last step's start [m] */
   double *travel;      /* (nodes) length of the way since the list was made [m] */
-  void *grid;          /* work of the search */
-  size_t grid_capacity;
 
   sw_pair *pairs; /* (m.pair_count) */
   size_t pair_capacity;

@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
-#include "contact/cell.h"
+#include "contact/cells.h"
 #include "contact/pairs_curve.h"
 #include "system/join.h"
 
@@ -30,64 +30,13 @@ double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at
   return sw_dist(sw_madd(a0, u, s), sw_madd(b0, v, t));
 }
 
-/* --- grid ------------------------------------------------------------------------ */
-
-/* Work of one search: segments by cell, in a hash table of lists. */
-typedef struct grid {
-  size_t size;           /* of the table, a power of two */
-  uint32_t *head, *next; /* (size) first segment + 1; (segments) the one after + 1 */
-  uint32_t *node, *body; /* (segments) */
-  sw_cell *cells;        /* (segments) */
-  size_t count;
-  double width; /* of a cell [m] */
-} grid;
-
-static sw_vec middle_of(const double *x, uint32_t node) {
-  return sw_lerp(sw_vec_at(x, node), sw_vec_at(x, node + 1u), 0.5);
-}
-
-static double longest_segment(const sw_pairs *p, const sw_system *s) {
-  double longest = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
-    for (size_t e = 0; sw_mutual_takes_part(&p->m, b) && e < body->plan->edges; e++) {
-      const double *x = s->x + 3 * (body->first_node + e);
-      longest = fmax(longest, sw_norm2(sw_sub(sw_load(x + 3), sw_load(x))));
-    }
-  }
-  return sqrt(longest);
-}
+/* --- the list ------------------------------------------------------------------ */
 
 static double widest_radius(const sw_pairs *p, const sw_system *s) {
   double widest = 0;
   for (size_t b = 0; b < s->body_count; b++)
     if (sw_mutual_takes_part(&p->m, b)) widest = fmax(widest, s->bodies[b].plan->beam.radius);
   return widest;
-}
-
-static sw_status fill_grid(sw_pairs *p, const sw_system *s, double width, grid *g) {
-  *g = (grid){.size = 64, .width = width};
-  while (g->size < 2 * s->nodes) g->size *= 2;
-  const size_t words = g->size + 6 * s->nodes;
-  SW_TRY(sw_grow(&p->grid, &p->grid_capacity, words, sizeof(uint32_t)));
-  g->head = p->grid;
-  g->next = g->head + g->size;
-  g->node = g->next + s->nodes, g->body = g->node + s->nodes;
-  g->cells = (sw_cell *)(g->body + s->nodes);
-  memset(g->head, 0, g->size * sizeof *g->head);
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
-    if (!sw_mutual_takes_part(&p->m, b)) continue;
-    for (size_t e = 0; e < body->plan->edges; e++) {
-      const size_t k = g->count++;
-      g->node[k] = (uint32_t)(body->first_node + e), g->body[k] = (uint32_t)b;
-      g->cells[k] = sw_cell_of(g->width, middle_of(s->x, g->node[k]));
-      uint32_t *head = &g->head[sw_cell_bucket(g->cells[k], g->size)];
-      g->next[k] = *head;
-      *head = (uint32_t)k + 1;
-    }
-  }
-  return SW_OK;
 }
 
 /* A wire bent as tightly as its radius allows meets itself after pi radii of its length;
@@ -109,10 +58,20 @@ static const double AT_A_JOIN = 4.0;
 /* More pairs than this near each other are of segments much shorter than the wire is thick [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t k, size_t m) {
-  sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
+/* A search for those near each other. */
+typedef struct search {
+  sw_pairs *p;
+  const sw_system *s;
+} search;
+
+/* Of two segments the first one looks. */
+static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
+  const search *all = user;
+  const sw_system *s = all->s;
+  sw_pairs *p = all->p;
+  sw_near n = {.one = t->node, .two = u->node, .body = {t->body, u->body}};
   double at[2];
-  if (!sw_mutual_rule(&p->m, n.body)->on || !apart_along(s, &n)) return SW_OK;
+  if (u <= t || !sw_mutual_rule(&p->m, n.body)->on || !apart_along(s, &n)) return SW_OK;
   n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   n.bulge = sw_pair_bulge(p, s, &n);
@@ -134,33 +93,18 @@ static void sort_from(sw_near *a, size_t n) {
   }
 }
 
-/* All later segments in the 27 cells around segment k, in ascending order. */
-static sw_status look_around(sw_pairs *p, const sw_system *s, const grid *g, size_t k) {
-  const sw_cell c = g->cells[k];
-  const size_t first = p->near_count;
-  for (int d = 0; d < SW_CELL_NEIGHBOURS; d++) {
-    const sw_cell at = sw_cell_beside(c, d);
-    for (uint32_t m = g->head[sw_cell_bucket(at, g->size)]; m; m = g->next[m - 1]) {
-      const sw_cell *own = &g->cells[m - 1];
-      if (m - 1 > k && sw_cell_same(*own, at)) SW_TRY(look_at(p, s, g, k, m - 1));
-    }
-  }
-  sort_from(p->near + first, p->near_count - first);
-  return SW_OK;
-}
-
-static sw_status search(sw_pairs *p, const sw_system *s, double reach) {
-  grid g;
-  const double width = longest_segment(p, s) + reach + 2.0 * widest_radius(p, s);
-  double far = 0; /* cell numbers must stay far below overflow */
-  for (size_t i = 0; i < 3 * s->nodes; i++) far = fmax(far, fabs(s->x[i]));
-  SW_TRY(fill_grid(p, s, fmax(width, far * 1e-8), &g));
+static sw_status list_anew(sw_pairs *p, const sw_system *s, double reach) {
+  search all = {p, s};
+  sw_cells g;
+  SW_TRY(sw_cells_fill(&p->m, s, reach, 0, &g));
   p->near_count = 0;
   p->listed_reach = reach;
   p->listed_nodes = 0;
   for (size_t k = 0; k < g.count; k++) {
+    const size_t first = p->near_count;
     if (sw_interrupted()) return SW_EINTR;
-    SW_TRY(look_around(p, s, &g, k));
+    SW_TRY(sw_cells_around(&g, &g.things[k], look_at, &all));
+    sort_from(p->near + first, p->near_count - first);
   }
   SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 7 * s->nodes, sizeof(double)));
   p->before = p->listed_at + 3 * s->nodes;
@@ -206,7 +150,7 @@ sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
     if (p->listed_reach - 2.0 * sqrt(largest_distance2(s->nodes, s->x, p->listed_at)) >= reach)
       return SW_OK;
   }
-  return search(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
+  return list_anew(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
 }
 
 /* --- pairs of a step --------------------------------------------------------------- */
