@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "contact/cells.h"
 #include "contact/grain.h"
+#include "contact/same.h"
 
 static int is_loose(const sw_body *b) { return b->plan->web && !b->plan->web->per_ring; }
 
@@ -52,15 +53,11 @@ static int widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;
 }
 
-/* A step may leave two this much deeper in each other than it found them; of the radii's sum [-].
- */
-static const double DEEPER = 0.05;
-
 static int cuts(const sw_mutual *m, const sw_system *s, const double *x1) {
   const sw_grains *g = (const sw_grains *)(const void *)m;
   for (size_t i = 0; i < m->pair_count; i++) {
     const sw_grain_pair *k = &g->pairs[i];
-    const double deeper = DEEPER * k->reach;
+    const double deeper = SW_DEEPER * k->reach;
     double at[2];
     if (k->held) continue;
     const double after = sw_grain_nearest(x1, &k->of, at);

@@ -108,15 +108,11 @@ int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;
 }
 
-/* A step may leave segments this much deeper in each other than it found them: of the
- * radii's sum, and at most [-], [m]. */
-static const double DEEPER_SHARE = 0.05, DEEPER = 1e-4;
-
 int sw_pairs_cuts(const sw_mutual *m, const sw_system *s, const double *x1) {
   const sw_pairs *p = (const sw_pairs *)(const void *)m;
   for (size_t i = 0; i < m->pair_count; i++) {
     const sw_pair *k = &p->pairs[i];
-    const double deeper = fmin(DEEPER, DEEPER_SHARE * k->reach);
+    const double deeper = SW_DEEPER * k->reach;
     if (k->held || sw_pair_approach(s, k, s->x, x1) < deeper) continue;
     const double after = sw_pair_distance(s, k, x1);
     if (after < k->reach - deeper && after < sw_pair_distance(s, k, s->x) - deeper) return 1;
