@@ -297,14 +297,21 @@ static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t)
   return -sw_dot(sw_mean_of(s->v, 0, &t->spot), t->normal) <= SURELY * SW_SLOWEST_IMPACT;
 }
 
+/* Is it one whose impact is not dealt with yet? Then how it meets its obstacle. */
+static int may_strike(const sw_contact *c, sw_system *s, const sw_pressed *t, encounter *e) {
+  if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) return 0;
+  const sw_levers levers = levers_of(s, t);
+  *e = encounter_of(c, s, t, &levers);
+  return 1;
+}
+
 /* Does any touch strike, with velocities as they are? */
 static int any_strikes(sw_contact *c, sw_system *s, double h) {
   const double soonest = c->soonest;
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_pressed *t = &c->pressed[i];
-    if (is_slow(c, s, t) || trembles(c, t) || dealt_with(c, t, &s->counters.looks)) continue;
-    const sw_levers levers = levers_of(s, t);
-    const encounter e = encounter_of(c, s, t, &levers);
+    encounter e;
+    if (is_slow(c, s, t) || !may_strike(c, s, t, &e)) continue;
     if (!(velocity_lost(c, s, t, &e, h) > 0)) continue;
     c->soonest = soonest; /* all are asked again, one after the other */
     return 1;
@@ -318,10 +325,8 @@ int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size
     if (t->held || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
       continue;
     const sw_pressed met = sw_contact_pressed(t);
-    if (is_slow(c, s, &met) || trembles(c, &met) || dealt_with(c, &met, &s->counters.looks))
-      continue;
-    const sw_levers levers = levers_of(s, &met);
-    const encounter e = encounter_of(c, s, &met, &levers);
+    encounter e;
+    if (is_slow(c, s, &met) || !may_strike(c, s, &met, &e)) continue;
     if (e.approach > e.gap / c->h + e.slow) return 1;
   }
   return 0;
@@ -332,9 +337,8 @@ static size_t find_turns(sw_contact *c, sw_system *s) {
   size_t count = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_pressed *t = &c->pressed[i];
-    if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) continue;
-    const sw_levers levers = levers_of(s, t);
-    const encounter e = encounter_of(c, s, t, &levers);
+    encounter e;
+    if (!may_strike(c, s, t, &e)) continue;
     c->turns[count++] = (sw_turn){.meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL,
                                   .closes = e.approach,
                                   .node = t->node,

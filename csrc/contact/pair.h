@@ -68,6 +68,11 @@ typedef struct sw_pairs {
   double least_left; /* minus the least gap of segments not chosen [m] */
 } sw_pairs;
 
+/* The edge that begins at a node. */
+static inline sw_vec sw_edge_at(const double *x, size_t node) {
+  return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
+}
+
 static inline sw_pairs *sw_pairs_of(sw_mutual *m) { return (sw_pairs *)(void *)m; }
 
 /* Make the list of near segments anew when it does not cover gaps up to reach. */

@@ -25,10 +25,6 @@ static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
-static sw_vec edge_of(const double *x, size_t node) {
-  return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
-}
-
 /* Do the wires meet by chords wherever they do? One answer for all their segments. */
 static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (n->body[0] == n->body[1]) return 1; /* where it coils up it lies along itself at any angle */
@@ -37,26 +33,21 @@ static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   return !(one + two < ROUND * fmax(p->edge[n->body[0]], p->edge[n->body[1]]));
 }
 
-/* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and
- * the curvature that goes with it [1/m]. */
-static double off_middle(const sw_system *s, uint32_t body, uint32_t node, double *curvature) {
-  const sw_body *b = &s->bodies[body];
+double sw_pair_off_middle(const sw_body *b, uint32_t node, const double *x) {
   const size_t i = node - b->first_node;
   double most = 0;
   for (size_t j = i; j < i + 2; j++) {
-    if (j == 0 || j == b->plan->edges) continue;
-    const sw_vec before = edge_of(s->x, b->first_node + j - 1);
-    most = fmax(most, sw_norm2(sw_sub(edge_of(s->x, b->first_node + j), before)));
+    if (j == 0 || j >= b->plan->edges) continue;
+    const sw_vec before = sw_edge_at(x, b->first_node + j - 1);
+    most = fmax(most, sw_norm2(sw_sub(sw_edge_at(x, b->first_node + j), before)));
   }
-  const double off = sqrt(most), h = b->plan->rest[i];
-  if (curvature) *curvature = off / (h * h);
-  return off;
+  return sqrt(most);
 }
 
 double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (are_fine(p, s, n)) return 0;
-  return 0.125 *
-         (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
+  return 0.125 * (sw_pair_off_middle(&s->bodies[n->body[0]], n->one, s->x) +
+                  sw_pair_off_middle(&s->bodies[n->body[1]], n->two, s->x));
 }
 
 /* --- places ----------------------------------------------------------------------------------- */
@@ -148,7 +139,7 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
 static const double ALONG = 0.2;
 
 static int runs_along(const double *x, const sw_pair *k) {
-  const sw_vec u = edge_of(x, k->one), v = edge_of(x, k->two);
+  const sw_vec u = sw_edge_at(x, k->one), v = sw_edge_at(x, k->two);
   return sw_norm2(sw_cross(u, v)) < ALONG * ALONG * sw_norm2(u) * sw_norm2(v);
 }
 
@@ -170,8 +161,10 @@ void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
   k->smooth = crosses(s, k, m && m->smooth ? STILL_ACROSS : ACROSS);
   k->parallel &= !k->smooth;
   for (int side = 0; side < 2 && k->smooth; side++) {
-    double curvature;
-    off_middle(s, k->body[side], side ? k->two : k->one, &curvature);
+    const sw_body *b = &s->bodies[k->body[side]];
+    const uint32_t node = side ? k->two : k->one;
+    const double h = b->plan->rest[node - b->first_node];
+    const double curvature = sw_pair_off_middle(b, node, s->x) / (h * h);
     k->firm[side] = fmax(0.0, k->reach * curvature - GOES_ROUND);
     k->lone[side] = fmax(0.0, 1.0 - k->firm[side] / (1.0 - GOES_ROUND));
   }

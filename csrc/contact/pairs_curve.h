@@ -8,6 +8,9 @@
 
 /* How the wires of a new pair meet, at the step's start. */
 void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k);
+/* How far the nodes at the ends of the edge that begins at a node are from the middles of their
+ * neighbours, at most, twice [m]. */
+double sw_pair_off_middle(const sw_body *b, uint32_t node, const double *x);
 /* How far the smooth curves of two segments stand off them together, where they may meet by those
  * [m]. */
 double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n);

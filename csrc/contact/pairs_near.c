@@ -166,8 +166,7 @@ static double longest_edge(const sw_plan *p) {
 static const double PARALLEL_SPREAD = 0.25;
 
 static int is_parallel(const double *x, const sw_near *n, double reach) {
-  const sw_vec u = sw_sub(sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->one));
-  const sw_vec v = sw_sub(sw_vec_at(x, n->two + 1u), sw_vec_at(x, n->two));
+  const sw_vec u = sw_edge_at(x, n->one), v = sw_edge_at(x, n->two);
   const double most = PARALLEL_SPREAD * reach;
   return sw_norm2(sw_cross(u, v)) < most * most * fmax(sw_norm2(u), sw_norm2(v));
 }

@@ -26,7 +26,7 @@ static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_v
 
 /* Ends of segments along each other may be nearest aslant, where they do not touch. */
 static sw_vec square_to(const sw_system *s, const sw_pair *k, sw_vec apart) {
-  const sw_vec u = sw_sub(sw_vec_at(s->x, k->one + 1u), sw_vec_at(s->x, k->one));
+  const sw_vec u = sw_edge_at(s->x, k->one);
   return k->parallel ? sw_madd(apart, u, -sw_dot(apart, u) / fmax(sw_norm2(u), 1e-300)) : apart;
 }
 

@@ -21,23 +21,13 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
 static const double STRAIGHT = 0.1;
 enum { MOST_PARTS = 8 };
 
-/* Second difference of the nodes around one [m]. */
-static double off_middle(const sw_body *b, size_t i, const double *x) {
-  if (i == 0 || i >= b->plan->edges) return 0;
-  const size_t n = b->first_node + i;
-  const sw_vec before = sw_sub(sw_vec_at(x, n), sw_vec_at(x, n - 1));
-  return sw_dist(sw_sub(sw_vec_at(x, n + 1), sw_vec_at(x, n)), before);
-}
-
 /* Of an edge, for positions from x0 to x1. */
 static int parts_of(const sw_system *s, const sw_pair *k, int side, const double *x0,
                     const double *x1) {
   if (!k->smooth) return 1;
   const sw_body *b = &s->bodies[k->body[side]];
-  const size_t i = (side ? k->two : k->one) - b->first_node;
-  double most = 0;
-  for (size_t j = i; j < i + 2; j++)
-    most = fmax(most, fmax(off_middle(b, j, x0), off_middle(b, j, x1)));
+  const uint32_t node = side ? k->two : k->one;
+  const double most = fmax(sw_pair_off_middle(b, node, x0), sw_pair_off_middle(b, node, x1));
   const double needed = ceil(sqrt(most / (32.0 * STRAIGHT * k->reach)));
   return 2 * (int)fmin(fmax(needed, 1), MOST_PARTS);
 }

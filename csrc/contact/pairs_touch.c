@@ -88,10 +88,6 @@ static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k,
   return SW_OK;
 }
 
-static sw_vec edge(const double *y, uint32_t e) {
-  return sw_sub(sw_vec_at(y, e + 1u), sw_vec_at(y, e));
-}
-
 static int is_last(const sw_system *s, uint32_t body, uint32_t e) {
   return e + 2 == s->bodies[body].first_node + s->bodies[body].plan->nodes;
 }
@@ -105,7 +101,8 @@ static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw
                     const double *y) {
   if (at >= 1.0) return is_last(s, body, e);
   if (at > 0.0 || e == s->bodies[body].first_node) return 1;
-  const sw_vec before = edge(y, e - 1); /* rounding must not make both leave it to the other */
+  const sw_vec before =
+      sw_edge_at(y, e - 1); /* rounding must not make both leave it to the other */
   return sw_dot(away, before) <= ROUNDING * sw_norm(away) * sw_norm(before);
 }
 
@@ -128,7 +125,7 @@ static sw_status touch_crossing(sw_pairs *p, const sw_system *s, const sw_pair *
 }
 
 static double along(const double *y, uint32_t e, sw_vec q) {
-  const sw_vec u = edge(y, e);
+  const sw_vec u = sw_edge_at(y, e);
   return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
 }
 
