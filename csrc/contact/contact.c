@@ -102,7 +102,7 @@ static void find_pressing(sw_contact *c) {
   for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
   for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
     const size_t o = sw_contact_index(c, c->memory[i].obstacle);
-    if (o < c->count && c->memory[i].normal_force > 0) c->pressing[o] = 1;
+    if (o < c->count && c->memory[i].kept.normal_force > 0) c->pressing[o] = 1;
   }
 }
 
@@ -128,10 +128,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
 
 sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error *err) {
   SW_TRY(sw_contact_begin_step(c, s, SW_CONTACT_STATIC, t, 0, 0, err));
-  for (size_t i = 0; i < c->memory_count; i++) {
-    sw_memory *m = &c->memory[i];
-    if (m->normal_force > 0 && m->depth > 0) m->k = m->normal_force / m->depth;
-  }
+  for (size_t i = 0; i < c->memory_count; i++) sw_kept_as_felt(&c->memory[i].kept);
   return SW_OK;
 }
 
@@ -263,7 +260,7 @@ int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;
-  for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].normal_force > 0;
+  for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].kept.normal_force > 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     if (!(c->touches[i].press.normal_force > 0)) continue;
     if (!c->touches[i].known) return 0;

@@ -43,11 +43,10 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   t->forgiven = always;
   if (m->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
-  const double explained = met ? met->depth : 0.0;
   t->emerges |= met ? met->emerges : sw_press_was_put(depth, m->memory_count == 0);
-  const double left = sw_press_forgiven(depth, explained, m->h, t->emerges);
-  t->forgiven += left;
-  if (t->emerges) t->let_out = sw_press_let_out(depth, explained, left);
+  const sw_left left = sw_press_leave(depth, met ? &met->kept : NULL, m->h, t->emerges);
+  t->forgiven += left.forgiven;
+  if (t->emerges) t->let_out = left.let_out;
 }
 
 /* Wherever it has slid to. */
@@ -55,7 +54,7 @@ static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *m
                            const sw_meet *last) {
   if (m->regime == SW_CONTACT_EXPLICIT) return t->usual;
   if (last) return last->stiffer;
-  return met && met->normal_force > 0 ? met->k : t->usual;
+  return met && met->kept.normal_force > 0 ? met->kept.k : t->usual;
 }
 
 /* Where wires along each other pressed at the step's start they do so in the first iterate, unless
@@ -86,16 +85,15 @@ static double first_force(const sw_meet *t, double stops) {
 static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
                            const sw_met *met, const sw_meet *last, double stops) {
   sw_press *press = &t->press;
-  const int pressed = met && met->normal_force > 0, went_on = last && last->press.active;
+  const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
   sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
   if (pressed)
-    u = sw_add(u, carry(met->elastic, met->normal, press->normal));
+    u = sw_add(u, carry(met->kept.elastic, met->normal, press->normal));
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
-  press->lag = pressed ? met->normal_force : first_force(t, stops);
-  if (last) sw_press_take_lag(press, &last->press);
-  if (went_on || pressed) press->sliding = went_on ? last->press.next_sliding : met->sliding;
+  sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
+                  first_force(t, stops));
   sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
 
@@ -109,7 +107,7 @@ sw_meet *sw_meet_new(sw_mutual *m) {
 void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, double gap,
                  sw_vec normal, const sw_met *met, const sw_meet *last, double stops) {
   sw_press *press = &t->press;
-  const int pressed = met && met->normal_force > 0;
+  const int pressed = met && met->kept.normal_force > 0;
   t->stage = m->stage;
   press->gap = gap, press->normal = normal;
   if (!(sw_norm2(t->square) > 0)) t->square = normal;

@@ -49,12 +49,9 @@ typedef struct sw_met {
   sw_ends of;
   sw_meet_kind kind;
   double at[2];
-  double normal_force, depth, k; /* [N], [m], [N/m] */
-  double steady;                 /* normal force that it has had for a while [N] */
-  sw_vec normal;                 /* [-] */
-  sw_vec elastic;                /* displacement of the friction spring [m] */
-  double soft;                   /* as its press's [-] */
-  int sliding, emerges;
+  sw_kept kept;
+  sw_vec normal; /* [-] */
+  int emerges;
   int smooth; /* 1: smooth curves met there */
 } sw_met;
 

@@ -29,17 +29,14 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
                    .node = t->node,
                    .feature = t->feature,
                    .at = t->at,
-                   .normal_force = t->press.normal_force,
-                   .sliding = t->press.next_sliding,
-                   .depth = t->press.normal_force / t->press.k,
-                   .steady = steady_force(c, s, t),
-                   .k = sw_press_eased(&t->press, t->usual, t->stiffer),
+                   .kept = sw_press_keep(&t->press, t->usual, t->stiffer),
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};
+  m->kept.steady = steady_force(c, s, t);
   if (!(t->press.normal_force > 0)) return SW_OK;
   m->slid = t->slid + sw_norm(t->press.slip);
-  m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
+  m->kept.elastic = sw_rotate(back, m->kept.elastic);
   return SW_OK;
 }
 

@@ -122,10 +122,7 @@ void sw_mutual_begin_stage(sw_mutual *m, double first) {
 }
 
 sw_status sw_mutual_begin_look(sw_mutual *m, sw_system *s, sw_error *err) {
-  for (size_t i = 0; i < m->memory_count; i++) {
-    sw_met *t = &m->memory[i];
-    if (t->normal_force > 0 && t->depth > 0) t->k = t->normal_force / t->depth;
-  }
+  for (size_t i = 0; i < m->memory_count; i++) sw_kept_as_felt(&m->memory[i].kept);
   return sw_mutual_begin_step(m, s, SW_CONTACT_STATIC, 0, 0, err);
 }
 
@@ -216,16 +213,9 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     *out = (sw_met){.of = t->of,
                     .kind = t->kind,
                     .at = {t->at[0], t->at[1]},
-                    .normal_force = t->press.normal_force,
-                    .depth = t->press.normal_force / t->press.k,
-                    .steady = t->press.normal_force,
-                    .k = sw_press_eased(&t->press, t->usual, t->stiffer),
+                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer),
                     .normal = t->press.normal,
-                    .soft = t->press.soft,
-                    .sliding = t->press.next_sliding,
                     .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
-    if (out->normal_force > 0)
-      out->elastic = sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press));
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
   sw_met *swap = m->memory;
@@ -292,7 +282,8 @@ int sw_mutual_memory_fits(const void *memory, size_t bytes, const size_t *first,
   for (size_t i = 0; i < count; i++) {
     sw_met t;
     memcpy(&t, (const char *)memory + i * sizeof t, sizeof t);
-    if (!are_of(first, bodies, &t.of) || !isfinite(t.at[0] + t.at[1] + t.normal_force)) return 0;
+    if (!are_of(first, bodies, &t.of) || !isfinite(t.at[0] + t.at[1] + t.kept.normal_force))
+      return 0;
   }
   return bytes % sizeof(sw_met) == 0;
 }
@@ -329,10 +320,8 @@ static sw_status show(sw_mutual *m, const sw_met *met) {
   if (!t) return SW_ENOMEM;
   t->of = met->of, t->kind = met->kind;
   t->at[0] = met->at[0], t->at[1] = met->at[1];
-  sw_press *p = &t->press;
-  p->normal = met->normal, p->normal_force = met->normal_force, p->gap_after = -met->depth;
-  p->k = met->depth > 0 ? met->normal_force / met->depth : met->k, p->soft = met->soft;
-  p->tangential = sw_scale(met->elastic, -sw_press_grip(p));
+  t->press = sw_press_felt(&met->kept);
+  t->press.normal = met->normal;
   m->touch_count++;
   return SW_OK;
 }
@@ -386,7 +375,7 @@ double sw_mutual_penetration(const sw_mutual *m, size_t *node) {
 
 int sw_mutual_steady(const sw_mutual *m) {
   size_t before = 0;
-  for (size_t i = 0; i < m->memory_count; i++) before += m->memory[i].normal_force > 0;
+  for (size_t i = 0; i < m->memory_count; i++) before += m->memory[i].kept.normal_force > 0;
   return before == sw_presses_count(sw_mutual_presses(m)) && !m->struck;
 }
 

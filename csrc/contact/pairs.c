@@ -13,8 +13,8 @@ static void note(const sw_mutual *m, const sw_system *s, const sw_meet *t, sw_me
   const double N = t->press.normal_force;
   out->smooth = k->smooth;
   if (!k->smooth) return;
-  out->steady = fmin(sw_lean_steady(one, k->one - one->first_node, t->steady, N, m->h),
-                     sw_lean_steady(two, k->two - two->first_node, t->steady, N, m->h));
+  out->kept.steady = fmin(sw_lean_steady(one, k->one - one->first_node, t->steady, N, m->h),
+                          sw_lean_steady(two, k->two - two->first_node, t->steady, N, m->h));
 }
 
 static void forget(sw_mutual *m) { sw_pairs_of(m)->listed_nodes = 0; }

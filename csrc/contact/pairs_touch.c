@@ -81,7 +81,7 @@ static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k,
   if (is_had(p, k, at)) return SW_OK;
   sw_meet *t = new_touch(p, k, SW_CROSSING, at, bow, slides);
   if (!t) return SW_ENOMEM;
-  t->steady = met ? met->steady : 0;
+  t->steady = met ? met->kept.steady : 0;
   t->square = normal;
   normal = sw_pair_leaning(s, k, y, t, normal, t->steady);
   sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last, k->stops);
