@@ -353,6 +353,7 @@ sw_pair_place sw_mutual_place(const sw_mutual *m, size_t number) {
   const sw_meet *t = &m->touches[i];
   return (sw_pair_place){.body = {t->of.body[0], t->of.body[1]},
                          .node = {t->of.node[0], t->of.node[1]},
+                         .end = {t->of.end[0], t->of.end[1]},
                          .at = {t->at[0], t->at[1]},
                          .normal = t->press.normal,
                          .normal_force = t->press.normal_force,

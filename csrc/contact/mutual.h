@@ -75,13 +75,14 @@ sw_status sw_mutual_inherit(sw_mutual *mutual, const void *memory, size_t bytes,
 
 /* A place where two things press on each other. */
 typedef struct sw_pair_place {
-  size_t body[2], node[2]; /* their bodies and first nodes, in the system's arrays */
-  double at[2];            /* along the segments; 0 of a particle [-] */
-  sw_vec normal;           /* towards the first one [-] */
-  double normal_force;     /* [N] */
-  sw_vec friction;         /* on the first one [N] */
-  sw_vec slip;             /* way that it slid in the last step [m] */
-  double gap;              /* [m] */
+  size_t body[2];         /* in the system's arrays */
+  size_t node[2], end[2]; /* each is between these, or a particle, which is its own end */
+  double at[2];           /* from node to end [-] */
+  sw_vec normal;          /* towards the first one [-] */
+  double normal_force;    /* [N] */
+  sw_vec friction;        /* on the first one [N] */
+  sw_vec slip;            /* way that it slid in the last step [m] */
+  double gap;             /* [m] */
 } sw_pair_place;
 
 /* Place number k of those with a force; their number is sw_presses_count (contact/tally.h). */

@@ -72,11 +72,9 @@ sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
 static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, double *arc) {
   const sw_body *b = &s->system.bodies[p->body[k]];
   const size_t i = p->node[k] - b->first_node;
-  const double *x = s->system.x + 3 * p->node[k];
   *arc = sw_plan_place(b->plan, i);
-  if (i >= b->plan->edges) return sw_load(x); /* a particle, or where the wire ends */
-  *arc += p->at[k] * b->plan->rest[i];
-  return sw_lerp(sw_load(x), sw_load(x + 3), p->at[k]);
+  if (i < b->plan->edges) *arc += p->at[k] * b->plan->rest[i]; /* a wire's */
+  return sw_lerp(sw_vec_at(s->system.x, p->node[k]), sw_vec_at(s->system.x, p->end[k]), p->at[k]);
 }
 
 static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) {
@@ -89,6 +87,7 @@ static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
   if (s->system.bodies[p.body[0]].plan->web || !s->system.bodies[p.body[1]].plan->web) return p;
   return (sw_pair_place){.body = {p.body[1], p.body[0]},
                          .node = {p.node[1], p.node[0]},
+                         .end = {p.end[1], p.end[0]},
                          .at = {p.at[1], p.at[0]},
                          .normal = sw_neg(p.normal),
                          .normal_force = p.normal_force,

@@ -101,14 +101,14 @@ static void press_obstacles(const sw_scene *s, const sw_body *b, float *out) {
 }
 
 /* A place where two bodies press on each other: the first bears the force, the second its
- * opposite. Of a particle the place along its edge is 0. */
+ * opposite. */
 static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place *p, float *out) {
   const sw_vec force = sw_madd(p->friction, p->normal, p->normal_force);
   for (int k = 0; k < 2; k++) {
     if (&sw_scene_system(s)->bodies[p->body[k]] != b) continue;
     const sw_vec own = k ? sw_neg(force) : force;
     press(b, p->node[k], 1 - p->at[k], p->normal_force, own, out);
-    if (p->at[k] > 0) press(b, p->node[k] + 1u, p->at[k], p->normal_force, own, out);
+    if (p->at[k] > 0) press(b, p->end[k], p->at[k], p->normal_force, own, out);
   }
 }
 

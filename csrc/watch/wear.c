@@ -238,7 +238,7 @@ static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
     for (int i = 0; i < 2; i++) {
       if (&sw_scene_system(s)->bodies[p.body[i]] != b) continue;
       rub(w, b, p.node[i], 1 - p.at[i], work, slid);
-      if (p.at[i] > 0) rub(w, b, p.node[i] + 1u, p.at[i], work, slid);
+      if (p.at[i] > 0) rub(w, b, p.end[i], p.at[i], work, slid);
     }
   }
 }
