@@ -69,29 +69,13 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
 
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
-  sw_free(c->obstacles);
-  sw_free(c->loads);
-  sw_free(c->start);
-  sw_free(c->now);
-  sw_free(c->flat);
-  sw_free(c->sunk);
-  sw_free(c->spaced);
-  sw_free(c->bounds);
+  void *const blocks[] = {c->obstacles, c->loads,   c->start,       c->now,        c->flat,
+                          c->sunk,      c->spaced,  c->bounds,      c->candidates, c->touches,
+                          c->last,      c->memory,  c->next_memory, c->pressed,    c->turns,
+                          c->barriers,  c->impacts, c->impact_at,   c->marks,      c->room,
+                          c->reach,     c->ahead};
+  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_broad_free(&c->broad);
-  sw_free(c->candidates);
-  sw_free(c->touches);
-  sw_free(c->last);
-  sw_free(c->memory);
-  sw_free(c->next_memory);
-  sw_free(c->pressed);
-  sw_free(c->turns);
-  sw_free(c->barriers);
-  sw_free(c->impacts);
-  sw_free(c->impact_at);
-  sw_free(c->marks);
-  sw_free(c->room);
-  sw_free(c->reach);
-  sw_free(c->ahead);
   sw_free(c);
 }
 

@@ -48,10 +48,8 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
                       sizeof *c->next_memory);
   for (size_t i = 0; i < c->touch_count; i++)
     if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
-  sw_memory *swap = c->memory;
-  const size_t capacity = c->memory_capacity;
-  c->memory = c->next_memory, c->memory_capacity = c->next_capacity;
-  c->next_memory = swap, c->next_capacity = capacity;
+  SW_SWAP(c->memory, c->next_memory);
+  SW_SWAP(c->memory_capacity, c->next_capacity);
   c->memory_count = c->next_count;
 }
 

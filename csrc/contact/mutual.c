@@ -127,10 +127,9 @@ sw_status sw_mutual_begin_look(sw_mutual *m, sw_system *s, sw_error *err) {
 }
 
 static void turn_over(sw_mutual *m) {
-  sw_meet *list = m->last;
-  const size_t capacity = m->last_capacity;
-  m->last = m->touches, m->last_capacity = m->touch_capacity, m->last_count = m->touch_count;
-  m->touches = list, m->touch_capacity = capacity, m->touch_count = 0;
+  SW_SWAP(m->touches, m->last);
+  SW_SWAP(m->touch_capacity, m->last_capacity);
+  m->last_count = m->touch_count, m->touch_count = 0;
 }
 
 static sw_status push(const sw_mutual *m, sw_system *s, sw_meet *t, const double *y,
@@ -218,10 +217,8 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
                     .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
     if (m->finder->note) m->finder->note(m, s, t, out);
   }
-  sw_met *swap = m->memory;
-  const size_t capacity = m->memory_capacity;
-  m->memory = m->next_memory, m->memory_capacity = m->next_capacity;
-  m->next_memory = swap, m->next_capacity = capacity;
+  SW_SWAP(m->memory, m->next_memory);
+  SW_SWAP(m->memory_capacity, m->next_capacity);
   m->memory_count = m->next_count;
 }
 

@@ -78,6 +78,11 @@ static inline sw_pairs *sw_pairs_of(sw_mutual *m) { return (sw_pairs *)(void *)m
 /* Make the list of near segments anew when it does not cover gaps up to reach. */
 sw_status sw_pairs_list(sw_pairs *pairs, const sw_system *system, double reach);
 
+/* The largest distance of nodes between two sets of positions [m]. */
+double sw_pairs_largest_move(const double *x0, const double *x1, size_t nodes);
+/* The sum of two bodies' [m]. */
+double sw_pair_radii(const sw_system *system, const uint32_t body[2]);
+
 /* What sw_finder says. */
 sw_status sw_pairs_choose(sw_mutual *pairs, sw_system *system);
 sw_status sw_pairs_find(sw_mutual *pairs, const sw_system *system, const double *y);

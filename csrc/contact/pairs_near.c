@@ -48,7 +48,7 @@ static int apart_along(const sw_system *s, const sw_near *n) {
   return j > i + 1 && b->plan->s[j] - b->plan->s[i + 1] >= M_PI * b->plan->beam.radius;
 }
 
-static double radii(const sw_system *s, const uint32_t body[2]) {
+double sw_pair_radii(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
 }
 
@@ -76,8 +76,8 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   n.bulge = sw_pair_bulge(p, s, &n);
   n.known = n.distance -= n.bulge;
-  if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
-  if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * radii(s, n.body))) return SW_OK;
+  if (!(n.distance - sw_pair_radii(s, n.body) < p->listed_reach)) return SW_OK;
+  if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * sw_pair_radii(s, n.body))) return SW_OK;
   if (p->near_count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
   p->near[p->near_count++] = n;
@@ -128,6 +128,10 @@ static double largest_distance2(size_t n, const double *restrict a, const double
   return most;
 }
 
+double sw_pairs_largest_move(const double *x0, const double *x1, size_t nodes) {
+  return sqrt(largest_distance2(nodes, x0, x1));
+}
+
 /* Lengths of the nodes' ways, straight from step to step. */
 SW_HOT
 static void add_travel(size_t n, const double *restrict x, double *restrict before,
@@ -147,7 +151,7 @@ static const double LEAST_SPARE = 2.0; /* of the largest radius [-] */
 sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
   if (p->listed_nodes == s->nodes) {
     add_travel(s->nodes, s->x, p->before, p->travel);
-    if (p->listed_reach - 2.0 * sqrt(largest_distance2(s->nodes, s->x, p->listed_at)) >= reach)
+    if (p->listed_reach - 2.0 * sw_pairs_largest_move(s->x, p->listed_at, s->nodes) >= reach)
       return SW_OK;
   }
   return list_anew(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
@@ -253,7 +257,7 @@ static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
 static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
   const sw_ends ends = sw_segments(n->one, n->two, n->body);
   const int still = p->m.regime == SW_CONTACT_STATIC;
-  const double sum = radii(s, n->body);
+  const double sum = sw_pair_radii(s, n->body);
   double at[2];
   n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
   if (n->distance - sum >= reserve_of(p, sum, fast)) return 0;
@@ -274,7 +278,7 @@ sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
   SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
     sw_near *n = &p->near[k];
-    const double sum = radii(s, n->body);
+    const double sum = sw_pair_radii(s, n->body);
     if (sw_interrupted()) return SW_EINTR;
     if (may_touch(p, s, n, fast))
       SW_TRY(add_pair(p, s, n, sum));

@@ -60,19 +60,10 @@ int sw_pairs_cross(sw_mutual *m, const sw_system *s, const double *x1) {
   return changed;
 }
 
-static double largest_move(const double *x0, const double *x1, size_t nodes) {
-  double most = 0;
-  for (size_t i = 0; i < nodes; i++) {
-    const double d2 = sw_norm2(sw_sub(sw_vec_at(x1, i), sw_vec_at(x0, i)));
-    most = most > d2 ? most : d2;
-  }
-  return sqrt(most);
-}
-
 /* Did segments that were not chosen touch or pass each other? Their largest gap at the
  * step's start, or -1 when none did [m]. */
 static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1) {
-  const double farthest = 2.0 * largest_move(s->x, x1, s->nodes);
+  const double farthest = 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes);
   double gap = -1;
   size_t k = 0;
   if (farthest <= -p->least_left) return gap;
@@ -82,8 +73,7 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
       k++;
       continue;
     }
-    const double radii =
-        s->bodies[n->body[0]].plan->beam.radius + s->bodies[n->body[1]].plan->beam.radius;
+    const double radii = sw_pair_radii(s, n->body);
     if (n->distance - radii <= gap || n->distance - farthest >= radii) continue;
     const sw_pair as = {.one = n->one, .two = n->two, .reach = radii};
     double at[2];
@@ -99,8 +89,8 @@ static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1
 int sw_pairs_widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   sw_pairs *p = sw_pairs_of(m);
   (void)h;
-  if (2.0 * largest_move(p->listed_at, x1, s->nodes) > p->listed_reach &&
-      sw_pairs_list(p, s, 2.0 * largest_move(s->x, x1, s->nodes)) != SW_OK)
+  if (2.0 * sw_pairs_largest_move(p->listed_at, x1, s->nodes) > p->listed_reach &&
+      sw_pairs_list(p, s, 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes)) != SW_OK)
     return -1;
   const double gap = missed_gap(p, s, x1);
   if (gap < 0) return 0;
