@@ -77,7 +77,6 @@ static const sw_finder particles = {
     .find = sw_grains_find,
     .widen = widen,
     .cuts = cuts,
-    .guesses = 1,
 };
 
 sw_status sw_grains_new(const sw_system *s, const sw_pair_rule *rules, sw_mutual **out) {

@@ -172,11 +172,10 @@ static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, doubl
   const sw_vec shift = sw_bows_apart(delta, t->bow);
   const double friction = sw_mutual_rule(m, t->of.body)->friction;
   const int agrees = sw_press_update(&t->press, friction, shift, scale);
-  const int guessed = m->finder->guesses && m->updates == 1 && m->regime == SW_CONTACT_IMPLICIT;
   for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &m->rubbing[t->of.body[i]]);
   if (t->press.gap_after < 0.5 * t->reach && sw_norm(shift) > SMALL_SHIFT * t->reach)
     return GOES_ON;
-  if ((t->far && t->press.normal_force > 0) || (guessed && t->press.active)) return GOES_ON;
+  if (t->far && t->press.normal_force > 0) return GOES_ON;
   return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
 }
 

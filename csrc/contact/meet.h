@@ -83,7 +83,6 @@ typedef struct sw_finder {
   int (*cuts)(const sw_mutual *mutual, const sw_system *system, const double *x1);
   /* Before touches of a step are remembered. NULL: there is nothing to do. */
   void (*note)(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch, sw_met *out);
-  int guesses; /* 1: normals of a stage's first iterate are no more than a prediction's */
 } sw_finder;
 
 struct sw_mutual {
