@@ -66,49 +66,43 @@ int sw_pair_is_same(const sw_pair *k, const double at[2], const sw_pair *other,
   return sw_pair_between(k, at, other, there) < SW_SAME_TOUCH;
 }
 
-static void look_in(const sw_pairs *p, const sw_pair *in, const sw_pair *k, const double at[2],
-                    sw_meet_kind kind, double *nearest, const sw_meet **best) {
+/* A search for it. */
+typedef struct search {
+  const sw_pairs *p;
+  const sw_pair *k;
+  const double *at;
+  sw_meet_kind kind;
+  double nearest;
+  const sw_meet *best;
+} search;
+
+static void look_in(search *f, const sw_pair *in) {
   for (size_t i = in->last; i < in->last_end; i++) {
-    const sw_meet *t = &p->m.last[i];
-    const double d = sw_pair_between(k, at, in, t->at);
-    if (t->kind == kind && d < *nearest) *best = t, *nearest = d;
+    const sw_meet *t = &f->p->m.last[i];
+    const double d = sw_pair_between(f->k, f->at, in, t->at);
+    if (t->kind == f->kind && d < f->nearest) f->best = t, f->nearest = d;
   }
 }
 
-/* Places on curves go from one segment to the next. */
-static const sw_meet *last_around(const sw_pairs *p, const sw_pair *k, const double at[2],
-                                  const sw_meet *best, double nearest) {
-  const sw_pair *end = p->pairs + p->m.pair_count, *row[3] = {k, NULL, NULL};
-  if (k->before != SW_NO_PAIR) row[1] = &p->pairs[k->before];
-  if (k->after != SW_NO_PAIR) row[2] = &p->pairs[k->after];
-  for (int i = 0; i < 3; i++) {
-    const sw_pair *m = row[i];
-    if (!m) continue;
-    if (i > 0) look_in(p, m, k, at, SW_CROSSING, &nearest, &best);
-    if (m > p->pairs && m[-1].one == m->one && m[-1].two + 1 == m->two)
-      look_in(p, m - 1, k, at, SW_CROSSING, &nearest, &best);
-    if (m + 1 < end && m[1].one == m->one && m[1].two == m->two + 1)
-      look_in(p, m + 1, k, at, SW_CROSSING, &nearest, &best);
-  }
-  return best;
+/* In pairs of the same segment one with the segments beside two: neighbours in the list. */
+static void look_beside(search *f, const sw_pair *in) {
+  const sw_pair *first = f->p->pairs, *end = first + f->p->m.pair_count;
+  if (in > first && in[-1].one == in->one && in[-1].two + 1 == in->two) look_in(f, in - 1);
+  if (in + 1 < end && in[1].one == in->one && in[1].two == in->two + 1) look_in(f, in + 1);
 }
 
 const sw_meet *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at[2],
                             sw_meet_kind kind) {
-  const sw_meet *best = NULL;
-  double nearest = SW_SAME_TOUCH;
-  look_in(p, k, k, at, kind, &nearest, &best);
-  if (k->smooth) return last_around(p, k, at, best, nearest);
-  if (best || kind == SW_CROSSING) return best;
-  if (kind == SW_NODE_OF_TWO) {
-    if (k->before != SW_NO_PAIR) look_in(p, &p->pairs[k->before], k, at, kind, &nearest, &best);
-    if (k->after != SW_NO_PAIR) look_in(p, &p->pairs[k->after], k, at, kind, &nearest, &best);
-    return best;
+  search f = {p, k, at, kind, SW_SAME_TOUCH, NULL};
+  look_in(&f, k);
+  if (!k->smooth && (f.best || kind == SW_CROSSING)) return f.best;
+  if (k->smooth || kind == SW_NODE_OF_ONE) look_beside(&f, k);
+  if (!k->smooth && kind == SW_NODE_OF_ONE) return f.best;
+  const uint32_t rows[2] = {k->before, k->after};
+  for (int i = 0; i < 2; i++) {
+    if (rows[i] == SW_NO_PAIR) continue;
+    look_in(&f, &p->pairs[rows[i]]);
+    if (k->smooth) look_beside(&f, &p->pairs[rows[i]]); /* places on curves go on to the next one */
   }
-  const sw_pair *end = p->pairs + p->m.pair_count; /* neighbours in the list */
-  if (k > p->pairs && k[-1].one == k->one && k[-1].two + 1 == k->two)
-    look_in(p, k - 1, k, at, kind, &nearest, &best);
-  if (k + 1 < end && k[1].one == k->one && k[1].two == k->two + 1)
-    look_in(p, k + 1, k, at, kind, &nearest, &best);
-  return best;
+  return f.best;
 }
