@@ -39,6 +39,12 @@ sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
 /* The same of what is empty: nothing is kept. SW_ENOMEM leaves it without capacity. */
 sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size);
 
+/* Exchange two values of one type. */
+#define SW_SWAP(a, b)                \
+  do {                               \
+    const __typeof__(a) swap_ = (a); \
+    (a) = (b), (b) = swap_;          \
+  } while (0)
 /* Fail the n-th request from now (1 = the next one); 0 switches this off. */
 void sw_alloc_fail_at(long n);
 

@@ -31,9 +31,9 @@ static void drop(sw_scene *s) {
   sw_system_free(&s->system);
   sw_contact_free(s->contact);
   s->contact = NULL;
-  sw_pairs_free(s->pairs);
+  sw_mutual_free(s->pairs);
   s->pairs = NULL;
-  sw_grains_free(s->grains);
+  sw_mutual_free(s->grains);
   s->grains = NULL;
   sw_crowd_free(s->crowd);
   s->crowd = NULL;
@@ -60,8 +60,8 @@ static sw_status keep_contact(sw_scene *s) {
   const void *memory = NULL, *pairs = NULL, *grains = NULL;
   s->kept.fresh = s->contact ? sw_contact_is_fresh(s->contact) : SW_CONTACT_FRESH;
   if (s->contact) memory = sw_contact_memory(s->contact, &s->kept.bytes);
-  if (s->pairs) pairs = sw_pairs_memory(s->pairs, &s->kept.pair_bytes);
-  if (s->grains) grains = sw_grains_memory(s->grains, &s->kept.grain_bytes);
+  if (s->pairs) pairs = sw_mutual_memory(s->pairs, &s->kept.pair_bytes);
+  if (s->grains) grains = sw_mutual_memory(s->grains, &s->kept.grain_bytes);
   s->kept.grains = sw_alloc(s->kept.grain_bytes, 1);
   s->kept.memory = sw_alloc(s->kept.bytes, 1);
   s->kept.pairs = sw_alloc(s->kept.pair_bytes, 1);
@@ -108,9 +108,10 @@ static sw_status inherit_contact(sw_scene *s) {
   if (s->contact)
     SW_TRY(sw_contact_inherit(s->contact, s->kept.memory, s->kept.bytes, s->kept.fresh, new_node,
                               new_edge));
-  if (s->pairs) SW_TRY(sw_pairs_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node));
+  if (s->pairs)
+    SW_TRY(sw_mutual_inherit(s->pairs, s->kept.pairs, s->kept.pair_bytes, new_node, s->kept.now));
   if (!s->grains) return SW_OK;
-  return sw_grains_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
+  return sw_mutual_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
 }
 
 /* Twist by stretch of wire, for the spans of the next system. */

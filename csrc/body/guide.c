@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 #include "body/build.h"
-#include "contact/grains.h"
+#include "contact/mutual.h"
 #include "link/hold.h"
 #include "link/spool.h"
 #include "scene/world.h"
@@ -157,12 +157,10 @@ static int touches(const guide *g, long k) {
   const double arc = g->m->s[inner(g, k)];
   if (!s->kept.memory) return 0;
   for (size_t i = s->kept.first[g->h->wire]; i < s->kept.first[g->h->wire + 1]; i++)
-    if (s->kept.s[i] == arc) /* wires touch each other by segments, named by their first nodes */
+    if (s->kept.s[i] == arc)
       return sw_contact_memory_names(s->kept.memory, s->kept.bytes, i) ||
-             sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i) ||
-             (i > s->kept.first[g->h->wire] &&
-              sw_pairs_memory_names(s->kept.pairs, s->kept.pair_bytes, i - 1)) ||
-             sw_grains_memory_names(s->kept.grains, s->kept.grain_bytes, i);
+             sw_mutual_memory_names(s->kept.pairs, s->kept.pair_bytes, i) ||
+             sw_mutual_memory_names(s->kept.grains, s->kept.grain_bytes, i);
   return 0;
 }
 

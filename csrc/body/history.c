@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/each.h"
-#include "contact/grains.h"
+#include "contact/mutual.h"
 #include "force/solid.h"
 #include "scene/forces.h"
 #include "scene/wire.h"
@@ -95,11 +95,11 @@ void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   sw_tape_int(t, &there);
   if (!there) return;
   sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
+  sw_tape_mark(t, "contact of wires", sw_mutual_layout());
   sw_tape_count(t, &s->kept.bytes, 1), sw_tape_count(t, &s->kept.pair_bytes, 1);
   sw_tape_array(t, &s->kept.memory, s->kept.bytes, 1);
   sw_tape_array(t, &s->kept.pairs, s->kept.pair_bytes, 1);
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_mark(t, "contact of particles", sw_mutual_layout());
   sw_tape_count(t, &s->kept.grain_bytes, 1);
   sw_tape_array(t, &s->kept.grains, s->kept.grain_bytes, 1);
   sw_tape_count(t, &s->kept.wires, sizeof *s->kept.first);

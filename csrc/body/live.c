@@ -7,15 +7,14 @@
 
 #include "base/alloc.h"
 #include "body/body.h"
-#include "contact/grains.h"
+#include "contact/mutual.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
 #include "system/system.h"
 
 sw_live sw_live_of(const sw_scene *s) {
-  sw_grains *grains = sw_scene_grains(s);
-  sw_pairs *pairs = sw_scene_pairs(s);
+  sw_mutual *grains = sw_scene_grains(s), *pairs = sw_scene_pairs(s);
   sw_contact *contact = sw_scene_contact(s);
   sw_course *c = sw_scene_course(s);
   sw_system *system = sw_scene_system(s);
@@ -26,10 +25,13 @@ sw_live sw_live_of(const sw_scene *s) {
     p.seen[0] = sw_contact_seen(contact, &p.seen_size[0]);
   }
   if (pairs) {
-    p.pairs = sw_pairs_memory(pairs, &p.pairs_size);
-    sw_pairs_seen(pairs, p.seen + 1, p.seen_size + 1);
+    p.pairs = sw_mutual_memory(pairs, &p.pairs_size);
+    p.seen[1] = sw_mutual_seen(pairs, &p.seen_size[1]);
   }
-  if (grains) p.grains = sw_grains_memory(grains, &p.grains_size);
+  if (grains) {
+    p.grains = sw_mutual_memory(grains, &p.grains_size);
+    p.seen[2] = sw_mutual_seen(grains, &p.seen_size[2]);
+  }
   if (!c->has_stepper) return p;
   p.method = c->method;
   p.last_h = c->stepper.last_h;
@@ -73,19 +75,20 @@ sw_status sw_live_place(sw_scene *s, const sw_live *p) {
 }
 
 static sw_status put_contact(sw_scene *s, const sw_live *p) {
-  sw_grains *grains = sw_scene_grains(s);
-  sw_pairs *pairs = sw_scene_pairs(s);
+  sw_mutual *grains = sw_scene_grains(s), *pairs = sw_scene_pairs(s);
   sw_contact *contact = sw_scene_contact(s);
   sw_system *system = sw_scene_system(s);
   if (contact) {
     SW_TRY(sw_contact_set_memory(contact, p->memory, p->memory_size, p->fresh));
     SW_TRY(sw_contact_set_seen(contact, p->seen[0], p->seen_size[0], system->nodes));
   }
-  if (grains) SW_TRY(sw_grains_set_memory(grains, p->grains, p->grains_size));
-  if (!pairs) return SW_OK;
-  const void *const seen[2] = {p->seen[1], p->seen[2]};
-  SW_TRY(sw_pairs_set_memory(pairs, p->pairs, p->pairs_size));
-  return sw_pairs_set_seen(pairs, seen, p->seen_size + 1, system);
+  if (pairs) {
+    SW_TRY(sw_mutual_set_memory(pairs, p->pairs, p->pairs_size));
+    SW_TRY(sw_mutual_set_seen(pairs, p->seen[1], p->seen_size[1], system));
+  }
+  if (!grains) return SW_OK;
+  SW_TRY(sw_mutual_set_memory(grains, p->grains, p->grains_size));
+  return sw_mutual_set_seen(grains, p->seen[2], p->seen_size[2], system);
 }
 
 sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
@@ -135,15 +138,17 @@ sw_status sw_live_back(sw_scene *s, const sw_tape *taken, sw_error *err) {
   return sw_live_put(s, &live, err);
 }
 
-static int grains_fit(const sw_scene *s, const sw_live *p) {
+/* What things remember of each other is of nodes that there are. */
+static int mutual_fit(const sw_scene *s, const sw_live *p) {
   sw_system *system = sw_scene_system(s);
   const size_t n = system->body_count;
-  if (!p->grains_size) return 1;
+  if (!p->pairs_size && !p->grains_size) return 1;
   size_t *first SW_LOCAL = sw_alloc(n + 1, sizeof *first);
   if (!first) return 0;
   for (size_t b = 0; b < n; b++) first[b] = system->bodies[b].first_node;
   first[n] = system->nodes;
-  return sw_grains_memory_fits(p->grains, p->grains_size, first, n);
+  return sw_mutual_memory_fits(p->pairs, p->pairs_size, first, n) &&
+         sw_mutual_memory_fits(p->grains, p->grains_size, first, n);
 }
 
 int sw_live_fits(const sw_scene *s, const sw_live *p) {
@@ -153,7 +158,7 @@ int sw_live_fits(const sw_scene *s, const sw_live *p) {
   return p->state_size == system->state_size && p->history_size == (history ? n : 0) &&
          sw_contact_memory_fits(p->memory, p->memory_size, system->nodes,
                                 sw_scene_obstacle_slots(s)) &&
-         sw_pairs_memory_fits(p->pairs, p->pairs_size, system->nodes) && grains_fit(s, p);
+         mutual_fit(s, p);
 }
 
 /* --- on a tape ------------------------------------------------------------------------ */
@@ -167,8 +172,8 @@ void sw_tape_live(sw_tape *t, sw_live *x) {
   char word[SW_NAME_SIZE];
   SW_TAPE_STRUCT(t, sw_live, 160);
   sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_mark(t, "contact of wires", sw_pairs_layout());
-  sw_tape_mark(t, "contact of particles", sw_grains_layout());
+  sw_tape_mark(t, "contact of wires", sw_mutual_layout());
+  sw_tape_mark(t, "contact of particles", sw_mutual_layout());
   sw_tape_count(t, &x->state_size, sizeof(double));
   sw_tape_view(t, &x->state, x->state_size * sizeof(double));
   if (!sw_tape_address(t, &x->method)) {

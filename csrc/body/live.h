@@ -24,7 +24,7 @@ typedef struct sw_live {
   size_t pairs_size;
   const void *grains; /* the same of objects of particles */
   size_t grains_size;
-  const void *seen[3]; /* for read-outs: what touches obstacles, wires that may touch, and do */
+  const void *seen[3]; /* for read-outs: what touches obstacles, wires each other, particles */
   size_t seen_size[3];
 } sw_live;
 sw_live sw_live_of(const sw_scene *scene);

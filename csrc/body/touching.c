@@ -31,7 +31,7 @@ sw_status sw_scene_new_pairs(sw_scene *s) {
   for (size_t k = 0; k < s->rule_count; k++) state_rule(&s->rules[k], n, table);
   for (size_t k = 0; k < n * n; k++) any |= table[k].on;
   if (!any) return SW_OK;
-  SW_TRY(sw_pairs_new(table, n, &s->pairs));
+  SW_TRY(sw_pairs_new(&s->system, table, &s->pairs));
   return sw_grains_new(&s->system, table, &s->grains);
 }
 
@@ -44,10 +44,10 @@ static void part(void *user, sw_system *system) {
 
 static sw_status begin_stage(void *user, sw_system *system, double t, double first, sw_error *err) {
   const sw_scene *s = user;
-  const int apart = !s->crowd && !s->grains && (!s->pairs || sw_pairs_idle(s->pairs));
+  const int apart = !s->crowd && !s->grains && (!s->pairs || sw_mutual_idle(s->pairs));
   system->coupling.part = apart ? part : NULL;
-  if (s->pairs) sw_pairs_begin_stage(s->pairs, first);
-  if (s->grains) sw_grains_begin_stage(s->grains, first);
+  if (s->pairs) sw_mutual_begin_stage(s->pairs, first);
+  if (s->grains) sw_mutual_begin_stage(s->grains, first);
   return s->contact ? sw_contact_begin_stage(s->contact, t, first, err) : SW_OK;
 }
 
@@ -56,9 +56,9 @@ static sw_status eval(void *user, sw_system *system, double t, double hbar, cons
   const sw_scene *s = user;
   if (s->contact) SW_TRY(sw_contact_eval(s->contact, system, t, hbar, y, want, err));
   if (s->crowd) sw_crowd_eval(s->crowd, system, y, want);
-  if (s->grains) SW_TRY(sw_grains_eval(s->grains, system, y, want, err));
-  const int pairs = s->pairs && !sw_pairs_idle(s->pairs);
-  return pairs ? sw_pairs_eval(s->pairs, system, y, want, err) : SW_OK;
+  if (s->grains) SW_TRY(sw_mutual_eval(s->grains, system, y, want, err));
+  const int pairs = s->pairs && !sw_mutual_idle(s->pairs);
+  return pairs ? sw_mutual_eval(s->pairs, system, y, want, err) : SW_OK;
 }
 
 static sw_status keeps(void *user, sw_system *system, const double *y, int *out, sw_error *err) {
@@ -70,16 +70,16 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
 static void refine(void *user, sw_system *system) {
   const sw_scene *s = user;
   if (s->contact) sw_contact_refine(s->contact, system);
-  if (s->pairs && !sw_pairs_idle(s->pairs)) sw_pairs_refine(s->pairs, s->contact, system);
+  if (s->pairs && !sw_mutual_idle(s->pairs)) sw_mutual_refine(s->pairs, s->contact, system);
 }
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {
   const sw_scene *s = user;
   if (system->rough == SW_MAY_BE_MADE && (s->pairs || s->crowd || !s->contact)) return 1;
   int fine = !s->contact || sw_contact_settled(s->contact, system, y, delta);
-  if (s->pairs && !sw_pairs_idle(s->pairs)) fine &= sw_pairs_settled(s->pairs, system, delta);
+  if (s->pairs && !sw_mutual_idle(s->pairs)) fine &= sw_mutual_settled(s->pairs, system, delta);
   if (s->crowd) fine &= sw_crowd_settled(s->crowd, system, y, delta);
-  if (s->grains) fine &= sw_grains_settled(s->grains, system, delta);
+  if (s->grains) fine &= sw_mutual_settled(s->grains, system, delta);
   return fine;
 }
 
@@ -126,31 +126,32 @@ sw_status sw_scene_begin_contact(sw_scene *s, sw_contact_regime regime, double t
   if (crowd != SW_OK)
     return sw_fail(err, crowd, "particles that repel each other: %s",
                    crowd == SW_ELIMIT ? "too many are near each other" : sw_status_text(crowd));
-  if (s->pairs) SW_TRY(sw_pairs_begin_step(s->pairs, &s->system, regime, h, nominal, err));
+  if (s->pairs) SW_TRY(sw_mutual_begin_step(s->pairs, &s->system, regime, h, nominal, err));
   if (!s->grains) return SW_OK;
   if (!s->pairs) SW_TRY(sw_system_begin_plan(&s->system));
-  return sw_grains_begin_step(s->grains, &s->system, regime, h, nominal, err);
+  return sw_mutual_begin_step(s->grains, &s->system, regime, h, nominal, err);
 }
 
 int sw_scene_expects_strike(const sw_scene *s, double h) {
   return s->pairs && sw_pairs_expect(s->pairs, &s->system, h);
 }
 
-int sw_scene_was_struck(const sw_scene *s) { return s->pairs && sw_pairs_impacts(s->pairs) > 0; }
+int sw_scene_was_struck(const sw_scene *s) { return s->pairs && sw_mutual_impacts(s->pairs) > 0; }
 
 sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const double *v1,
                                            double h) {
   sw_contact_verdict verdict = SW_CONTACT_ACCEPT;
-  const int dull = s->pairs && !sw_pairs_idle(s->pairs) && s->course.stepper.plastic;
+  const int dull = s->pairs && !sw_mutual_idle(s->pairs) && s->course.stepper.plastic;
   if (s->contact) verdict = sw_contact_review(s->contact, &s->system, x1, v1, h, dull);
   if (verdict == SW_CONTACT_SOONER) return verdict;
   if (s->pairs && verdict != SW_CONTACT_SMALLER) {
     const sw_contact_verdict other =
-        sw_pairs_review(s->pairs, &s->system, x1, h, s->course.stepper.plastic);
+        sw_mutual_review(s->pairs, &s->system, x1, h, s->course.stepper.plastic);
     if (other != SW_CONTACT_ACCEPT) verdict = other;
   }
   if (s->grains && verdict != SW_CONTACT_SMALLER) {
-    const sw_contact_verdict other = sw_grains_review(s->grains, &s->system, x1, h);
+    const sw_contact_verdict other =
+        sw_mutual_review(s->grains, &s->system, x1, h, s->course.stepper.plastic);
     if (other != SW_CONTACT_ACCEPT) verdict = other;
   }
   return verdict;
@@ -158,8 +159,8 @@ sw_contact_verdict sw_scene_review_contact(sw_scene *s, const double *x1, const 
 
 int sw_scene_review_static(sw_scene *s, const double *x1) {
   int again = s->contact && sw_contact_review_static(s->contact, &s->system, x1);
-  if (s->pairs) again |= sw_pairs_review_static(s->pairs, &s->system, x1);
-  if (s->grains) again |= sw_grains_review_static(s->grains, &s->system, x1);
+  if (s->pairs) again |= sw_mutual_review_static(s->pairs, &s->system, x1);
+  if (s->grains) again |= sw_mutual_review_static(s->grains, &s->system, x1);
   return again;
 }
 
@@ -173,30 +174,30 @@ void sw_scene_commit_contact(sw_scene *s) {
       s->obstacles[sw_contact_id(s->contact, k)].past = *sw_contact_past_of(s->contact, k);
     }
   }
-  if (s->pairs) sw_pairs_commit(s->pairs, &s->system);
-  if (s->grains) sw_grains_commit(s->grains);
+  if (s->pairs) sw_mutual_commit(s->pairs, &s->system);
+  if (s->grains) sw_mutual_commit(s->grains, &s->system);
 }
 
 /* With contact as it presses now; other wires stay where they are. */
 sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
   sw_contact *const own = s->contact;
-  sw_pairs *const pairs = s->pairs;
-  sw_grains *const grains = s->grains;
+  sw_mutual *const pairs = s->pairs;
+  sw_mutual *const grains = s->grains;
   sw_status status = SW_OK;
   s->contact = NULL, s->pairs = NULL, s->grains = NULL;
   if (own) status = sw_contact_copy(own, &s->contact);
-  if (pairs && status == SW_OK) status = sw_pairs_copy(pairs, &s->pairs);
-  if (grains && status == SW_OK) status = sw_grains_copy(grains, &s->system, &s->grains);
+  if (pairs && status == SW_OK) status = sw_mutual_copy(pairs, &s->system, &s->pairs);
+  if (grains && status == SW_OK) status = sw_mutual_copy(grains, &s->system, &s->grains);
   if (status != SW_OK) sw_fail(err, status, "out of memory");
   if (own && only && status == SW_OK) sw_contact_keep(s->contact, only, count);
   if (own && status == SW_OK) status = sw_contact_begin_look(s->contact, &s->system, s->time, err);
-  if (pairs && status == SW_OK) status = sw_pairs_begin_look(s->pairs, &s->system, err);
+  if (pairs && status == SW_OK) status = sw_mutual_begin_look(s->pairs, &s->system, err);
   if (grains && !pairs && status == SW_OK) status = sw_system_begin_plan(&s->system);
-  if (grains && status == SW_OK) status = sw_grains_begin_look(s->grains, &s->system, err);
+  if (grains && status == SW_OK) status = sw_mutual_begin_look(s->grains, &s->system, err);
   if (status == SW_OK) status = sw_system_linearise(&s->system, s->time, err);
   sw_contact_free(s->contact);
-  sw_pairs_free(s->pairs);
-  sw_grains_free(s->grains);
+  sw_mutual_free(s->pairs);
+  sw_mutual_free(s->grains);
   s->contact = own, s->pairs = pairs, s->grains = grains;
   return status;
 }
@@ -206,15 +207,40 @@ sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_e
 double sw_scene_deepest(const sw_scene *s, size_t *node) {
   size_t other = 0;
   const double obstacle = s->contact ? sw_contact_penetration(s->contact, node) : 0.0;
-  const double wire = s->pairs ? sw_pairs_penetration(s->pairs, &other) : 0.0;
+  const double wire = s->pairs ? sw_mutual_penetration(s->pairs, &other) : 0.0;
   if (wire > obstacle && node) *node = other;
-  const double grain = s->grains ? sw_grains_penetration(s->grains, &other) : 0.0;
+  const double grain = s->grains ? sw_mutual_penetration(s->grains, &other) : 0.0;
   if (grain > fmax(obstacle, wire) && node) *node = other;
   return fmax(grain, fmax(obstacle, wire));
 }
 
-double sw_scene_contact_energy(const sw_scene *s) {
-  return (s->contact ? sw_contact_energy(s->contact) : 0.0) +
-         (s->pairs ? sw_pairs_energy(s->pairs) : 0.0) +
-         (s->grains ? sw_grains_energy(s->grains) : 0.0);
+size_t sw_scene_presses(const sw_scene *s, sw_presses list[SW_SCENE_PRESSES]) {
+  size_t n = 0;
+  if (s->contact) list[n++] = sw_contact_presses(s->contact);
+  if (s->pairs) list[n++] = sw_mutual_presses(s->pairs);
+  if (s->grains) list[n++] = sw_mutual_presses(s->grains);
+  return n;
+}
+
+static double sum_of(const sw_scene *s, double (*what)(sw_presses)) {
+  sw_presses list[SW_SCENE_PRESSES];
+  const size_t n = sw_scene_presses(s, list);
+  double sum = 0;
+  for (size_t k = 0; k < n; k++) sum += what(list[k]);
+  return sum;
+}
+
+double sw_scene_contact_energy(const sw_scene *s) { return sum_of(s, sw_presses_energy); }
+
+double sw_scene_rubbed(const sw_scene *s) { return sum_of(s, sw_presses_rubbed); }
+
+static size_t places_of(const sw_mutual *m) {
+  return m ? sw_presses_count(sw_mutual_presses(m)) : 0;
+}
+
+size_t sw_scene_places(const sw_scene *s) { return places_of(s->pairs) + places_of(s->grains); }
+
+sw_pair_place sw_scene_place(const sw_scene *s, size_t k) {
+  const size_t pairs = places_of(s->pairs);
+  return k < pairs ? sw_mutual_place(s->pairs, k) : sw_mutual_place(s->grains, k - pairs);
 }

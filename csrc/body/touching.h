@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the wires touch: obstacles and wires in one (see sw_contact and sw_pairs). Of the scene's
+/* What the wires touch: obstacles and wires in one (see sw_contact and sw_mutual). Of the scene's
  * inside. */
 #ifndef SW_BODY_TOUCHING_H
 #define SW_BODY_TOUCHING_H
 
 #include "contact/contact.h"
 #include "contact/crowd.h"
-#include "contact/grains.h"
-#include "contact/pairs.h"
+#include "contact/mutual.h"
+#include "contact/tally.h"
 #include "scene/scene.h"
 
 /* Which wires touch each other, as stated. */
@@ -39,6 +39,13 @@ void sw_scene_commit_contact(sw_scene *scene);
  * (count), or NULL: of all. */
 sw_status sw_scene_linearise(sw_scene *scene, const size_t *only, size_t count, sw_error *err);
 double sw_scene_deepest(const sw_scene *scene, size_t *node); /* [m] */
-double sw_scene_contact_energy(const sw_scene *scene);        /* [J] */
+/* Lists of all touches; how many lists. */
+enum { SW_SCENE_PRESSES = 3 };
+size_t sw_scene_presses(const sw_scene *scene, sw_presses list[SW_SCENE_PRESSES]);
+double sw_scene_contact_energy(const sw_scene *scene); /* [J] */
+double sw_scene_rubbed(const sw_scene *scene);         /* lost by friction in the step [J] */
+/* How many places there are where bodies press on each other, and number k of them. */
+size_t sw_scene_places(const sw_scene *scene);
+sw_pair_place sw_scene_place(const sw_scene *scene, size_t k);
 
 #endif

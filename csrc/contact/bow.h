@@ -1,48 +1,51 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A place along a wire that meets another one: nodes in a row, their shares, and how these change
- * with the place. */
+/* A place of what meets another thing, and how it changes along there: of a wire's segment or
+ * curve, of an edge between particles, or a node alone. */
 #ifndef SW_CONTACT_BOW_H
 #define SW_CONTACT_BOW_H
 
-#include <stdint.h>
-
-#include "base/vec.h"
-
-enum { SW_BOW_MOST = 3 };
+#include "contact/mean.h"
 
 typedef struct sw_bow {
-  uint32_t first, count;     /* of the nodes, in the system's arrays; 2 of a chord, 3 of a curve */
-  double w[SW_BOW_MOST];     /* their shares; the sum is 1 [-] */
-  double slope[SW_BOW_MOST]; /* derivatives of these by the place, in edges; the sum is 0 [-] */
+  sw_mean spot;
+  double
+      slope[SW_MEAN_MOST]; /* derivatives of the shares by the place, in edges; the sum is 0 [-] */
 } sw_bow;
 
-/* On the chord from a node to the next one. */
-static inline sw_bow sw_bow_chord(uint32_t node, double at) {
-  return (sw_bow){node, 2, {1.0 - at, at, 0}, {-1, 1, 0}};
+/* On the chord from a node to another one, or that node alone. */
+static inline sw_bow sw_bow_between(size_t node, size_t end, double at) {
+  return (sw_bow){sw_mean_chord(node, end, at), {-1, 1, 0}};
 }
 
-/* The same mean of what nodes have (n x 3). */
-static inline sw_vec sw_bow_place(const double *x, const sw_bow *b) {
-  if (b->count == 2) return sw_lerp(sw_vec_at(x, b->first), sw_vec_at(x, b->first + 1u), b->w[1]);
-  return sw_madd(
-      sw_madd(sw_scale(sw_vec_at(x, b->first), b->w[0]), sw_vec_at(x, b->first + 1u), b->w[1]),
-      sw_vec_at(x, b->first + 2u), b->w[2]);
+static inline sw_bow sw_bow_chord(size_t node, double at) {
+  return sw_bow_between(node, node + 1, at);
+}
+
+static inline sw_bow sw_bow_around(size_t before, double v) {
+  return (sw_bow){sw_mean_around(before, v), {v - 1.0, 1.0 - 2.0 * v, v}};
+}
+
+/* From one of its nodes to the next, of what nodes have (n x 3). */
+static inline sw_vec sw_bow_edge(const double *x, const sw_bow *b, int k) {
+  return sw_sub(sw_vec_at(x, b->spot.node[k + 1]), sw_vec_at(x, b->spot.node[k]));
 }
 
 /* Derivative of the place by itself, in edges [m]. */
 static inline sw_vec sw_bow_along(const double *x, const sw_bow *b) {
-  const sw_vec before = sw_sub(sw_vec_at(x, b->first + 1u), sw_vec_at(x, b->first));
-  if (b->count == 2) return before;
-  const sw_vec after = sw_sub(sw_vec_at(x, b->first + 2u), sw_vec_at(x, b->first + 1u));
-  return sw_madd(sw_scale(before, -b->slope[0]), after, b->slope[2]);
+  const sw_vec before = sw_bow_edge(x, b, 0);
+  if (b->spot.count < 3) return before;
+  return sw_madd(sw_scale(before, -b->slope[0]), sw_bow_edge(x, b, 1), b->slope[2]);
 }
 
 /* The second one; of the shares, 1, -2, 1 [m]. */
 static inline sw_vec sw_bow_bend(const double *x, const sw_bow *b) {
-  if (b->count == 2) return sw_v(0, 0, 0);
-  const sw_vec before = sw_sub(sw_vec_at(x, b->first + 1u), sw_vec_at(x, b->first));
-  const sw_vec after = sw_sub(sw_vec_at(x, b->first + 2u), sw_vec_at(x, b->first + 1u));
-  return sw_sub(after, before);
+  if (b->spot.count < 3) return sw_v(0, 0, 0);
+  return sw_sub(sw_bow_edge(x, b, 1), sw_bow_edge(x, b, 0));
+}
+
+/* Places of two things: that of the first one less that of the second one, of what nodes have. */
+static inline sw_vec sw_bows_apart(const double *x, const sw_bow bow[2]) {
+  return sw_sub(sw_mean_of(x, 0, &bow[0].spot), sw_mean_of(x, 0, &bow[1].spot));
 }
 
 #endif

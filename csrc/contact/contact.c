@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the contact, its steps, memory between them, read-outs. */
+/* Life of the contact with obstacles, its steps, read-outs. */
 #include "contact/contact.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/halving.h"
 #include "contact/curve.h"
+#include "contact/tally.h"
 
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out) {
@@ -70,29 +69,13 @@ void sw_contact_keep(sw_contact *c, const size_t *ids, size_t count) {
 
 void sw_contact_free(sw_contact *c) {
   if (!c) return;
-  sw_free(c->obstacles);
-  sw_free(c->loads);
-  sw_free(c->start);
-  sw_free(c->now);
-  sw_free(c->flat);
-  sw_free(c->sunk);
-  sw_free(c->spaced);
-  sw_free(c->bounds);
+  void *const blocks[] = {c->obstacles, c->loads,   c->start,       c->now,        c->flat,
+                          c->sunk,      c->spaced,  c->bounds,      c->candidates, c->touches,
+                          c->last,      c->memory,  c->next_memory, c->pressed,    c->turns,
+                          c->barriers,  c->impacts, c->impact_at,   c->marks,      c->room,
+                          c->reach,     c->ahead};
+  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_broad_free(&c->broad);
-  sw_free(c->candidates);
-  sw_free(c->touches);
-  sw_free(c->last);
-  sw_free(c->memory);
-  sw_free(c->next_memory);
-  sw_free(c->pressed);
-  sw_free(c->turns);
-  sw_free(c->barriers);
-  sw_free(c->impacts);
-  sw_free(c->impact_at);
-  sw_free(c->marks);
-  sw_free(c->room);
-  sw_free(c->reach);
-  sw_free(c->ahead);
   sw_free(c);
 }
 
@@ -103,7 +86,7 @@ static void find_pressing(sw_contact *c) {
   for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
   for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
     const size_t o = sw_contact_index(c, c->memory[i].obstacle);
-    if (o < c->count && c->memory[i].normal_force > 0) c->pressing[o] = 1;
+    if (o < c->count && c->memory[i].kept.normal_force > 0) c->pressing[o] = 1;
   }
 }
 
@@ -129,10 +112,7 @@ sw_status sw_contact_begin_step(sw_contact *c, sw_system *s, sw_contact_regime r
 
 sw_status sw_contact_begin_look(sw_contact *c, sw_system *s, double t, sw_error *err) {
   SW_TRY(sw_contact_begin_step(c, s, SW_CONTACT_STATIC, t, 0, 0, err));
-  for (size_t i = 0; i < c->memory_count; i++) {
-    sw_memory *m = &c->memory[i];
-    if (m->normal_force > 0 && m->depth > 0) m->k = m->normal_force / m->depth;
-  }
+  for (size_t i = 0; i < c->memory_count; i++) sw_kept_as_felt(&c->memory[i].kept);
   return SW_OK;
 }
 
@@ -145,174 +125,6 @@ sw_status sw_contact_begin_stage(sw_contact *c, double time, double first, sw_er
   c->ahead_count = 0;
   c->parts = (sw_contact_parts){.on = 0};
   return sw_broad_place(c, time, c->now, err);
-}
-
-/* --- memory ------------------------------------------------------------------- */
-
-/* Chords round a peg press more and less from step to step; friction there goes by a mean over some
- * of them. With half as many a wire's swing through a ring (spec/shape/torus_spec) is three times
- * as sensitive to rounding, with one four times; twice as many are no better [-]. */
-static const double MEAN_STEPS = 8.0;
-
-static double steady_force(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  if (t->sharp && t->sharp != SW_SHARP_ROUND) return sw_contact_steady_force(s, t, c->h);
-  return t->steady + (t->press.normal_force - t->steady) / MEAN_STEPS;
-}
-
-static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
-  const sw_contact_at *o = &c->now[t->obstacle];
-  const sw_quat back = sw_quat_conj(o->pose.q);
-  SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
-                 sizeof *c->next_memory));
-  sw_memory *m = &c->next_memory[c->next_count++];
-  *m = (sw_memory){.obstacle = c->obstacles[t->obstacle].id,
-                   .segment = t->segment,
-                   .node = t->node,
-                   .feature = t->feature,
-                   .at = t->at,
-                   .normal_force = t->press.normal_force,
-                   .sliding = t->press.next_sliding,
-                   .depth = t->press.normal_force / t->press.k,
-                   .steady = steady_force(c, s, t),
-                   .k = sw_press_eased(&t->press, t->usual, t->stiffer),
-                   .normal = sw_rotate(back, t->press.normal),
-                   .point = t->local,
-                   .seen = t->seen};
-  if (!(t->press.normal_force > 0)) return SW_OK;
-  m->slid = t->slid + sw_norm(t->press.slip);
-  m->elastic = sw_rotate(back, sw_scale(t->press.tangential, -1.0 / sw_press_grip(&t->press)));
-  return SW_OK;
-}
-
-/* Is something still deeper inside than its force explains? */
-static int emerges(const sw_contact *c) {
-  for (size_t i = 0; i < c->touch_count; i++)
-    if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;
-  for (size_t i = 0; i < c->pressed_count; i++)
-    if (c->pressed[i].let_out > 0) return 1;
-  return 0;
-}
-
-void sw_contact_commit(sw_contact *c, sw_system *s) {
-  c->next_count = 0;
-  c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
-  sw_contact_conclude(c);
-  (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
-                      sizeof *c->next_memory);
-  for (size_t i = 0; i < c->touch_count; i++)
-    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
-  sw_memory *swap = c->memory;
-  const size_t capacity = c->memory_capacity;
-  c->memory = c->next_memory, c->memory_capacity = c->next_capacity;
-  c->next_memory = swap, c->next_capacity = capacity;
-  c->memory_count = c->next_count;
-}
-
-const void *sw_contact_memory(const sw_contact *c, size_t *bytes) {
-  *bytes = c->memory_count * sizeof *c->memory;
-  return c->memory;
-}
-
-int sw_contact_is_fresh(const sw_contact *c) { return c->fresh; }
-
-sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes, int fresh) {
-  const size_t n = bytes / sizeof *c->memory;
-  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
-  if (n) memcpy(c->memory, memory, bytes);
-  c->memory_count = n;
-  c->fresh = fresh;
-  c->touch_count = 0;
-  sw_contact_ask_again(c);
-  return SW_OK;
-}
-
-size_t sw_contact_layout(void) { return 4096 * sizeof(sw_memory) + sizeof(sw_touch); }
-
-const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
-  *bytes = c->touch_count * sizeof *c->touches;
-  return c->touches;
-}
-
-static int spans(const sw_mean *spot, size_t nodes) {
-  for (size_t i = 0; i < spot->count; i++)
-    if (spot->node[i] >= nodes) return 0;
-  return spot->count > 0;
-}
-
-sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, size_t nodes) {
-  const size_t n = bytes / sizeof *c->touches;
-  c->touch_count = 0;
-  if (bytes % sizeof *c->touches != 0) return SW_EINVAL;
-  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
-  if (n) memcpy(c->touches, seen, bytes);
-  for (size_t i = 0; i < n; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||
-        t->other >= nodes || t->spot.count > SW_MEAN_MOST || !spans(&t->spot, nodes))
-      return SW_EINVAL;
-  }
-  c->touch_count = n;
-  return SW_OK;
-}
-
-int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles) {
-  const size_t count = bytes / sizeof(sw_memory);
-  for (size_t i = 0; i < count; i++) {
-    sw_memory m;
-    memcpy(&m, (const char *)memory + i * sizeof m, sizeof m);
-    if (m.node >= nodes || m.obstacle < 0 || (size_t)m.obstacle >= obstacles || m.segment < 0 ||
-        !isfinite(m.at))
-      return 0;
-  }
-  return bytes % sizeof(sw_memory) == 0;
-}
-
-int sw_contact_memory_names(const void *memory, size_t bytes, size_t node) {
-  const sw_memory *m = memory;
-  for (size_t i = 0; i < bytes / sizeof *m; i++)
-    if (m[i].node == node || (m[i].segment && m[i].node + 1 == node)) return 1;
-  return 0;
-}
-
-sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
-                             const size_t *new_node, const size_t *new_edge) {
-  size_t kept = 0;
-  SW_TRY(sw_contact_set_memory(c, memory, bytes, fresh));
-  for (size_t i = 0; i < c->memory_count; i++) {
-    const size_t *now = c->memory[i].segment ? new_edge : new_node;
-    const size_t node = now[c->memory[i].node];
-    if (node == SIZE_MAX) continue;
-    c->memory[kept] = c->memory[i];
-    c->memory[kept++].node = node;
-  }
-  c->memory_count = kept;
-  return SW_OK;
-}
-
-static int in_order(const void *a, const void *b) {
-  const sw_memory *p = a, *q = b;
-  if (p->node != q->node) return p->node < q->node ? -1 : 1;
-  if (p->obstacle != q->obstacle) return p->obstacle < q->obstacle ? -1 : 1;
-  if (p->segment != q->segment) return p->segment < q->segment ? -1 : 1;
-  return (p->at > q->at) - (p->at < q->at);
-}
-
-sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,
-                                size_t old_end, size_t new_first, const size_t *obstacles,
-                                size_t count) {
-  const sw_memory *from = memory;
-  const size_t n = bytes / sizeof *from;
-  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, c->memory_count + n, sizeof *c->memory));
-  for (size_t i = 0; i < n; i++) {
-    int wanted = 0;
-    for (size_t k = 0; k < count; k++) wanted |= (size_t)from[i].obstacle == obstacles[k];
-    if (!wanted || from[i].node < old_first || from[i].node >= old_end) continue;
-    c->memory[c->memory_count] = from[i];
-    c->memory[c->memory_count++].node += new_first - old_first;
-  }
-  if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
-  c->fresh = 0;
-  return SW_OK;
 }
 
 /* --- read-outs ---------------------------------------------------------------- */
@@ -361,10 +173,8 @@ double sw_contact_penetration(const sw_contact *c, size_t *node) {
   return deepest;
 }
 
-size_t sw_contact_count(const sw_contact *c) {
-  size_t n = 0;
-  for (size_t i = 0; i < c->touch_count; i++) n += c->touches[i].press.normal_force > 0;
-  return n;
+sw_presses sw_contact_presses(const sw_contact *c) {
+  return SW_PRESSES(sw_touch, c->touches, c->touch_count);
 }
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
@@ -399,17 +209,6 @@ int sw_contact_push_at(const sw_contact *c, const sw_system *s, size_t k, sw_con
   return p->normal_force > 0;
 }
 
-double sw_contact_energy(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (!(t->press.normal_force > 0)) continue;
-    sum += 0.5 * t->press.normal_force * t->press.normal_force / t->press.k;
-    sum += 0.5 * sw_norm2(t->press.tangential) / sw_press_grip(&t->press);
-  }
-  return sum;
-}
-
 /* --- for the energy ledger ------------------------------------------------------ */
 
 int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
@@ -417,15 +216,6 @@ int sw_contact_poses(const sw_contact *c, int id, sw_pose *from, sw_pose *to) {
   if (o == c->count) return 0;
   *from = c->start[o].pose, *to = c->now[o].pose;
   return 1;
-}
-
-double sw_contact_rubbed(const sw_contact *c) {
-  double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_press *p = &c->touches[i].press;
-    if (p->normal_force > 0) sum -= sw_dot(p->tangential, p->slip);
-  }
-  return sum;
 }
 
 double sw_contact_hardened(const sw_contact *c) {
@@ -441,18 +231,20 @@ double sw_contact_fastest(const sw_contact *c) {
   return fastest;
 }
 
-int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
-
-double sw_contact_emerged(const sw_contact *c) {
-  double sum = 0;
+/* Is something still deeper inside than its force explains? */
+static int emerges(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++)
-    sum += c->touches[i].let_out * c->touches[i].press.normal_force;
-  return sum;
+    if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;
+  for (size_t i = 0; i < c->pressed_count; i++)
+    if (c->pressed[i].let_out > 0) return 1;
+  return 0;
 }
+
+int sw_contact_emerges(const sw_contact *c) { return c->fresh && emerges(c); }
 
 int sw_contact_steady(const sw_contact *c) {
   size_t before = 0, now = 0;
-  for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].normal_force > 0;
+  for (size_t i = 0; i < c->memory_count; i++) before += c->memory[i].kept.normal_force > 0;
   for (size_t i = 0; i < c->touch_count; i++) {
     if (!(c->touches[i].press.normal_force > 0)) continue;
     if (!c->touches[i].known) return 0;

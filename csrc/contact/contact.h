@@ -162,7 +162,8 @@ void sw_contact_add_grip(const sw_contact *contact, const sw_system *system, int
 /* Deepest penetration of the accepted state, with the system's node nearest to
  * it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-size_t sw_contact_count(const sw_contact *contact); /* touches with a force */
+/* Touches, for contact/tally.h. */
+struct sw_presses sw_contact_presses(const sw_contact *contact);
 /* What presses on a node, or on the segment between two. */
 typedef struct sw_contact_push {
   int obstacle;        /* the owner's number */
@@ -183,7 +184,6 @@ void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_no
                            size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
-double sw_contact_energy(const sw_contact *contact); /* stored in the springs [J] */
 
 /* After a step: 1, obstacles' forces at its end are those of a shock, which it does not go on with.
  */
@@ -198,7 +198,6 @@ double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followe
 
 /* Where obstacle number id is at the step's start and as last placed. 0: there is none. */
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
-double sw_contact_rubbed(const sw_contact *contact); /* lost by friction in the step [J] */
 /* 1: the touches that press are those that pressed at the step's start. */
 int sw_contact_steady(const sw_contact *contact);
 /* Given by touches of meshes being stiffer than before, which lets them sink in less, at most [J].
@@ -207,9 +206,6 @@ double sw_contact_hardened(const sw_contact *contact);
 double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
 /* 1: in this step wires are let out of obstacles that they began in. */
 int sw_contact_emerges(const sw_contact *contact);
-/* Then: what the touches' forces have done in the step on the way that the wires were let out [J].
- */
-double sw_contact_emerged(const sw_contact *contact);
 size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */
 double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in these [J] */
 

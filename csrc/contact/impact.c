@@ -297,14 +297,21 @@ static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t)
   return -sw_dot(sw_mean_of(s->v, 0, &t->spot), t->normal) <= SURELY * SW_SLOWEST_IMPACT;
 }
 
+/* Is it one whose impact is not dealt with yet? Then how it meets its obstacle. */
+static int may_strike(const sw_contact *c, sw_system *s, const sw_pressed *t, encounter *e) {
+  if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) return 0;
+  const sw_levers levers = levers_of(s, t);
+  *e = encounter_of(c, s, t, &levers);
+  return 1;
+}
+
 /* Does any touch strike, with velocities as they are? */
 static int any_strikes(sw_contact *c, sw_system *s, double h) {
   const double soonest = c->soonest;
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_pressed *t = &c->pressed[i];
-    if (is_slow(c, s, t) || trembles(c, t) || dealt_with(c, t, &s->counters.looks)) continue;
-    const sw_levers levers = levers_of(s, t);
-    const encounter e = encounter_of(c, s, t, &levers);
+    encounter e;
+    if (is_slow(c, s, t) || !may_strike(c, s, t, &e)) continue;
     if (!(velocity_lost(c, s, t, &e, h) > 0)) continue;
     c->soonest = soonest; /* all are asked again, one after the other */
     return 1;
@@ -318,10 +325,8 @@ int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size
     if (t->held || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
       continue;
     const sw_pressed met = sw_contact_pressed(t);
-    if (is_slow(c, s, &met) || trembles(c, &met) || dealt_with(c, &met, &s->counters.looks))
-      continue;
-    const sw_levers levers = levers_of(s, &met);
-    const encounter e = encounter_of(c, s, &met, &levers);
+    encounter e;
+    if (is_slow(c, s, &met) || !may_strike(c, s, &met, &e)) continue;
     if (e.approach > e.gap / c->h + e.slow) return 1;
   }
   return 0;
@@ -332,9 +337,8 @@ static size_t find_turns(sw_contact *c, sw_system *s) {
   size_t count = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
     const sw_pressed *t = &c->pressed[i];
-    if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) continue;
-    const sw_levers levers = levers_of(s, t);
-    const encounter e = encounter_of(c, s, t, &levers);
+    encounter e;
+    if (!may_strike(c, s, t, &e)) continue;
     c->turns[count++] = (sw_turn){.meets = e.approach > 0 ? e.gap / e.approach : HUGE_VAL,
                                   .closes = e.approach,
                                   .node = t->node,
@@ -354,8 +358,9 @@ static void leave_dull(sw_contact *c) {
 
 /* What meets its obstacle first strikes first, and what does so at once, the fastest first,
  * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
-static int review_touches(sw_contact *c, sw_system *s, double h) {
+int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull) {
   int changed = 0;
+  if (dull) leave_dull(c);
   if (!c->pressed_count || !any_strikes(c, s, h) ||
       sw_grow((void **)&c->turns, &c->turn_capacity, c->pressed_count, sizeof *c->turns) != SW_OK)
     return 0;
@@ -367,169 +372,4 @@ static int review_touches(sw_contact *c, sw_system *s, double h) {
     changed |= strike(c, s, t, h);
   }
   return changed;
-}
-
-/* Did every node stay within the reach that its candidates were chosen for? */
-static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
-  double wider = 1.0;
-  for (size_t i = 0; i < s->nodes; i++) {
-    const sw_vec v = sw_load(s->v + 3 * i), way = sw_sub(sw_vec_at(x1, i), sw_vec_at(s->x, i));
-    if (sw_norm2(way) <= SW_FLIGHT_LEAST * SW_FLIGHT_LEAST) continue;
-    const double flight = sw_flight_reserve(c, s, v);
-    const double shift = sw_norm(way);
-    if (shift > flight * c->widening) wider = fmax(wider, shift / flight);
-  }
-  if (wider <= 1.0) return 0;
-  c->widening = 1.5 * wider;
-  return 1;
-}
-
-/* A step may leave a touch this much deeper than it found it; the law's own
- * depth is below half of that [m]. */
-static const double DEEPER = 1e-4;
-/* What has the softness of a section is meant to give way; of the radius [-]. */
-static const double SQUEEZED = 0.2;
-/* In steps below this share of the nominal one depth is taken as it comes [-]. */
-static const double SMALLEST_CARE = 1.0 / 64;
-
-/* How deep the candidate's wire is at a place near its obstacle [m]. */
-static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_pose *pose,
-                       const sw_closest *near) {
-  const sw_vec normal = sw_rotate(pose->q, near->normal);
-  return k->skin - near->gap - sw_contact_aslant(c, k->node, k->other, near->at, normal);
-}
-
-static double depth_of_curve(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                             const sw_contact_at *at, const double *x) {
-  sw_piece piece;
-  sw_places list;
-  double most = 0;
-  if (!sw_contact_piece(c, s, k, at, x, k->skin, &piece)) return 0;
-  sw_contact_places(c, k, &piece, k->skin, &list);
-  for (size_t i = 0; i < list.count; i++) most = fmax(most, k->skin - list.place[i].near.gap);
-  return most;
-}
-
-/* The same with positions x, where it is deepest. */
-static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                       const sw_contact_at *at, const double *x) {
-  double deepest = k->smooth && k->segment ? depth_of_curve(c, s, k, at, x) : 0.0;
-  if (k->smooth && k->segment && !k->round) return deepest;
-  const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  const sw_pose *pose = &at[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
-  sw_closest near[SW_CLOSEST_MAX];
-  near[0].at = 0;
-  if (!k->segment) {
-    if (!sw_shape_point(shape, a, k->skin, &near[0])) return 0;
-    if (k->smooth && sw_contact_is_segments(c, s, k, at, x, &near[0])) return 0;
-    return depth_of(c, k, pose, &near[0]);
-  }
-  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
-  for (int i = 0; i < k->samples; i++) {
-    near[0].at = sw_sample_at(k, i);
-    if (sw_shape_point(shape, sw_lerp(a, b, near[0].at), k->skin, &near[0]))
-      deepest = fmax(deepest, depth_of(c, k, pose, &near[0]));
-  }
-  if (k->samples) return deepest;
-  const int n = sw_shape_segment(shape, a, b, k->skin, near);
-  for (int i = 0; i < n; i++)
-    if (!k->round || !sw_contact_is_rounds(c, k, a, b, near[i].at))
-      deepest = fmax(deepest, depth_of(c, k, pose, &near[i]));
-  return deepest;
-}
-
-/* Did the wire come far enough in the step to be deeper by so much? If not, a node has come from an
- * edge, over which the smooth curve counts, to a face, where it is the node: no smaller step would
- * help. */
-static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                    const double *x1, double more) {
-  if (!k->smooth || c->broad.moves[k->obstacle]) return 1;
-  const sw_body *b = &s->bodies[k->body];
-  const size_t end = b->first_node + b->plan->nodes;
-  for (size_t i = k->node > b->first_node ? k->node - 1 : k->node; i < end && i <= k->node + 2; i++)
-    if (sw_dist(sw_vec_at(x1, i), sw_vec_at(s->x, i)) >= more) return 1;
-  return 0;
-}
-
-/* The law works with places and normals of the last iterate; on edges and
- * corners these may be stale at the step's end. */
-static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
-  if (h < SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
-  for (size_t i = 0; i < c->candidate_count; i++) {
-    const sw_candidate *k = &c->candidates[i];
-    if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
-    const double depth = depth_at(c, s, k, c->now, x1);
-    const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more &&
-        may_sink(c, s, k, x1, more))
-      return 1;
-  }
-  return 0;
-}
-
-/* An impulse at the step's start knows nothing of what forces drive into an obstacle within the
- * step. The integrator makes such a touch bounce: of an obstacle that moves, which does work in
- * that, step after step; and of a mesh, which would hop by g h^2 for ever, the restart at each
- * landing giving it back what damping takes. A plastic step does not bounce. 1 = one is needed,
- * once in a step. */
-static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
-  if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->known || !(t->press.normal_force > 0) || c->obstacles[t->obstacle].restitution > 0)
-      continue;
-    const sw_vec wall = sw_obstacle_velocity(&c->now[t->obstacle], t->point);
-    const int moves = fabs(sw_dot(wall, t->press.normal)) > SW_SLOWEST_IMPACT;
-    if (!moves && !s->bodies[t->body].plan->web) continue;
-    const sw_vec v = sw_sub(sw_mean_of(v1, 0, &t->spot), wall);
-    if (sw_dot(v, t->press.normal) > SW_SLOWEST_IMPACT) return c->plastic = 1;
-  }
-  return 0;
-}
-
-/* A barrier holds a place as by an endless face, where the obstacle may end just above it. Bearing
- * more than so many weights of its wire, or of the force that bends it, it is in the way of a wire
- * that would pass over; a smaller step knows [-]. */
-static const double MOST_BORNE = 10.0;
-
-static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
-  if (!c->barrier_count || h < SMALLEST_CARE * c->nominal) return 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_touch *t = &c->touches[i];
-    if (t->feature != SW_BEHIND_BARRIER || !(t->press.normal_force > 0)) continue;
-    const double usual = sw_contact_usual_force(s, s->bodies[t->body].plan);
-    if (t->press.normal_force > MOST_BORNE * usual) return 1;
-  }
-  return 0;
-}
-
-sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
-                                     const double *v1, double h, int dull) {
-  sw_error err;
-  const int hasty = c->hasty;
-  c->hasty = 0;
-  if (went_too_far(c, s, x1)) {
-    c->pressed_count = 0;
-    return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
-  }
-  /* impulses must not see what their neighbours did to the edges between them */
-  double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
-  for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
-  c->soonest = HUGE_VAL;
-  const int crossed = sw_contact_cross(c, s, x1, h);
-  if (dull) leave_dull(c);
-  const int struck = review_touches(c, s, h);
-  c->careful |= hasty && !struck;
-  for (size_t e = 0; e < s->rolls; e++) rates[e] += kicks[e];
-  c->pressed_count = 0;
-  if (c->soonest < h) return SW_CONTACT_SOONER;
-  if (crossed || struck || hasty) return SW_CONTACT_REDO;
-  if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
-  const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);
-  return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
-}
-
-int sw_contact_review_static(sw_contact *c, sw_system *s, const double *x1) {
-  return sw_contact_cross(c, s, x1, 0.0);
 }

@@ -61,7 +61,7 @@ void sw_press_activate(sw_press *p, const sw_press *last) {
  * themselves, and among many touches the slope of one says little of the others [-]. */
 enum { ALTERNATIONS = 4 };
 
-void sw_press_take_lag(sw_press *p, const sw_press *last) {
+static void take_lag(sw_press *p, const sw_press *last) {
   const double error = last->normal_force - last->lag;
   const double error_before = last->force_before - last->lag_before;
   p->lag_before = last->lag, p->force_before = last->normal_force;
@@ -70,6 +70,16 @@ void sw_press_take_lag(sw_press *p, const sw_press *last) {
   p->alternations = last->alternations + 1;
   if (p->alternations >= ALTERNATIONS)
     p->lag = last->lag + (last->lag_before - last->lag) * error / (error - error_before);
+}
+
+void sw_press_resume(sw_press *p, const sw_kept *kept, const sw_press *last, int goes_on,
+                     double guess) {
+  p->lag = kept ? kept->normal_force : guess;
+  if (last) take_lag(p, last);
+  if (goes_on)
+    p->sliding = last->next_sliding;
+  else if (kept)
+    p->sliding = kept->sliding;
 }
 
 /* What a vector has across a normal. */
@@ -290,14 +300,12 @@ int sw_press_lies(const sw_press *p) { return p->gap_after <= PLACED; }
 
 int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED : DEEPEST); }
 
-double sw_press_forgiven(double depth, double explained, double h, int slowly) {
+sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
-  return fmax(0.0, depth - explained - speed * h - PLACED);
-}
-
-double sw_press_let_out(double depth, double explained, double forgiven) {
+  const double explained = kept ? kept->depth : 0.0;
+  const double forgiven = fmax(0.0, depth - explained - speed * h - PLACED);
   const double left = depth - explained - forgiven;
-  return left > PLACED ? left : 0.0;
+  return (sw_left){forgiven, left > PLACED ? left : 0.0};
 }
 
 int sw_press_is_short(int statics, double h, double nominal) {
@@ -312,8 +320,31 @@ double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double
   return forgiven - p->gap_after < before + DEEPER ? p->k : p->k * LARGEST_STEP;
 }
 
-double sw_press_eased(const sw_press *p, double usual, double k) {
+static double eased(const sw_press *p, double usual, double k) {
   const double depth = p->normal_force / p->k;
   if (!(k > usual) || !(depth < NEEDLESS * DEEPEST)) return k;
   return fmax(usual, EASING * k);
+}
+
+sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer) {
+  sw_kept out = {.normal_force = p->normal_force,
+                 .depth = p->normal_force / p->k,
+                 .k = eased(p, usual, stiffer),
+                 .steady = p->normal_force,
+                 .soft = p->soft,
+                 .sliding = p->next_sliding};
+  if (p->normal_force > 0) out.elastic = sw_scale(p->tangential, -1.0 / sw_press_grip(p));
+  return out;
+}
+
+void sw_kept_as_felt(sw_kept *k) {
+  if (k->normal_force > 0 && k->depth > 0) k->k = k->normal_force / k->depth;
+}
+
+sw_press sw_press_felt(const sw_kept *kept) {
+  sw_kept k = *kept;
+  sw_kept_as_felt(&k);
+  sw_press p = {.k = k.k, .soft = k.soft, .normal_force = k.normal_force, .gap_after = -k.depth};
+  p.tangential = sw_scale(k.elastic, -sw_press_grip(&p));
+  return p;
 }

@@ -47,16 +47,38 @@ static inline double sw_press_grip(const sw_press *p) {
   return p->soft > 0 ? p->k / p->soft : p->k;
 }
 
+/* What a touch keeps of all that from step to step, whatever touches. */
+typedef struct sw_kept {
+  double normal_force; /* 0: near, but without force [N] */
+  double depth;        /* that goes with it [m] */
+  double k;            /* to begin the next step with [N/m] */
+  double steady;       /* normal force that it has had for a while; so far, that at the end [N] */
+  double soft;         /* as above [-] */
+  sw_vec elastic;      /* displacement of friction's spring [m] */
+  int sliding;
+} sw_kept;
+
+/* At a step's end. usual: of a new touch, stiffer: from the next iterate on [N/m]. It goes on as
+ * stiff as it was, for a change would be a kick, but one that was made stiffer than it has to be
+ * gives way slowly. */
+sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer);
+/* The other way round, as the force was over its depth: for what looks at an accepted state. */
+void sw_kept_as_felt(sw_kept *kept);
+sw_press sw_press_felt(const sw_kept *kept);
+
 /* A touch that pushed after the last solve goes on in this iterate even if turning normals
  * have opened its gap a little: letting go of it would let the wires fall into each other.
  * The next solve tells. Nor does the first pull end a touch with spare ones. last: the same touch
  * in the iterate before, or NULL. */
 void sw_press_activate(sw_press *press, const sw_press *last);
 
-/* The normal force for friction to take as given, from the same touch in the iterate
- * before. Taking just its force may go to and fro for ever, more at each turn where friction
- * presses the touch: then by the secant through the last two. */
-void sw_press_take_lag(sw_press *press, const sw_press *last);
+/* The normal force for friction to take as given, and whether it slides, by what is known: kept, at
+ * the last accepted step, NULL if it did not press; last, in the iterate before, or NULL, which
+ * counts when the touch goes on; else guess [N]. Taking just the last iterate's force may go to and
+ * fro for ever, more at each turn where friction presses the touch: then by the secant through the
+ * last two. */
+void sw_press_resume(sw_press *press, const sw_kept *kept, const sw_press *last, int goes_on,
+                     double guess);
 
 /* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
  * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff
@@ -111,13 +133,15 @@ int sw_press_lies(const sw_press *press);
  * there. first: nothing at all touched before. */
 int sw_press_was_put(double depth, int first);
 
-/* Part of a depth at the step's start that the step leaves alone, explained being what goes
- * with the touch's force there: what was placed in each other, or comes out of a barrier, is
- * let out slowly, for within one step the whole depth would turn into speed [m]. */
-double sw_press_forgiven(double depth, double explained, double h, int slowly);
-/* Part of the same that is let out in this step: 0 where it is no more than a gap's rounding, as
- * of a wire that is laid on a table [m]. */
-double sw_press_let_out(double depth, double explained, double forgiven);
+/* Of a depth at the step's start, when the touch was last what is kept, or NULL. What was placed in
+ * each other, or comes out of a barrier, is let out slowly, for within one step the whole depth
+ * would turn into speed. */
+typedef struct sw_left {
+  double forgiven; /* the step leaves this alone [m] */
+  double let_out;  /* nothing explains this and the step ends it: 0 where it is no more than a gap's
+                      rounding, as of a wire that is laid on a table [m] */
+} sw_left;
+sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly);
 
 /* Forces after an update that shifted the touch; 1 = they agree with what the solve
  * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
@@ -149,10 +173,5 @@ int sw_press_is_short(int statics, double h, double nominal);
  * one it has [N/m]. usual: of a new touch. before: how deep the wire was at the step's start in
  * a short step, else negative [m]. forgiven: see above. */
 double sw_press_stiffer(const sw_press *press, double usual, double forgiven, double before);
-
-/* The stiffness to begin the next step with, when k is what this one ended with: a touch goes
- * on as stiff as it was, for a change would be a kick, but one that was made stiffer than it
- * has to be gives way slowly [N/m]. */
-double sw_press_eased(const sw_press *press, double usual, double k);
 
 #endif

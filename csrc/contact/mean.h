@@ -1,36 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A place of a wire as a mean of nodes. */
+/* A place of what has nodes, as a mean of some: of a wire's chord or smooth curve, of an edge
+ * between particles, or one node alone. */
 #ifndef SW_CONTACT_MEAN_H
 #define SW_CONTACT_MEAN_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/vec.h"
 
 enum { SW_MEAN_MOST = 3 };
 
 typedef struct sw_mean {
-  size_t count;
-  size_t node[SW_MEAN_MOST];
-  double w[SW_MEAN_MOST]; /* their shares; the sum is 1 [-] */
+  uint32_t count;
+  uint32_t node[SW_MEAN_MOST]; /* in the system's arrays */
+  double w[SW_MEAN_MOST];      /* their shares; the sum is 1 [-] */
 } sw_mean;
 
 static inline sw_mean sw_mean_chord(size_t node, size_t other, double at) {
-  if (node == other) return (sw_mean){1, {node, node, node}, {1.0, 0, 0}};
-  return (sw_mean){2, {node, other, other}, {1.0 - at, at, 0}};
+  const uint32_t a = (uint32_t)node, b = (uint32_t)other;
+  if (a == b) return (sw_mean){1, {a, a, a}, {1.0, 0, 0}};
+  return (sw_mean){2, {a, b, b}, {1.0 - at, at, 0}};
 }
 
-/* On the smooth curve of a wire of nodes from first to last, s edges from the first: a quadratic
- * B-spline that they control, touching the edges in their middles. Its first and last half edge are
- * straight. */
+/* On a smooth curve's piece around the node after this one: a quadratic B-spline that nodes
+ * control, touching their edges in the middles. There v is 0 and 1. */
+static inline sw_mean sw_mean_around(size_t before, double v) {
+  const double a = 0.5 * (1.0 - v) * (1.0 - v), e = 0.5 * v * v;
+  const uint32_t n = (uint32_t)before;
+  return (sw_mean){3, {n, n + 1, n + 2}, {a, 1.0 - a - e, e}};
+}
+
+/* On the curve of a wire of nodes from first to last, s edges from the first. Its first and last
+ * half edge are straight. */
 static inline sw_mean sw_mean_curve(size_t first, size_t last, double s) {
   const double edges = (double)(last - first);
   if (s <= 0.5 || edges < 2) return sw_mean_chord(first, first + 1, fmin(fmax(s, 0), 1));
   if (s >= edges - 0.5) return sw_mean_chord(last - 1, last, fmin(s - edges + 1.0, 1));
-  const double centre = floor(s + 0.5), v = s - centre + 0.5;
-  const double a = 0.5 * (1.0 - v) * (1.0 - v), e = 0.5 * v * v;
-  const size_t p = first + (size_t)centre;
-  return (sw_mean){3, {p - 1, p, p + 1}, {a, 1.0 - a - e, e}};
+  const double centre = floor(s + 0.5);
+  return sw_mean_around(first + (size_t)centre - 1, s - centre + 0.5);
 }
 
 /* The same mean of what nodes have (n x 3), the first of which has this number. */

@@ -3,12 +3,7 @@
 #ifndef SW_CONTACT_PAIR_H
 #define SW_CONTACT_PAIR_H
 
-#include <stdint.h>
-
-#include "contact/bow.h"
-#include "contact/law.h"
-#include "contact/pairs.h"
-#include "contact/spot.h"
+#include "contact/meet.h"
 
 /* Two segments, by their first nodes in the system's arrays; one < two. */
 typedef struct sw_near {
@@ -41,41 +36,10 @@ typedef struct sw_pair {
   double stops; /* stiffness that stops the lighter one within the step, by its mass alone [N/m] */
 } sw_pair;
 
-/* Where wires cross they touch at their nearest places; where they lie along each other, nodes of
- * both do at the places nearest to them. */
-typedef enum sw_pair_kind { SW_CROSSING, SW_NODE_OF_ONE, SW_NODE_OF_TWO } sw_pair_kind;
-
-typedef struct sw_pair_touch {
-  uint32_t pair; /* number in the list of pairs */
-  sw_pair_kind kind;
-  size_t stage;    /* in which it was found */
-  double at[2];    /* along the segments [-] */
-  sw_bow bow[2];   /* as places of the wires */
-  int slides[2];   /* 1: the place along that segment follows the nearest points */
-  int far;         /* 1: too far from its last place for its force to be known */
-  int barred;      /* kept on its side by a barrier */
-  int emerges;     /* the wires were placed in each other here, and still come out */
-  double stiffer;  /* its stiffness from the next iterate on [N/m] */
-  double aslant;   /* what a barrier's fixed normal takes off the distance [m] */
-  double forgiven; /* part of the true depth left out of the gap in this step [m] */
-  double let_out;  /* part of the true depth that nothing explains and this step ends [m] */
-  double steady;   /* normal force that it had had for a while at the step's start [N] */
-  sw_vec square;   /* its normal, were it not leaning [-] */
-  sw_press press;  /* its normal is towards segment one */
-} sw_pair_touch;
-
-/* Kept between steps. */
-typedef struct sw_pair_memory {
-  uint32_t one, two;
-  sw_pair_kind kind;
-  double at[2];
-  double normal_force, depth, k; /* [N], [m], [N/m] */
-  double steady;                 /* normal force that it has had for a while [N] */
-  sw_vec normal;                 /* [-] */
-  sw_vec elastic;                /* displacement of the friction spring [m] */
-  int sliding, emerges;
-  int smooth; /* as the pair was */
-} sw_pair_memory;
+/* Two segments as what may touch. */
+static inline sw_ends sw_segments(uint32_t one, uint32_t two, const uint32_t body[2]) {
+  return (sw_ends){{one, two}, {one + 1, two + 1}, {body[0], body[1]}};
+}
 
 /* Segments kept on one side of each other for the rest of the step. */
 typedef struct sw_pair_barrier {
@@ -84,19 +48,9 @@ typedef struct sw_pair_barrier {
   sw_vec normal;
 } sw_pair_barrier;
 
-struct sw_pairs {
-  sw_pair_rule *rules;
-  size_t bodies;
-  sw_contact_regime regime;
-  double h, nominal;      /* [s] */
-  size_t stage;           /* number of the stage, counted all along */
-  double first;           /* share of the step's first stage in what this one begins from [-] */
-  double *base_stiffness; /* (bodies) for the forces of each [N/m] */
-  double *edge;           /* (bodies) the longest of each [m] */
-  sw_rubbing *rubbing;    /* (bodies) of each one's touches, after an update */
-  int updates;            /* of the stage so far [-] */
-  double *largest;        /* (bodies) normal force that its friction takes as given [N] */
-  double rate2;           /* stiffness per mass [1/s2] */
+typedef struct sw_pairs {
+  sw_mutual m;  /* first of all: a pointer to it is one to this */
+  double *edge; /* (bodies) the longest of each [m] */
 
   /* segments near each other, for many steps */
   sw_near *near;
@@ -106,45 +60,44 @@ struct sw_pairs {
   double listed_reach; /* gap up to which it is complete there [m] */
   double *before;      /* (nodes x 3) positions at the last step's start [m] */
   double *travel;      /* (nodes) length of the way since the list was made [m] */
-  void *grid;          /* work of the search */
-  size_t grid_capacity;
 
-  sw_pair *pairs;
-  size_t pair_count, pair_capacity;
-  sw_pair_touch *touches, *last; /* of this iterate and of the one before */
-  size_t touch_count, touch_capacity, last_count, last_capacity;
-  sw_spots spots;         /* work of the refinement */
-  sw_pair_touch *pressed; /* with a force at the end of a stage of this trial */
-  size_t pressed_count, pressed_capacity;
-  sw_pair_memory *memory, *next_memory;
-  size_t memory_count, memory_capacity, next_count, next_capacity;
-  sw_pair_barrier *barriers;
-  size_t barrier_count, barrier_capacity;
-  size_t impact_count;  /* places that struck in this step */
-  double fall;          /* that gravity closes in the step, with reserve [m] */
-  double least_left;    /* minus the least gap of segments not chosen [m] */
-  double least_reserve; /* gap up to which all are chosen in this step [m] */
-};
+  sw_pair *pairs; /* (m.pair_count) */
+  size_t pair_capacity;
+  sw_pair_barrier *barriers; /* (m.barrier_count) */
+  size_t barrier_capacity;
+  double least_left; /* minus the least gap of segments not chosen [m] */
+} sw_pairs;
+
+/* The edge that begins at a node. */
+static inline sw_vec sw_edge_at(const double *x, size_t node) {
+  return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
+}
+
+static inline sw_pairs *sw_pairs_of(sw_mutual *m) { return (sw_pairs *)(void *)m; }
 
 /* Make the list of near segments anew when it does not cover gaps up to reach. */
 sw_status sw_pairs_list(sw_pairs *pairs, const sw_system *system, double reach);
 
-/* Choose those that may touch in the step. */
-sw_status sw_pairs_choose(sw_pairs *pairs, sw_system *system);
+/* The largest distance of nodes between two sets of positions [m]. */
+double sw_pairs_largest_move(const double *x0, const double *x1, size_t nodes);
+/* The sum of two bodies' [m]. */
+double sw_pair_radii(const sw_system *system, const uint32_t body[2]);
 
-/* Add a touch's force on segment one, and its opposite on segment two, at positions y; K
- * (upper half) is its stiffness, NULL = no stiffness wanted. */
-sw_status sw_pair_add(sw_system *system, const sw_pair *pair, const sw_pair_touch *touch,
-                      const double *y, sw_vec force, const double *K);
+/* What sw_finder says. */
+sw_status sw_pairs_choose(sw_mutual *pairs, sw_system *system);
+sw_status sw_pairs_find(sw_mutual *pairs, const sw_system *system, const double *y);
+int sw_pairs_widen(sw_mutual *pairs, sw_system *system, const double *x1, double h);
+int sw_pairs_cross(sw_mutual *pairs, const sw_system *system, const double *x1);
+int sw_pairs_cuts(const sw_mutual *pairs, const sw_system *system, const double *x1);
 
 /* The pairs were chosen: where each finds its neighbours and its memory. */
 void sw_pairs_match(sw_pairs *pairs);
 /* Of a place on two wires: the nearest one remembered, within a segment on both, or NULL. */
-const sw_pair_memory *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
-                                     sw_pair_kind kind);
+const sw_met *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
+                             sw_meet_kind kind);
 /* The same touch in the iterate before, or NULL. */
-const sw_pair_touch *sw_pair_last(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
-                                  sw_pair_kind kind);
+const sw_meet *sw_pair_last(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
+                            sw_meet_kind kind);
 /* How far places along segments of pairs are from each other, along both wires together, in edges
  * [-]. */
 double sw_pair_between(const sw_pair *pair, const double at[2], const sw_pair *other,
@@ -152,25 +105,5 @@ double sw_pair_between(const sw_pair *pair, const double at[2], const sw_pair *o
 /* Two places along segments of pairs are one. */
 int sw_pair_is_same(const sw_pair *pair, const double at[2], const sw_pair *other,
                     const double there[2]);
-
-/* Nearest points of two segments: places along them, distance returned [m]. */
-double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
-
-/* The second derivative of half the squared distance by a place along a wire [m2]: of its slope
- * squared, its bend along the distance, and how firmly it keeps to the middle of its edge [m2],
- * [m2], [-]. */
-double sw_pair_rise(double along2, double bends, double firm);
-
-/* Say why looking for pairs failed. */
-sw_status sw_pairs_fail(sw_status status, sw_error *err);
-
-static inline const sw_pair_rule *sw_pair_rule_of(const sw_pairs *p, const uint32_t body[2]) {
-  return &p->rules[p->bodies * body[0] + body[1]];
-}
-
-/* The material at a touch: place on wire one minus that on two. */
-static inline sw_vec sw_pair_apart(const double *x, const sw_bow bow[2]) {
-  return sw_sub(sw_bow_place(x, &bow[0]), sw_bow_place(x, &bow[1]));
-}
 
 #endif

@@ -25,10 +25,6 @@ static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
-static sw_vec edge_of(const double *x, size_t node) {
-  return sw_sub(sw_vec_at(x, node + 1), sw_vec_at(x, node));
-}
-
 /* Do the wires meet by chords wherever they do? One answer for all their segments. */
 static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (n->body[0] == n->body[1]) return 1; /* where it coils up it lies along itself at any angle */
@@ -37,35 +33,24 @@ static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   return !(one + two < ROUND * fmax(p->edge[n->body[0]], p->edge[n->body[1]]));
 }
 
-/* How far the nodes at an edge's ends are from the middles of their neighbours, at most [m]; and
- * the curvature that goes with it [1/m]. */
-static double off_middle(const sw_system *s, uint32_t body, uint32_t node, double *curvature) {
-  const sw_body *b = &s->bodies[body];
+double sw_pair_off_middle(const sw_body *b, uint32_t node, const double *x) {
   const size_t i = node - b->first_node;
   double most = 0;
   for (size_t j = i; j < i + 2; j++) {
-    if (j == 0 || j == b->plan->edges) continue;
-    const sw_vec before = edge_of(s->x, b->first_node + j - 1);
-    most = fmax(most, sw_norm2(sw_sub(edge_of(s->x, b->first_node + j), before)));
+    if (j == 0 || j >= b->plan->edges) continue;
+    const sw_vec before = sw_edge_at(x, b->first_node + j - 1);
+    most = fmax(most, sw_norm2(sw_sub(sw_edge_at(x, b->first_node + j), before)));
   }
-  const double off = sqrt(most), h = b->plan->rest[i];
-  if (curvature) *curvature = off / (h * h);
-  return off;
+  return sqrt(most);
 }
 
 double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (are_fine(p, s, n)) return 0;
-  return 0.125 *
-         (off_middle(s, n->body[0], n->one, NULL) + off_middle(s, n->body[1], n->two, NULL));
+  return 0.125 * (sw_pair_off_middle(&s->bodies[n->body[0]], n->one, s->x) +
+                  sw_pair_off_middle(&s->bodies[n->body[1]], n->two, s->x));
 }
 
 /* --- places ----------------------------------------------------------------------------------- */
-
-/* On a curve's piece around a node: at the middle between edges v is 0 or 1. */
-static sw_bow around(uint32_t before, double v) {
-  const double a = 0.5 * (1.0 - v) * (1.0 - v), c = 0.5 * v * v;
-  return (sw_bow){before, 3, {a, 1.0 - a - c, c}, {v - 1.0, 1.0 - 2.0 * v, v}};
-}
 
 /* The curve goes on beside its segment, by half an edge. Its first and last halves of one are
  * straight. */
@@ -75,13 +60,7 @@ sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
   const size_t i = node - b->first_node;
   const uint32_t late = at >= 0.5;
   if (!k->smooth || (late ? i + 1 == b->plan->edges : i == 0)) return sw_bow_chord(node, at);
-  return around(node + late - 1, late ? at - 0.5 : at + 0.5);
-}
-
-/* The second derivative of half the squared distance by a place, firmness added; the curve never
- * bends so much that a place is none of the nearest [m2]. */
-double sw_pair_rise(double along2, double bends, double firm) {
-  return fmax(along2 * (1.0 + firm) + bends, 0.3 * along2);
+  return sw_bow_around(node + late - 1, late ? at - 0.5 : at + 0.5);
 }
 
 /* Both places, and how far they may go. */
@@ -132,13 +111,13 @@ static search find(const sw_system *s, const sw_pair *k, const double *y, const 
   search f = begin(s, k, at);
   for (int turn = 0; turn < MOST_TURNS; turn++) {
     const sw_bow bow[2] = {sw_pair_bow(s, k, 0, f.at[0]), sw_pair_bow(s, k, 1, f.at[1])};
-    const sw_vec d = sw_pair_apart(y, bow);
+    const sw_vec d = sw_bows_apart(y, bow);
     const sw_vec a = sw_bow_along(y, &bow[0]), b = sw_bow_along(y, &bow[1]);
     const double aa = sw_norm2(a), bb = sw_norm2(b);
     const double rest[2] = {sw_dot(a, d) + k->firm[0] * aa * (f.at[0] - 0.5),
                             -sw_dot(b, d) + k->firm[1] * bb * (f.at[1] - 0.5)};
-    const double rise[2] = {sw_pair_rise(aa, sw_dot(d, sw_bow_bend(y, &bow[0])), k->firm[0]),
-                            sw_pair_rise(bb, -sw_dot(d, sw_bow_bend(y, &bow[1])), k->firm[1])};
+    const double rise[2] = {sw_meet_rise(aa, sw_dot(d, sw_bow_bend(y, &bow[0])), k->firm[0]),
+                            sw_meet_rise(bb, -sw_dot(d, sw_bow_bend(y, &bow[1])), k->firm[1])};
     step(&f, rest, rise, sw_dot(a, b));
     if (fabs(f.ahead[0]) < SHARP && fabs(f.ahead[1]) < SHARP) break;
   }
@@ -160,7 +139,7 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
 static const double ALONG = 0.2;
 
 static int runs_along(const double *x, const sw_pair *k) {
-  const sw_vec u = edge_of(x, k->one), v = edge_of(x, k->two);
+  const sw_vec u = sw_edge_at(x, k->one), v = sw_edge_at(x, k->two);
   return sw_norm2(sw_cross(u, v)) < ALONG * ALONG * sw_norm2(u) * sw_norm2(v);
 }
 
@@ -177,13 +156,15 @@ void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
   const sw_near n = {.one = k->one, .two = k->two, .body = {k->body[0], k->body[1]}};
   const double middle[2] = {0.5, 0.5};
   if (are_fine(p, s, &n) || (k->parallel && runs_along(s->x, k))) return;
-  const sw_pair_memory *m = sw_pair_recall(p, k, middle, SW_CROSSING);
+  const sw_met *m = sw_pair_recall(p, k, middle, SW_CROSSING);
   k->smooth = 1; /* to find the curves' place */
   k->smooth = crosses(s, k, m && m->smooth ? STILL_ACROSS : ACROSS);
   k->parallel &= !k->smooth;
   for (int side = 0; side < 2 && k->smooth; side++) {
-    double curvature;
-    off_middle(s, k->body[side], side ? k->two : k->one, &curvature);
+    const sw_body *b = &s->bodies[k->body[side]];
+    const uint32_t node = side ? k->two : k->one;
+    const double h = b->plan->rest[node - b->first_node];
+    const double curvature = sw_pair_off_middle(b, node, s->x) / (h * h);
     k->firm[side] = fmax(0.0, k->reach * curvature - GOES_ROUND);
     k->lone[side] = fmax(0.0, 1.0 - k->firm[side] / (1.0 - GOES_ROUND));
   }
@@ -194,7 +175,7 @@ static sw_vec square_to(sw_vec v, sw_vec along) {
 }
 
 sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2]) {
-  const sw_vec d = sw_pair_apart(y, bow);
+  const sw_vec d = sw_bows_apart(y, bow);
   const sw_vec a = sw_bow_along(y, &bow[0]), b = sw_bow_along(y, &bow[1]);
   const sw_vec across = sw_cross(a, b), up = sw_v(0, 0, 1);
   if (slides[0] && slides[1])
@@ -203,8 +184,8 @@ sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2])
   return sw_unit_or(square_to(d, slides[0] ? a : b), up);
 }
 
-sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y,
-                       const sw_pair_touch *t, sw_vec normal, double steady) {
+sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y, const sw_meet *t,
+                       sw_vec normal, double steady) {
   sw_vec out = normal;
   if (!k->smooth || !(steady > 0)) return normal;
   for (int side = 0; side < 2; side++) {

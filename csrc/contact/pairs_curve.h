@@ -8,6 +8,9 @@
 
 /* How the wires of a new pair meet, at the step's start. */
 void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k);
+/* How far the nodes at the ends of the edge that begins at a node are from the middles of their
+ * neighbours, at most, twice [m]. */
+double sw_pair_off_middle(const sw_body *b, uint32_t node, const double *x);
 /* How far the smooth curves of two segments stand off them together, where they may meet by those
  * [m]. */
 double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n);
@@ -20,7 +23,7 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
 /* Towards wire one there, square to what may slide. */
 sw_vec sw_pair_normal(const double *y, const sw_bow bow[2], const int slides[2]);
 /* The same for a touch that has had this normal force for a while [N]. */
-sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y,
-                       const sw_pair_touch *t, sw_vec normal, double steady);
+sw_vec sw_pair_leaning(const sw_system *s, const sw_pair *k, const double *y, const sw_meet *t,
+                       sw_vec normal, double steady);
 
 #endif

@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "base/simd.h"
-#include "contact/cell.h"
+#include "contact/cells.h"
 #include "contact/pairs_curve.h"
 #include "system/join.h"
 
@@ -30,72 +30,13 @@ double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at
   return sw_dist(sw_madd(a0, u, s), sw_madd(b0, v, t));
 }
 
-/* --- grid ------------------------------------------------------------------------ */
-
-/* Work of one search: segments by cell, in a hash table of lists. */
-typedef struct grid {
-  size_t size;           /* of the table, a power of two */
-  uint32_t *head, *next; /* (size) first segment + 1; (segments) the one after + 1 */
-  uint32_t *node, *body; /* (segments) */
-  sw_cell *cells;        /* (segments) */
-  size_t count;
-  double width; /* of a cell [m] */
-} grid;
-
-static sw_vec middle_of(const double *x, uint32_t node) {
-  return sw_lerp(sw_vec_at(x, node), sw_vec_at(x, node + 1u), 0.5);
-}
-
-/* 1: some wire of the rules takes part. */
-/* Meshes of particles have no edges and so no pairs; the scene refuses rules for them. */
-static int takes_part(const sw_pairs *p, size_t body) {
-  for (size_t k = 0; k < p->bodies; k++)
-    if (p->rules[p->bodies * body + k].on) return 1;
-  return 0;
-}
-
-static double longest_segment(const sw_pairs *p, const sw_system *s) {
-  double longest = 0;
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
-    for (size_t e = 0; takes_part(p, b) && e < body->plan->edges; e++) {
-      const double *x = s->x + 3 * (body->first_node + e);
-      longest = fmax(longest, sw_norm2(sw_sub(sw_load(x + 3), sw_load(x))));
-    }
-  }
-  return sqrt(longest);
-}
+/* --- the list ------------------------------------------------------------------ */
 
 static double widest_radius(const sw_pairs *p, const sw_system *s) {
   double widest = 0;
   for (size_t b = 0; b < s->body_count; b++)
-    if (takes_part(p, b)) widest = fmax(widest, s->bodies[b].plan->beam.radius);
+    if (sw_mutual_takes_part(&p->m, b)) widest = fmax(widest, s->bodies[b].plan->beam.radius);
   return widest;
-}
-
-static sw_status fill_grid(sw_pairs *p, const sw_system *s, double width, grid *g) {
-  *g = (grid){.size = 64, .width = width};
-  while (g->size < 2 * s->nodes) g->size *= 2;
-  const size_t words = g->size + 6 * s->nodes;
-  SW_TRY(sw_grow(&p->grid, &p->grid_capacity, words, sizeof(uint32_t)));
-  g->head = p->grid;
-  g->next = g->head + g->size;
-  g->node = g->next + s->nodes, g->body = g->node + s->nodes;
-  g->cells = (sw_cell *)(g->body + s->nodes);
-  memset(g->head, 0, g->size * sizeof *g->head);
-  for (size_t b = 0; b < s->body_count; b++) {
-    const sw_body *body = &s->bodies[b];
-    if (!takes_part(p, b)) continue;
-    for (size_t e = 0; e < body->plan->edges; e++) {
-      const size_t k = g->count++;
-      g->node[k] = (uint32_t)(body->first_node + e), g->body[k] = (uint32_t)b;
-      g->cells[k] = sw_cell_of(g->width, middle_of(s->x, g->node[k]));
-      uint32_t *head = &g->head[sw_cell_bucket(g->cells[k], g->size)];
-      g->next[k] = *head;
-      *head = (uint32_t)k + 1;
-    }
-  }
-  return SW_OK;
 }
 
 /* A wire bent as tightly as its radius allows meets itself after pi radii of its length;
@@ -107,7 +48,7 @@ static int apart_along(const sw_system *s, const sw_near *n) {
   return j > i + 1 && b->plan->s[j] - b->plan->s[i + 1] >= M_PI * b->plan->beam.radius;
 }
 
-static double radii(const sw_system *s, const uint32_t body[2]) {
+double sw_pair_radii(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
 }
 
@@ -117,16 +58,26 @@ static const double AT_A_JOIN = 4.0;
 /* More pairs than this near each other are of segments much shorter than the wire is thick [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-static sw_status look_at(sw_pairs *p, const sw_system *s, const grid *g, size_t k, size_t m) {
-  sw_near n = {.one = g->node[k], .two = g->node[m], .body = {g->body[k], g->body[m]}};
+/* A search for those near each other. */
+typedef struct search {
+  sw_pairs *p;
+  const sw_system *s;
+} search;
+
+/* Of two segments the first one looks. */
+static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
+  const search *all = user;
+  const sw_system *s = all->s;
+  sw_pairs *p = all->p;
+  sw_near n = {.one = t->node, .two = u->node, .body = {t->body, u->body}};
   double at[2];
-  if (!sw_pair_rule_of(p, n.body)->on || !apart_along(s, &n)) return SW_OK;
+  if (u <= t || !sw_mutual_rule(&p->m, n.body)->on || !apart_along(s, &n)) return SW_OK;
   n.distance = sw_segments_nearest(sw_vec_at(s->x, n.one), sw_vec_at(s->x, n.one + 1u),
                                    sw_vec_at(s->x, n.two), sw_vec_at(s->x, n.two + 1u), at);
   n.bulge = sw_pair_bulge(p, s, &n);
   n.known = n.distance -= n.bulge;
-  if (!(n.distance - radii(s, n.body) < p->listed_reach)) return SW_OK;
-  if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * radii(s, n.body))) return SW_OK;
+  if (!(n.distance - sw_pair_radii(s, n.body) < p->listed_reach)) return SW_OK;
+  if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * sw_pair_radii(s, n.body))) return SW_OK;
   if (p->near_count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
   p->near[p->near_count++] = n;
@@ -142,33 +93,18 @@ static void sort_from(sw_near *a, size_t n) {
   }
 }
 
-/* All later segments in the 27 cells around segment k, in ascending order. */
-static sw_status look_around(sw_pairs *p, const sw_system *s, const grid *g, size_t k) {
-  const sw_cell c = g->cells[k];
-  const size_t first = p->near_count;
-  for (int d = 0; d < SW_CELL_NEIGHBOURS; d++) {
-    const sw_cell at = sw_cell_beside(c, d);
-    for (uint32_t m = g->head[sw_cell_bucket(at, g->size)]; m; m = g->next[m - 1]) {
-      const sw_cell *own = &g->cells[m - 1];
-      if (m - 1 > k && sw_cell_same(*own, at)) SW_TRY(look_at(p, s, g, k, m - 1));
-    }
-  }
-  sort_from(p->near + first, p->near_count - first);
-  return SW_OK;
-}
-
-static sw_status search(sw_pairs *p, const sw_system *s, double reach) {
-  grid g;
-  const double width = longest_segment(p, s) + reach + 2.0 * widest_radius(p, s);
-  double far = 0; /* cell numbers must stay far below overflow */
-  for (size_t i = 0; i < 3 * s->nodes; i++) far = fmax(far, fabs(s->x[i]));
-  SW_TRY(fill_grid(p, s, fmax(width, far * 1e-8), &g));
+static sw_status list_anew(sw_pairs *p, const sw_system *s, double reach) {
+  search all = {p, s};
+  sw_cells g;
+  SW_TRY(sw_cells_fill(&p->m, s, reach, 0, &g));
   p->near_count = 0;
   p->listed_reach = reach;
   p->listed_nodes = 0;
   for (size_t k = 0; k < g.count; k++) {
+    const size_t first = p->near_count;
     if (sw_interrupted()) return SW_EINTR;
-    SW_TRY(look_around(p, s, &g, k));
+    SW_TRY(sw_cells_around(&g, &g.things[k], look_at, &all));
+    sort_from(p->near + first, p->near_count - first);
   }
   SW_TRY(sw_grow((void **)&p->listed_at, &p->listed_capacity, 7 * s->nodes, sizeof(double)));
   p->before = p->listed_at + 3 * s->nodes;
@@ -192,6 +128,10 @@ static double largest_distance2(size_t n, const double *restrict a, const double
   return most;
 }
 
+double sw_pairs_largest_move(const double *x0, const double *x1, size_t nodes) {
+  return sqrt(largest_distance2(nodes, x0, x1));
+}
+
 /* Lengths of the nodes' ways, straight from step to step. */
 SW_HOT
 static void add_travel(size_t n, const double *restrict x, double *restrict before,
@@ -211,30 +151,18 @@ static const double LEAST_SPARE = 2.0; /* of the largest radius [-] */
 sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
   if (p->listed_nodes == s->nodes) {
     add_travel(s->nodes, s->x, p->before, p->travel);
-    if (p->listed_reach - 2.0 * sqrt(largest_distance2(s->nodes, s->x, p->listed_at)) >= reach)
+    if (p->listed_reach - 2.0 * sw_pairs_largest_move(s->x, p->listed_at, s->nodes) >= reach)
       return SW_OK;
   }
-  return search(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
+  return list_anew(p, s, GENEROSITY * reach + LEAST_SPARE * widest_radius(p, s));
 }
 
 /* --- pairs of a step --------------------------------------------------------------- */
 
-static double speed_between(const sw_system *s, const sw_near *n) {
-  double most = 0;
-  for (uint32_t i = 0; i < 2; i++)
-    for (uint32_t j = 0; j < 2; j++)
-      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->v, n->one + i), sw_vec_at(s->v, n->two + j))));
-  return sqrt(most);
-}
-
-static int all_held(const sw_system *s, const sw_near *n) {
-  const uint32_t nodes[2] = {n->one, n->two};
-  for (size_t k = 0; k < 2; k++) {
-    const sw_body *b = &s->bodies[n->body[k]];
-    const size_t i = nodes[k] - b->first_node;
-    if (b->plan->held[i] == SW_FREE || b->plan->held[i + 1] == SW_FREE) return 0;
-  }
-  return 1;
+static double longest_edge(const sw_plan *p) {
+  double longest = 0;
+  for (size_t e = 0; e < p->edges; e++) longest = fmax(longest, p->rest[e]);
+  return longest;
 }
 
 /* Segments that part by less than this along the shorter of them touch along their length,
@@ -242,8 +170,7 @@ static int all_held(const sw_system *s, const sw_near *n) {
 static const double PARALLEL_SPREAD = 0.25;
 
 static int is_parallel(const double *x, const sw_near *n, double reach) {
-  const sw_vec u = sw_sub(sw_vec_at(x, n->one + 1u), sw_vec_at(x, n->one));
-  const sw_vec v = sw_sub(sw_vec_at(x, n->two + 1u), sw_vec_at(x, n->two));
+  const sw_vec u = sw_edge_at(x, n->one), v = sw_edge_at(x, n->two);
   const double most = PARALLEL_SPREAD * reach;
   return sw_norm2(sw_cross(u, v)) < most * most * fmax(sw_norm2(u), sw_norm2(v));
 }
@@ -262,8 +189,8 @@ static const double RESERVE = 1.5; /* [-] */
 /* Gap up to which a pair is chosen: a share of its radii, what gravity and its speed (or a
  * larger one) can close in the step. */
 static double reserve_of(const sw_pairs *p, double reach, double fast) {
-  const double reserve = 0.25 * reach + p->fall + RESERVE * p->h * fast;
-  return reserve > p->least_reserve ? reserve : p->least_reserve;
+  const double reserve = 0.25 * reach + p->m.fall + RESERVE * p->m.h * fast;
+  return reserve > p->m.least_reserve ? reserve : p->m.least_reserve;
 }
 
 static double travel_of(const sw_pairs *p, const sw_near *n) {
@@ -293,31 +220,32 @@ static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
   int slides[2];
   if (k->smooth && sw_pair_crossing(s, k, s->x, at, slides))
     bow[0] = sw_pair_bow(s, k, 0, at[0]), bow[1] = sw_pair_bow(s, k, 1, at[1]);
-  for (uint32_t i = 0; i < bow[0].count; i++)
-    for (uint32_t j = 0; j < bow[1].count; j++)
-      SW_TRY(sw_system_plan_bridge(s, bow[0].first + i, bow[1].first + j));
+  for (uint32_t i = 0; i < bow[0].spot.count; i++)
+    for (uint32_t j = 0; j < bow[1].spot.count; j++)
+      SW_TRY(sw_system_plan_bridge(s, bow[0].spot.node[i], bow[1].spot.node[j]));
   return SW_OK;
 }
 
 static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double sum) {
-  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->pair_count + 1, sizeof *p->pairs));
-  sw_pair *k = &p->pairs[p->pair_count++];
+  const sw_ends ends = sw_segments(n->one, n->two, n->body);
+  SW_TRY(sw_grow((void **)&p->pairs, &p->pair_capacity, p->m.pair_count + 1, sizeof *p->pairs));
+  sw_pair *k = &p->pairs[p->m.pair_count++];
   *k = (sw_pair){.one = n->one,
                  .two = n->two,
                  .body = {n->body[0], n->body[1]},
                  .parallel = is_parallel(s->x, n, sum),
-                 .held = all_held(s, n),
+                 .held = sw_ends_held(s, &ends),
                  .reach = sum,
-                 .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
-                               p->rate2 * lighter_mass(s, n)),
-                 .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
-  k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->h * speed_between(s, n);
+                 .usual = fmax(fmin(p->m.base[n->body[0]], p->m.base[n->body[1]]),
+                               p->m.rate2 * lighter_mass(s, n)),
+                 .stops = p->m.h > 0 ? lighter_mass(s, n) / (p->m.h * p->m.h) : HUGE_VAL};
+  k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->m.h * sw_ends_speed(s, &ends);
   return SW_OK;
 }
 
 /* Which of them cross; with that, the matrix' pattern. */
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
-  for (size_t i = 0; i < p->pair_count; i++) {
+  for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
     sw_pair_find_curves(p, s, k);
     if (k->bridged) SW_TRY(plan_bridges(s, k));
@@ -325,29 +253,34 @@ static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
   return SW_OK;
 }
 
-sw_status sw_pairs_choose(sw_pairs *p, sw_system *s) {
-  const int still = p->regime == SW_CONTACT_STATIC;
-  const double fast = still ? 0.0 : 2.0 * fastest(s);
-  p->fall = still ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * p->h * p->h;
+/* How near it may be told to be: 1, it is chosen. */
+static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
+  const sw_ends ends = sw_segments(n->one, n->two, n->body);
+  const int still = p->m.regime == SW_CONTACT_STATIC;
+  const double sum = sw_pair_radii(s, n->body);
+  double at[2];
+  n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
+  if (n->distance - sum >= reserve_of(p, sum, fast)) return 0;
+  n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
+                                    sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
+  n->distance -= n->bulge = sw_pair_bulge(p, s, n);
+  n->known = n->distance, n->travel = travel_of(p, n);
+  return n->distance - sum < reserve_of(p, sum, still ? 0.0 : sw_ends_speed(s, &ends));
+}
+
+sw_status sw_pairs_choose(sw_mutual *m, sw_system *s) {
+  sw_pairs *p = sw_pairs_of(m);
+  const double fast = m->regime == SW_CONTACT_STATIC ? 0.0 : 2.0 * fastest(s);
+  for (size_t b = 0; b < s->body_count; b++)
+    if (sw_mutual_takes_part(m, b)) p->edge[b] = longest_edge(s->bodies[b].plan);
   SW_TRY(sw_pairs_list(p, s, reserve_of(p, 2.0 * widest_radius(p, s), fast)));
-  p->pair_count = p->touch_count = p->last_count = 0;
   p->least_left = -HUGE_VAL;
   SW_TRY(sw_system_begin_plan(s));
   for (size_t k = 0; k < p->near_count; k++) {
-    if (sw_interrupted()) return SW_EINTR;
     sw_near *n = &p->near[k];
-    double at[2];
-    const double sum = radii(s, n->body);
-    n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
-    if (n->distance - sum >= reserve_of(p, sum, fast)) {
-      p->least_left = larger(p->least_left, sum - n->distance);
-      continue;
-    }
-    n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
-                                      sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);
-    n->distance -= n->bulge = sw_pair_bulge(p, s, n);
-    n->known = n->distance, n->travel = travel_of(p, n);
-    if (n->distance - sum < reserve_of(p, sum, still ? 0.0 : speed_between(s, n)))
+    const double sum = sw_pair_radii(s, n->body);
+    if (sw_interrupted()) return SW_EINTR;
+    if (may_touch(p, s, n, fast))
       SW_TRY(add_pair(p, s, n, sum));
     else
       p->least_left = larger(p->least_left, sum - n->distance);

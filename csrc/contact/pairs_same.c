@@ -12,19 +12,20 @@
 
 /* Memory is in the order of the segments: the first of these, or what comes after. */
 static uint32_t first_memory(const sw_pairs *p, uint32_t one, uint32_t two) {
-  const sw_pair_memory *m = p->memory;
+  const sw_met *m = p->m.memory;
   size_t i;
-  SW_FIRST_NOT(m[i].one < one || (m[i].one == one && m[i].two < two), i, 0, p->memory_count);
+  SW_FIRST_NOT(m[i].of.node[0] < one || (m[i].of.node[0] == one && m[i].of.node[1] < two), i, 0,
+               p->m.memory_count);
   return (uint32_t)i;
 }
 
 void sw_pairs_match(sw_pairs *p) {
   size_t before = 0;
-  for (size_t i = 0; i < p->pair_count; i++) {
+  for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
     for (uint32_t row = 0; row < 3; row++)
       k->memory[row] = k->one + row > 0 ? first_memory(p, k->one + row - 1, k->two ? k->two - 1 : 0)
-                                        : (uint32_t)p->memory_count;
+                                        : (uint32_t)p->m.memory_count;
     while (p->pairs[before].one + 1 < k->one ||
            (p->pairs[before].one + 1 == k->one && p->pairs[before].two < k->two))
       before++;
@@ -35,16 +36,17 @@ void sw_pairs_match(sw_pairs *p) {
   }
 }
 
-const sw_pair_memory *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double at[2],
-                                     sw_pair_kind kind) {
-  const sw_pair_memory *best = NULL;
+const sw_met *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double at[2],
+                             sw_meet_kind kind) {
+  const sw_met *best = NULL;
   const double one = k->one + at[0], two = k->two + at[1];
   double nearest = HUGE_VAL;
   for (uint32_t row = 0; row < 3; row++) /* and segments beside */
-    for (size_t j = k->memory[row]; j < p->memory_count; j++) {
-      const sw_pair_memory *m = &p->memory[j];
-      if (m->one + 1 != k->one + row || m->two > k->two + 1) break;
-      const double d = fmax(fabs(m->one + m->at[0] - one), fabs(m->two + m->at[1] - two));
+    for (size_t j = k->memory[row]; j < p->m.memory_count; j++) {
+      const sw_met *m = &p->m.memory[j];
+      const uint32_t *node = m->of.node;
+      if (node[0] + 1 != k->one + row || node[1] > k->two + 1) break;
+      const double d = fmax(fabs(node[0] + m->at[0] - one), fabs(node[1] + m->at[1] - two));
       const double worse = d + (m->kind != kind); /* what was another one serves as well */
       if (d < 1.0 && worse < nearest) best = m, nearest = worse;
     }
@@ -64,49 +66,43 @@ int sw_pair_is_same(const sw_pair *k, const double at[2], const sw_pair *other,
   return sw_pair_between(k, at, other, there) < SW_SAME_TOUCH;
 }
 
-static void look_in(const sw_pairs *p, const sw_pair *in, const sw_pair *k, const double at[2],
-                    sw_pair_kind kind, double *nearest, const sw_pair_touch **best) {
+/* A search for it. */
+typedef struct search {
+  const sw_pairs *p;
+  const sw_pair *k;
+  const double *at;
+  sw_meet_kind kind;
+  double nearest;
+  const sw_meet *best;
+} search;
+
+static void look_in(search *f, const sw_pair *in) {
   for (size_t i = in->last; i < in->last_end; i++) {
-    const sw_pair_touch *t = &p->last[i];
-    const double d = sw_pair_between(k, at, in, t->at);
-    if (t->kind == kind && d < *nearest) *best = t, *nearest = d;
+    const sw_meet *t = &f->p->m.last[i];
+    const double d = sw_pair_between(f->k, f->at, in, t->at);
+    if (t->kind == f->kind && d < f->nearest) f->best = t, f->nearest = d;
   }
 }
 
-/* Places on curves go from one segment to the next. */
-static const sw_pair_touch *last_around(const sw_pairs *p, const sw_pair *k, const double at[2],
-                                        const sw_pair_touch *best, double nearest) {
-  const sw_pair *end = p->pairs + p->pair_count, *row[3] = {k, NULL, NULL};
-  if (k->before != SW_NO_PAIR) row[1] = &p->pairs[k->before];
-  if (k->after != SW_NO_PAIR) row[2] = &p->pairs[k->after];
-  for (int i = 0; i < 3; i++) {
-    const sw_pair *m = row[i];
-    if (!m) continue;
-    if (i > 0) look_in(p, m, k, at, SW_CROSSING, &nearest, &best);
-    if (m > p->pairs && m[-1].one == m->one && m[-1].two + 1 == m->two)
-      look_in(p, m - 1, k, at, SW_CROSSING, &nearest, &best);
-    if (m + 1 < end && m[1].one == m->one && m[1].two == m->two + 1)
-      look_in(p, m + 1, k, at, SW_CROSSING, &nearest, &best);
-  }
-  return best;
+/* In pairs of the same segment one with the segments beside two: neighbours in the list. */
+static void look_beside(search *f, const sw_pair *in) {
+  const sw_pair *first = f->p->pairs, *end = first + f->p->m.pair_count;
+  if (in > first && in[-1].one == in->one && in[-1].two + 1 == in->two) look_in(f, in - 1);
+  if (in + 1 < end && in[1].one == in->one && in[1].two == in->two + 1) look_in(f, in + 1);
 }
 
-const sw_pair_touch *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at[2],
-                                  sw_pair_kind kind) {
-  const sw_pair_touch *best = NULL;
-  double nearest = SW_SAME_TOUCH;
-  look_in(p, k, k, at, kind, &nearest, &best);
-  if (k->smooth) return last_around(p, k, at, best, nearest);
-  if (best || kind == SW_CROSSING) return best;
-  if (kind == SW_NODE_OF_TWO) {
-    if (k->before != SW_NO_PAIR) look_in(p, &p->pairs[k->before], k, at, kind, &nearest, &best);
-    if (k->after != SW_NO_PAIR) look_in(p, &p->pairs[k->after], k, at, kind, &nearest, &best);
-    return best;
+const sw_meet *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at[2],
+                            sw_meet_kind kind) {
+  search f = {p, k, at, kind, SW_SAME_TOUCH, NULL};
+  look_in(&f, k);
+  if (!k->smooth && (f.best || kind == SW_CROSSING)) return f.best;
+  if (k->smooth || kind == SW_NODE_OF_ONE) look_beside(&f, k);
+  if (!k->smooth && kind == SW_NODE_OF_ONE) return f.best;
+  const uint32_t rows[2] = {k->before, k->after};
+  for (int i = 0; i < 2; i++) {
+    if (rows[i] == SW_NO_PAIR) continue;
+    look_in(&f, &p->pairs[rows[i]]);
+    if (k->smooth) look_beside(&f, &p->pairs[rows[i]]); /* places on curves go on to the next one */
   }
-  const sw_pair *end = p->pairs + p->pair_count; /* neighbours in the list */
-  if (k > p->pairs && k[-1].one == k->one && k[-1].two + 1 == k->two)
-    look_in(p, k - 1, k, at, kind, &nearest, &best);
-  if (k + 1 < end && k[1].one == k->one && k[1].two == k->two + 1)
-    look_in(p, k + 1, k, at, kind, &nearest, &best);
-  return best;
+  return f.best;
 }

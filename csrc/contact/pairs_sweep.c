@@ -11,14 +11,9 @@
 static const double TOO_NEAR = 0.25;
 enum { MOST_ADVANCES = 200 };
 
-/* Ends of two straight parts. */
-typedef struct rods {
-  sw_vec a[2], b[2];
-} rods;
-
 static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, const double *x) {
   const sw_bow bow = sw_pair_bow(s, k, side, at);
-  return sw_bow_place(x, &bow);
+  return sw_mean_of(x, 0, &bow.spot);
 }
 
 /* Parts of a half edge are so many that none stands off its curve by more than this share of the
@@ -26,37 +21,27 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
 static const double STRAIGHT = 0.1;
 enum { MOST_PARTS = 8 };
 
-/* Second difference of the nodes around one [m]. */
-static double off_middle(const sw_body *b, size_t i, const double *x) {
-  if (i == 0 || i >= b->plan->edges) return 0;
-  const size_t n = b->first_node + i;
-  const sw_vec before = sw_sub(sw_vec_at(x, n), sw_vec_at(x, n - 1));
-  return sw_dist(sw_sub(sw_vec_at(x, n + 1), sw_vec_at(x, n)), before);
-}
-
 /* Of an edge, for positions from x0 to x1. */
 static int parts_of(const sw_system *s, const sw_pair *k, int side, const double *x0,
                     const double *x1) {
   if (!k->smooth) return 1;
   const sw_body *b = &s->bodies[k->body[side]];
-  const size_t i = (side ? k->two : k->one) - b->first_node;
-  double most = 0;
-  for (size_t j = i; j < i + 2; j++)
-    most = fmax(most, fmax(off_middle(b, j, x0), off_middle(b, j, x1)));
+  const uint32_t node = side ? k->two : k->one;
+  const double most = fmax(sw_pair_off_middle(b, node, x0), sw_pair_off_middle(b, node, x1));
   const double needed = ceil(sqrt(most / (32.0 * STRAIGHT * k->reach)));
   return 2 * (int)fmin(fmax(needed, 1), MOST_PARTS);
 }
 
-static inline rods chords_of(const sw_pair *k, const double *x) {
-  return (rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
-                {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
+static inline sw_rods chords_of(const sw_pair *k, const double *x) {
+  return (sw_rods){{sw_vec_at(x, k->one), sw_vec_at(x, k->one + 1u)},
+                   {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
 }
 
 /* Part i of n of segment one, part j of m of segment two. */
-static rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], const int of[2],
-                    const double *x) {
+static sw_rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], const int of[2],
+                       const double *x) {
   if (!k->smooth) return chords_of(k, x);
-  rods r;
+  sw_rods r;
   for (int i = 0; i < 2; i++) {
     r.a[i] = end_of(s, k, 0, (double)(part[0] + i) / of[0], x);
     r.b[i] = end_of(s, k, 1, (double)(part[1] + i) / of[1], x);
@@ -64,7 +49,7 @@ static rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], con
   return r;
 }
 
-static inline double approach(const rods *from, const rods *to) {
+static inline double approach(const sw_rods *from, const sw_rods *to) {
   double most = 0;
   for (int i = 0; i < 2; i++) {
     const sw_vec a = sw_sub(to->a[i], from->a[i]);
@@ -79,34 +64,34 @@ static inline double approach(const rods *from, const rods *to) {
 double sw_pair_approach(const sw_system *s, const sw_pair *k, const double *x0, const double *x1) {
   double most = 0;
   if (!k->smooth) {
-    const rods from = chords_of(k, x0), to = chords_of(k, x1);
+    const sw_rods from = chords_of(k, x0), to = chords_of(k, x1);
     return approach(&from, &to);
   }
   const int of[2] = {2, 2};
   for (int i = 0; i < of[0]; i++)
     for (int j = 0; j < of[1]; j++) {
-      const rods from = rods_of(s, k, (int[2]){i, j}, of, x0),
-                 to = rods_of(s, k, (int[2]){i, j}, of, x1);
+      const sw_rods from = rods_of(s, k, (int[2]){i, j}, of, x0),
+                    to = rods_of(s, k, (int[2]){i, j}, of, x1);
       most = fmax(most, approach(&from, &to));
     }
   return most;
 }
 
-static rods part_way(const rods *from, const rods *to, double t) {
-  rods r;
+static sw_rods part_way(const sw_rods *from, const sw_rods *to, double t) {
+  sw_rods r;
   for (int i = 0; i < 2; i++)
     r.a[i] = sw_lerp(from->a[i], to->a[i], t), r.b[i] = sw_lerp(from->b[i], to->b[i], t);
   return r;
 }
 
-/* Goes on by what they cannot have approached in the meantime, so that nothing is missed. */
-static int sweep(const rods *from, const rods *to, double near, double at[2], sw_vec *normal,
-                 double *when) {
+int sw_rods_sweep(const sw_rods *from, const sw_rods *to, double reach, double at[2],
+                  sw_vec *normal, double *when) {
+  const double near = TOO_NEAR * reach;
   const double speed = approach(from, to);
   double t = 0;
   if (speed < near) return 0; /* those that start too near are not looked for */
   for (int i = 0; i < MOST_ADVANCES; i++) {
-    const rods r = part_way(from, to, t);
+    const sw_rods r = part_way(from, to, t);
     const double d = sw_segments_nearest(r.a[0], r.a[1], r.b[0], r.b[1], at);
     if (i == 0 && d <= near) return 0; /* they start like that */
     if (d <= 1.01 * near) {
@@ -127,10 +112,10 @@ int sw_pair_sweep(const sw_system *s, const sw_pair *k, const double *x0, const 
   const int of[2] = {parts_of(s, k, 0, x0, x1), parts_of(s, k, 1, x0, x1)};
   for (int i = 0; i < of[0] * of[1]; i++) {
     const int part[2] = {i % of[0], i / of[0]};
-    const rods from = rods_of(s, k, part, of, x0), to = rods_of(s, k, part, of, x1);
+    const sw_rods from = rods_of(s, k, part, of, x0), to = rods_of(s, k, part, of, x1);
     double here[2], when;
     sw_vec n;
-    if (!sweep(&from, &to, TOO_NEAR * k->reach, here, &n, &when) || !(when < first)) continue;
+    if (!sw_rods_sweep(&from, &to, k->reach, here, &n, &when) || !(when < first)) continue;
     first = when, *normal = n;
     for (int side = 0; side < 2; side++)
       at[side] = of[side] > 1 ? (here[side] + part[side]) / of[side] : here[side];
@@ -146,5 +131,5 @@ double sw_pair_distance(const sw_system *s, const sw_pair *k, const double *x) {
   int slides[2];
   if (!sw_pair_crossing(s, k, x, at, slides)) return HUGE_VAL;
   const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};
-  return sw_dot(sw_pair_normal(x, bow, slides), sw_pair_apart(x, bow));
+  return sw_dot(sw_pair_normal(x, bow, slides), sw_bows_apart(x, bow));
 }

@@ -33,10 +33,9 @@ void sw_contact_match(const sw_contact *c, sw_glance *at) {
 }
 
 static void swap_lists(sw_contact *c) {
-  sw_touch *list = c->last;
-  const size_t capacity = c->last_capacity;
-  c->last = c->touches, c->last_capacity = c->touch_capacity, c->last_count = c->touch_count;
-  c->touches = list, c->touch_capacity = capacity, c->touch_count = 0;
+  SW_SWAP(c->touches, c->last);
+  SW_SWAP(c->touch_capacity, c->last_capacity);
+  c->last_count = c->touch_count, c->touch_count = 0;
 }
 
 void sw_contact_part(void *contact, sw_system *s) {

@@ -80,15 +80,10 @@ typedef struct sw_memory {
   size_t node;
   int feature;
   double at;
-  double normal_force;  /* 0: near, but without force [N] */
-  double depth;         /* that goes with normal_force [m] */
-  double k;             /* [N/m] */
-  double steady;        /* as a touch's [N] */
   sw_vec normal, point; /* the side: local [-], [m] */
-  int sliding;
-  sw_vec elastic; /* displacement of the friction spring, local [m] */
-  sw_vec seen;    /* where the wire was when that was found, local [m] */
-  double slid;    /* way that it slid since it began to press [m] */
+  sw_kept kept;         /* vectors as above */
+  sw_vec seen;          /* where the wire was when that was found, local [m] */
+  double slid;          /* way that it slid since it began to press [m] */
 } sw_memory;
 
 /* A crossing found by the swept test: the place is kept on its side of a plane

@@ -58,7 +58,7 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
   for (size_t i = first_memory(c, b->first_node); i < c->memory_count; i++) {
     const sw_memory *m = &c->memory[i];
     if (m->node >= b->first_node + b->plan->nodes) return;
-    if (!m->segment || !(m->normal_force > 0)) continue;
+    if (!m->segment || !(m->kept.normal_force > 0)) continue;
     const size_t o = sw_contact_index(c, m->obstacle);
     if (o == c->count || !(c->round[o] > 0)) continue;
     const double radius = c->round[o] + b->plan->beam.radius;

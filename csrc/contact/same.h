@@ -11,4 +11,11 @@
 /* Slower approaches are left to the integrator; their energy does not matter [m/s]. */
 #define SW_SLOWEST_IMPACT 5e-4
 
+/* A step may leave two things this much deeper in each other than it found them; of the sum of
+ * their radii [-]. */
+#define SW_DEEPER 0.05
+
+/* In shorter steps than this share of the nominal one depth is taken as it comes [-]. */
+#define SW_SMALLEST_CARE (1.0 / 64)
+
 #endif

@@ -15,7 +15,7 @@ typedef struct sw_spot {
   sw_press *press;
   double friction;              /* [-] */
   double scale;                 /* forces far below this do not matter [N] */
-  size_t node[SW_SPOT_NODES];   /* of the system; count of them */
+  uint32_t node[SW_SPOT_NODES]; /* of the system; count of them */
   uint32_t body[SW_SPOT_NODES]; /* of each */
   double weight[SW_SPOT_NODES]; /* share of the force; negative on the other wire [-] */
   int count;

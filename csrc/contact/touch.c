@@ -81,12 +81,12 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   double nearest = 1.0; /* at most one segment away */
   for (size_t i = k->memory; i-- > 0 && c->memory[i].node + 2 >= k->node;) {
     const double d = away(&c->memory[i], k, at);
-    if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0 && d < nearest)
+    if (c->memory[i].obstacle == id && c->memory[i].kept.normal_force > 0 && d < nearest)
       best = &c->memory[i], nearest = d;
   }
   for (size_t i = k->memory_end; i < c->memory_count && c->memory[i].node <= k->node + 1; i++) {
     const double d = away(&c->memory[i], k, at);
-    if (c->memory[i].obstacle == id && c->memory[i].normal_force > 0 && d < nearest)
+    if (c->memory[i].obstacle == id && c->memory[i].kept.normal_force > 0 && d < nearest)
       best = &c->memory[i], nearest = d;
   }
   return best;
@@ -157,7 +157,7 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
   const sw_memory *own = sw_contact_remembered(c, k, at);
-  const int pressed = own && own->normal_force > 0;
+  const int pressed = own && own->kept.normal_force > 0;
   if (pressed && !(k->smooth && k->segment)) return own;
   if (s->bodies[k->body].plan->web || k->samples) return NULL;
   const sw_memory *other = inherited(c, k, at);
@@ -186,7 +186,7 @@ static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
        by < 0 ? i-- > 0 : i<c->memory_count; i += by> 0) {
     const sw_memory *m = &c->memory[i];
     if (by < 0 ? m->node < node : m->node > node) break;
-    if (m->node == node && m->obstacle == id && m->segment) sum += m->steady;
+    if (m->node == node && m->obstacle == id && m->segment) sum += m->kept.steady;
   }
   return sum;
 }
@@ -200,7 +200,7 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
   const sw_candidate *k = &c->candidates[t->candidate];
   const sw_body *b = &s->bodies[t->body];
   const size_t i = k->node - b->first_node;
-  if (!m || !(m->steady > 0) || !k->segment || (k->smooth && !k->round) || k->samples ||
+  if (!m || !(m->kept.steady > 0) || !k->segment || (k->smooth && !k->round) || k->samples ||
       b->plan->web)
     return mu;
   const sw_vec zero = sw_v(0, 0, 0);
@@ -210,7 +210,7 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
     const size_t n = k->node + (size_t)by;
     const sw_vec edge = sw_sub(sw_vec_at(s->x, n + 1), sw_vec_at(s->x, n));
     const double in = -by * sw_dot(t->press.normal, sw_unit_or(edge, zero));
-    const double share = fmin(1.0, BESIDE * force_beside(c, k, by) / m->steady);
+    const double share = fmin(1.0, BESIDE * force_beside(c, k, by) / m->kept.steady);
     turn += 0.5 * share * asin(fmin(fmax(in, 0.0), MOST_ARC));
   }
   return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
@@ -224,25 +224,21 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
   sw_press *press = &t->press;
   sw_vec u = shift_since(c, s, t, y);
   if (m)
-    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->elastic));
+    u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->kept.elastic));
   else if (press->gap >= 0 && press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
-  press->lag = m ? m->normal_force : press->k * fmax(0.0, -press->gap);
-  if (last) sw_press_take_lag(press, &last->press);
   const int turned = last && last->press.reversals > 0, moving = c->regime == SW_CONTACT_IMPLICIT;
   if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))
     press->reversals = last->press.reversals;
   const sw_contact_obstacle *o = &c->obstacles[t->obstacle];
   const int went_on = last && last->press.active, searches = last && c->ahead_count;
-  t->friction = of_arc(c, s, m, t, m && m->sliding ? o->kinetic : o->friction);
+  t->friction = of_arc(c, s, m, t, m && m->kept.sliding ? o->kinetic : o->friction);
   t->slid = m ? m->slid : 0.0;
   if (searches) press->ahead = last->press.ahead;
-  if (went_on || searches)
-    press->sliding = last->press.next_sliding;
-  else if (m)
-    press->sliding = m->sliding;
-  const int held = m && !m->sliding &&
+  sw_press_resume(press, m ? &m->kept : NULL, last ? &last->press : NULL, went_on || searches,
+                  press->k * fmax(0.0, -press->gap));
+  const int held = m && !m->kept.sliding &&
                    (s->bodies[t->body].roll_block || (!last && c->regime == SW_CONTACT_STATIC));
   if (!held && !searches) sw_press_begin(press, t->friction, went_on || m, felt_stiffness(c, s, t));
 }
@@ -280,7 +276,7 @@ static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_
                            const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
   if (last) return last->stiffer;
-  return m ? m->k : usual;
+  return m ? m->kept.k : usual;
 }
 
 /* Is a touch the one of the iterate before, moved a little? */
@@ -313,11 +309,11 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
   const double always = imposed(s, k, t, y);
   t->forgiven = always;
   if (c->regime != SW_CONTACT_IMPLICIT) return;
-  const double depth = sw_contact_depth_before(c, s, t) - always, explained = m ? m->depth : 0.0;
+  const double depth = sw_contact_depth_before(c, s, t) - always;
   const double h = slowly ? c->stage_time - c->time : c->h;
-  const double left = sw_press_forgiven(depth, explained, h, slowly);
-  t->forgiven += left;
-  t->let_out = sw_press_let_out(depth, explained, left);
+  const sw_left left = sw_press_leave(depth, m ? &m->kept : NULL, h, slowly);
+  t->forgiven += left.forgiven;
+  t->let_out = left.let_out;
 }
 
 /* Where wires press on each other, friction on what they lie on finds its direction as theirs does:
@@ -329,48 +325,62 @@ static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candi
   return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
 }
 
+/* What its place says of a touch. */
+static void take_place(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at,
+                       const double *y, const sw_place *place, sw_touch *t) {
+  const sw_pose *pose = &c->now[k->obstacle].pose;
+  t->obstacle = k->obstacle, t->segment = k->segment;
+  t->node = k->node, t->other = k->other, t->body = k->body;
+  t->feature = place->near.feature;
+  t->at = at;
+  t->spot = sw_contact_spot(s, k, at);
+  t->sharp = place->sharp, t->edge = place->edge;
+  t->local = place->near.point, t->point = sw_pose_point(*pose, t->local);
+  t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  t->held = sw_contact_is_held(s, k);
+  t->candidate = (size_t)(k - c->candidates);
+  t->stage = c->stage;
+}
+
+/* What does and does not press in this iterate. */
+static void activate(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                     const sw_memory *m, const sw_touch *last, sw_press *press) {
+  const sw_web *web = s->bodies[k->body].plan->web;
+  const int still = c->regime == SW_CONTACT_STATIC;
+  if (still && m && web && web->per_ring) press->spare = SPARE_PULLS;
+  sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
+  if (!still || last || web || press->active) return;
+  press->active = sw_press_lies(press); /* it may be all that bears the wire */
+}
+
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
-  const sw_pose *pose = &c->now[k->obstacle].pose;
   const double at = k->segment ? near->at : 0.0;
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
-  const double usual = end_stiffness(c, s, k, y, sw_rotate(pose->q, near->normal));
-  const double stiffness = stiffness_of(c, k, m, last, usual);
-  const double kept = m ? m->steady : 0.0, steady = place->sharp ? kept : 0.0;
+  const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
   const sw_web *web = s->bodies[k->body].plan->web;
   sw_touch *const t = new_touch(c);
   if (!t) return SW_ENOMEM;
   sw_press *press = &t->press;
-  t->obstacle = k->obstacle, t->segment = k->segment;
-  t->node = k->node, t->other = k->other, t->body = k->body;
-  t->feature = near->feature;
-  t->at = at;
-  t->spot = sw_contact_spot(s, k, at);
-  t->sharp = place->sharp, t->edge = place->edge;
-  t->steady = kept;
-  t->point = sw_pose_point(*pose, near->point), t->local = near->point;
-  t->known = m != NULL;
-  t->stiffer = stiffness, t->usual = usual;
-  t->held = sw_contact_is_held(s, k);
-  t->candidate = (size_t)(k - c->candidates);
-  t->stage = c->stage;
-  press->normal = sw_contact_leaning(c, s, k, place, steady);
+  take_place(c, s, k, at, y, place, t);
+  t->steady = m ? m->kept.steady : 0.0, t->known = m != NULL;
+  t->usual = end_stiffness(c, s, k, y, out);
+  t->stiffer = stiffness_of(c, k, m, last, t->usual);
+  press->normal = sw_contact_leaning(c, s, k, place, place->sharp ? t->steady : 0.0);
   press->gap = near->gap - k->skin;
-  press->k = c->softer ? sw_contact_softer(c, s, k, stiffness) : stiffness;
+  press->k = c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer;
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (web && !web->per_ring) press->soft = fmin(SOFTEST, (double)web->particles);
   forgive(c, s, k, m, y, t);
-  if (m && web) t->hardened = 0.5 * m->depth * fmax(0.0, stiffness * m->depth - m->normal_force);
+  if (m && web)
+    t->hardened =
+        0.5 * m->kept.depth * fmax(0.0, t->stiffer * m->kept.depth - m->kept.normal_force);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
-  if (c->regime == SW_CONTACT_STATIC && m && web && web->per_ring) press->spare = SPARE_PULLS;
-  sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
-  if (c->regime == SW_CONTACT_STATIC && !last && !web && !press->active)
-    press->active = sw_press_lies(press); /* it may be all that bears the wire */
-  t->seen = sw_pose_local(*pose, sw_mean_place(c, y, &t->spot));
+  activate(c, s, k, m, last, press);
   begin_friction(c, s, m, last, y, t);
   if (t->held) press->active = 0;
   take_in(c);

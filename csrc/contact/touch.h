@@ -106,6 +106,9 @@ sw_pressed sw_contact_pressed(const sw_touch *t);
 /* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
  * when something was changed. */
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
+/* The same of all that pressed in the trial, in the order in which they meet their obstacles. dull:
+ * the step does not bounce. */
+int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull);
 
 /* Will any of the touches from first to end strike, as they press now? Only of what gives nothing
  * back. */

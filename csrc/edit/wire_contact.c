@@ -64,8 +64,7 @@ void sw_scene_drop_rules(sw_scene *s, size_t keep) {
 sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err));
-  *count = s->built && s->pairs ? sw_pairs_count(s->pairs) : 0;
-  if (s->built && s->grains) *count += sw_grains_count(s->grains);
+  *count = s->built ? sw_scene_places(s) : 0;
   return SW_OK;
 }
 
@@ -73,11 +72,9 @@ sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
 static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, double *arc) {
   const sw_body *b = &s->system.bodies[p->body[k]];
   const size_t i = p->node[k] - b->first_node;
-  const double *x = s->system.x + 3 * p->node[k];
   *arc = sw_plan_place(b->plan, i);
-  if (i >= b->plan->edges) return sw_load(x); /* a particle, or where the wire ends */
-  *arc += p->at[k] * b->plan->rest[i];
-  return sw_lerp(sw_load(x), sw_load(x + 3), p->at[k]);
+  if (i < b->plan->edges) *arc += p->at[k] * b->plan->rest[i]; /* a wire's */
+  return sw_lerp(sw_vec_at(s->system.x, p->node[k]), sw_vec_at(s->system.x, p->end[k]), p->at[k]);
 }
 
 static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) {
@@ -87,9 +84,10 @@ static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) 
 
 /* Of a wire and an object of particles the object comes first, whichever has the edge there. */
 static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
-  if (s->system.bodies[p.body[0]].plan->web) return p;
+  if (s->system.bodies[p.body[0]].plan->web || !s->system.bodies[p.body[1]].plan->web) return p;
   return (sw_pair_place){.body = {p.body[1], p.body[0]},
                          .node = {p.node[1], p.node[0]},
+                         .end = {p.end[1], p.end[0]},
                          .at = {p.at[1], p.at[0]},
                          .normal = sw_neg(p.normal),
                          .normal_force = p.normal_force,
@@ -98,10 +96,7 @@ static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
 }
 
 void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
-  const size_t wires = s->pairs ? sw_pairs_count(s->pairs) : 0;
-  const sw_pair_place p = number < wires
-                              ? sw_pairs_place(s->pairs, number)
-                              : loose_first(s, sw_grains_place(s->grains, number - wires));
+  const sw_pair_place p = loose_first(s, sw_scene_place(s, number));
   sw_vec at[2];
   for (int k = 0; k < 2; k++) {
     at[k] = touched_at(s, &p, k, &out->s[k]);

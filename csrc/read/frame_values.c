@@ -6,7 +6,7 @@
 
 #include "body/section.h"
 #include "body/spin.h"
-#include "contact/grains.h"
+#include "body/touching.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
 #include "scene/parts.h"
@@ -101,23 +101,21 @@ static void press_obstacles(const sw_scene *s, const sw_body *b, float *out) {
 }
 
 /* A place where two bodies press on each other: the first bears the force, the second its
- * opposite. Of a particle the place along its edge is 0. */
+ * opposite. */
 static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place *p, float *out) {
   const sw_vec force = sw_madd(p->friction, p->normal, p->normal_force);
   for (int k = 0; k < 2; k++) {
     if (&sw_scene_system(s)->bodies[p->body[k]] != b) continue;
     const sw_vec own = k ? sw_neg(force) : force;
     press(b, p->node[k], 1 - p->at[k], p->normal_force, own, out);
-    if (p->at[k] > 0) press(b, p->node[k] + 1u, p->at[k], p->normal_force, own, out);
+    if (p->at[k] > 0) press(b, p->end[k], p->at[k], p->normal_force, own, out);
   }
 }
 
 static void press_wires(const sw_scene *s, const sw_body *b, float *out) {
-  const size_t pairs = sw_scene_pairs(s) ? sw_pairs_count(sw_scene_pairs(s)) : 0;
-  const size_t grains = sw_scene_grains(s) ? sw_grains_count(sw_scene_grains(s)) : 0;
-  for (size_t k = 0; k < pairs + grains; k++) {
-    const sw_pair_place p = k < pairs ? sw_pairs_place(sw_scene_pairs(s), k)
-                                      : sw_grains_place(sw_scene_grains(s), k - pairs);
+  const size_t count = sw_scene_places(s);
+  for (size_t k = 0; k < count; k++) {
+    const sw_pair_place p = sw_scene_place(s, k);
     press_place(s, b, &p, out);
   }
 }

@@ -212,10 +212,9 @@ void sw_scene_frame_energies(sw_scene *s, double out[SW_FRAME_ENERGIES]) {
 }
 
 size_t sw_scene_touches(sw_scene *s) {
-  sw_grains *grains = sw_scene_grains(s);
-  sw_pairs *pairs = sw_scene_pairs(s);
-  sw_contact *contact = sw_scene_contact(s);
-  if (!sw_scene_is_built(s)) return 0;
-  return (contact ? sw_contact_count(contact) : 0) + (pairs ? sw_pairs_count(pairs) : 0) +
-         (grains ? sw_grains_count(grains) : 0);
+  sw_presses list[SW_SCENE_PRESSES];
+  const size_t n = sw_scene_is_built(s) ? sw_scene_presses(s, list) : 0;
+  size_t count = 0;
+  for (size_t k = 0; k < n; k++) count += sw_presses_count(list[k]);
+  return count;
 }

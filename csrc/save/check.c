@@ -174,8 +174,8 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
   sw_tape_expect(
       t,
       sw_contact_memory_fits(s->kept.memory, s->kept.bytes, nodes, s->obstacle_count) &&
-          sw_pairs_memory_fits(s->kept.pairs, s->kept.pair_bytes, nodes) &&
-          sw_grains_memory_fits(s->kept.grains, s->kept.grain_bytes, first, s->kept.wires),
+          sw_mutual_memory_fits(s->kept.pairs, s->kept.pair_bytes, first, s->kept.wires) &&
+          sw_mutual_memory_fits(s->kept.grains, s->kept.grain_bytes, first, s->kept.wires),
       "contact");
 }
 

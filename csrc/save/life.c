@@ -53,8 +53,8 @@ void sw_scene_free(sw_scene *s) {
   sw_stepper_free(&s->course.stepper);
   sw_contact_free(s->contact);
   sw_log_free(&s->contact_steps);
-  sw_pairs_free(s->pairs);
-  sw_grains_free(s->grains);
+  sw_mutual_free(s->pairs);
+  sw_mutual_free(s->grains);
   sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
   sw_free(s->rules);

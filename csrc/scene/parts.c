@@ -27,8 +27,8 @@ sw_hold *sw_scene_held_by(const sw_scene *s, size_t k) { return &s->holds[s->hol
 size_t sw_scene_bodies_made(const sw_scene *s) { return s->wire_count + s->gone_count; }
 
 sw_contact *sw_scene_contact(const sw_scene *s) { return s->contact; }
-sw_pairs *sw_scene_pairs(const sw_scene *s) { return s->pairs; }
-sw_grains *sw_scene_grains(const sw_scene *s) { return s->grains; }
+sw_mutual *sw_scene_pairs(const sw_scene *s) { return s->pairs; }
+sw_mutual *sw_scene_grains(const sw_scene *s) { return s->grains; }
 sw_crowd *sw_scene_crowd(const sw_scene *s) { return s->crowd; }
 int sw_scene_is_built(const sw_scene *s) { return s->built; }
 int sw_scene_wears(const sw_scene *s) { return s->wears; }

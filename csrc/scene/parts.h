@@ -23,8 +23,7 @@ typedef struct sw_books sw_books;                   /* ledger.h */
 typedef struct sw_events sw_events;                 /* events.h */
 typedef struct sw_system sw_system;
 typedef struct sw_contact sw_contact;
-typedef struct sw_pairs sw_pairs;
-typedef struct sw_grains sw_grains;
+typedef struct sw_mutual sw_mutual;
 typedef struct sw_crowd sw_crowd;
 typedef struct sw_hold_load sw_hold_load;
 typedef struct sw_log sw_log;
@@ -55,8 +54,8 @@ size_t sw_scene_bodies_made(const sw_scene *scene);
 /* What they are made into; each kind of contact may be NULL. */
 sw_system *sw_scene_system(const sw_scene *scene);
 sw_contact *sw_scene_contact(const sw_scene *scene);
-sw_pairs *sw_scene_pairs(const sw_scene *scene);
-sw_grains *sw_scene_grains(const sw_scene *scene);
+sw_mutual *sw_scene_pairs(const sw_scene *scene);
+sw_mutual *sw_scene_grains(const sw_scene *scene);
 sw_crowd *sw_scene_crowd(const sw_scene *scene);
 int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and holds the state */
 

@@ -58,8 +58,8 @@ struct sw_scene {
   int *hold_slot;           /* (system.hold_count) scene slot of each system hold */
   sw_hold_load *hold_loads; /* (system.hold_count) of the stage that was solved last */
   sw_contact *contact;      /* with obstacles, or NULL */
-  sw_pairs *pairs;          /* between wires, or NULL */
-  sw_grains *grains;        /* between objects of particles and what else touches them, or NULL */
+  sw_mutual *pairs;         /* between wires, or NULL */
+  sw_mutual *grains;        /* between objects of particles and what else touches them, or NULL */
   sw_crowd *crowd;          /* between particles that repel each other, or NULL */
   sw_scene_rule *rules;     /* that pairs are made by */
   size_t rule_count, rule_capacity;

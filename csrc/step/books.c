@@ -3,7 +3,7 @@
  * accepted. */
 #include <math.h>
 
-#include "contact/grains.h"
+#include "body/touching.h"
 #include "scene/wire.h"
 #include "scene/world.h"
 #include "step/energy.h"
@@ -220,9 +220,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   sw_system_energies(&s->system, 0, &step->to);
   step->to.kinetic = 0;
   step->contact = sw_ledger_contact(s);
-  if (s->contact) step->friction += sw_contact_rubbed(s->contact);
-  if (s->pairs) step->friction += sw_pairs_rubbed(s->pairs);
-  if (s->grains) step->friction += sw_grains_rubbed(s->grains);
+  step->friction += sw_scene_rubbed(s);
   sw_ledger_work(s, s->time, 0);
   step->forces = b->now.loads - step->to.loads;
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);

@@ -66,33 +66,26 @@ static void judge_outer_forces(sw_books *b, double h, double *most) {
 }
 
 static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
-  sw_grains *grains = sw_scene_grains(s);
-  sw_pairs *pairs = sw_scene_pairs(s);
+  sw_mutual *const mutual[] = {sw_scene_pairs(s), sw_scene_grains(s)};
   sw_contact *contact = sw_scene_contact(s);
   const sw_books *b = sw_scene_books(s);
   size_t impacts = 0;
   step->touching = sw_scene_touches(s) > 0;
+  step->friction += sw_scene_rubbed(s);
   if (contact) {
     impacts += sw_contact_impacts(contact);
-    step->friction += sw_contact_rubbed(contact);
     step->steady &= sw_contact_steady(contact);
     step->obstacles += sw_contact_struck(contact);
     step->let_out = sw_contact_hardened(contact);
     if (sw_contact_emerges(contact))
-      step->let_out += sw_contact_emerged(contact) +
+      step->let_out += sw_presses_emerged(sw_contact_presses(contact)) +
                        b->mass * (THROWN * THROWN + LET_OUT * h * sw_norm(sw_scene_gravity(s)));
   }
-  if (pairs) {
-    impacts += sw_pairs_impacts(pairs);
-    step->friction += sw_pairs_rubbed(pairs);
-    step->let_out += sw_pairs_emerged(pairs);
-    step->steady &= sw_pairs_steady(pairs);
-  }
-  if (grains) {
-    impacts += sw_grains_impacts(grains);
-    step->friction += sw_grains_rubbed(grains);
-    step->let_out += sw_grains_emerged(grains);
-    step->steady &= sw_grains_steady(grains);
+  for (int k = 0; k < 2; k++) {
+    if (!mutual[k]) continue;
+    impacts += sw_mutual_impacts(mutual[k]);
+    step->let_out += sw_presses_emerged(sw_mutual_presses(mutual[k]));
+    step->steady &= sw_mutual_steady(mutual[k]);
   }
   if (impacts) /* these changed the velocities at the step's start */
     step->impact = sw_scene_books(s)->now.kinetic + step->obstacles -

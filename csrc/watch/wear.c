@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "contact/grains.h"
+#include "body/touching.h"
 #include "read/extremes.h"
 #include "record/wear.h"
 #include "scene/course.h"
@@ -231,16 +231,14 @@ static void rub_obstacles(const sw_scene *s, const sw_body *b, sw_wear *w) {
 
 /* Places where two bodies press on each other wear both. */
 static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
-  const size_t pairs = sw_scene_pairs(s) ? sw_pairs_count(sw_scene_pairs(s)) : 0;
-  const size_t grains = sw_scene_grains(s) ? sw_grains_count(sw_scene_grains(s)) : 0;
-  for (size_t k = 0; k < pairs + grains; k++) {
-    const sw_pair_place p = k < pairs ? sw_pairs_place(sw_scene_pairs(s), k)
-                                      : sw_grains_place(sw_scene_grains(s), k - pairs);
+  const size_t count = sw_scene_places(s);
+  for (size_t k = 0; k < count; k++) {
+    const sw_pair_place p = sw_scene_place(s, k);
     const double slid = p.normal_force * sw_norm(p.slip), work = -sw_dot(p.friction, p.slip);
     for (int i = 0; i < 2; i++) {
       if (&sw_scene_system(s)->bodies[p.body[i]] != b) continue;
       rub(w, b, p.node[i], 1 - p.at[i], work, slid);
-      if (p.at[i] > 0) rub(w, b, p.node[i] + 1u, p.at[i], work, slid);
+      if (p.at[i] > 0) rub(w, b, p.end[i], p.at[i], work, slid);
     }
   }
 }

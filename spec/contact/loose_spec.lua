@@ -163,6 +163,30 @@ describe("an object of particles", function()
     end)
   end
 
+  -- The wires are between rows of particles, so that edges of the block lie on them: both axes are 2 R
+  -- apart there, and the middle between the surfaces is R from the wire's.
+  it("tells where its edges touch", function()
+    local scene, wires = sw.scene{ gravity = { 0, 0, -G } }, {}
+    scene:force{ kind = "damping", mass = 20 }
+    for _, y in ipairs{ -4 * R, 4 * R } do
+      local wire = scene:wire{ E = 1e9, density = 1200, radius = R, from = { -0.03, y, 0 },
+        to = { 0.03, y, 0 }, segments = 11 }
+      scene:clamp(wire, { s = 0 })
+      scene:clamp(wire, { s = 0.06 })
+      wires[wire.name] = wire
+    end
+    block(scene, { at = { 0, 0, 2.01 * R } })
+    scene:wire_contact{ friction = 0.5 }
+    t.fine(scene:run{ duration = 0.3, dt = 5e-3 })
+    local touches = scene:touches()
+    assert.is_true(#touches >= 8)
+    for _, touch in ipairs(touches) do
+      local away, on = 0, wires[touch.wires[2]]:position(touch.s[2])
+      for k = 1, 3 do away = away + (touch.point[k] - on[k]) ^ 2 end
+      t.share(R, math.sqrt(away), 0.01, "the place from the wire's axis")
+    end
+  end)
+
   it("carries a wire that is laid over it", function()
     local scene = sw.scene{ gravity = { 0, 0, -G } }
     scene:force{ kind = "damping", mass = 20 }

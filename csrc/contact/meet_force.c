@@ -1,22 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch's force and stiffness among the nodes of its places, two of a segment or three of a
- * curve. Besides the law's own stiffness K at the touch there is that of the turning normal: with
- * the nearest points free to slide, the distance d has the second derivative
- *   (1/d) [ w_i w_j (I - n n') - g_i' Q^-1 g_j ]
- * between nodes i and j, where w are the weights of the touch (negative on the second segment), Q
- * the second derivatives of |r|^2/2 with respect to the places along the wires, and g its mixed
- * ones. The normal force N adds -N times that. */
-#include "contact/pair.h"
+/* A touch's force and stiffness among the nodes of its places: one of a particle, two of a segment
+ * or three of a curve. Besides the law's own stiffness K at the touch there is that of the turning
+ * normal: with the nearest points free to slide, the distance d has the second derivative (1/d) [
+ * w_i w_j (I - n n') - g_i' Q^-1 g_j ] between nodes i and j, where w are the weights of the touch
+ * (negative on the second segment), Q the second derivatives of |r|^2/2 with respect to the places
+ * along the wires, and g its mixed ones. The normal force N adds -N times that. */
+#include "contact/meet.h"
 
 enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
 static const size_t FULL[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
 static const size_t UPPER[6] = {0, 1, 2, 4, 5, 8};
 
-enum { MOST = 2 * SW_BOW_MOST };
+enum { MOST = 2 * SW_MEAN_MOST };
 
-/* Stiffness between the nodes of a touch: those of wire one, then those of wire two; its upper
- * half.
- */
+/* Stiffness between the nodes of a touch: those of thing one, then those of thing two; its upper
+ * half. */
 typedef struct blocks {
   int n, from[2], count[2];
   double w[MOST];     /* shares of the distance: negative on wire two [-] */
@@ -30,9 +28,9 @@ static void begin(blocks *b, const sw_bow bow[2]) {
   b->n = 0;
   for (int side = 0; side < 2; side++) {
     const double sign = side == 0 ? 1.0 : -1.0;
-    b->from[side] = b->n, b->count[side] = (int)bow[side].count;
+    b->from[side] = b->n, b->count[side] = (int)bow[side].spot.count;
     for (int i = 0; i < b->count[side]; i++, b->n++) {
-      b->w[b->n] = sign * bow[side].w[i];
+      b->w[b->n] = sign * bow[side].spot.w[i];
       b->slope[b->n] = sign * bow[side].slope[i];
     }
   }
@@ -108,59 +106,76 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
     }
 }
 
-static void add_to_rows(sw_body *body, const sw_bow *bow, blocks *b, int side) {
+/* Between nodes i < j of one body. */
+static void couple(sw_body *body, uint32_t i, uint32_t j, const double K[9]) {
+  const size_t from = i - body->first_node, to = j - body->first_node;
+  double *row = body->field.rows + ROW * from + (to == from + 1 ? NEXT : SECOND);
+  if (body->plan->web)
+    sw_body_couple(body, from, to, K);
+  else
+    for (int m = 0; m < 9; m++) row[m] += K[m];
+}
+
+static void add_to_rows(sw_body *body, const sw_mean *at, blocks *b, int side) {
   const int from = b->from[side], count = b->count[side];
-  double *row = body->field.rows + ROW * (bow->first - body->first_node);
-  for (int i = from; i < from + count; i++, row += ROW) {
-    for (int m = 0; m < 6; m++) row[OWN + m] += block(b, i, i)[UPPER[m]];
-    for (int m = 0; m < 9 && i + 1 < from + count; m++) row[NEXT + m] += block(b, i, i + 1)[m];
-    for (int m = 0; m < 9 && i + 2 < from + count; m++) row[SECOND + m] += block(b, i, i + 2)[m];
+  for (int i = 0; i < count; i++) {
+    double *row = body->field.rows + ROW * (at->node[i] - body->first_node);
+    for (int m = 0; m < 6; m++) row[OWN + m] += block(b, from + i, from + i)[UPPER[m]];
+    for (int j = i + 1; j < count; j++)
+      couple(body, at->node[i], at->node[j], block(b, from + i, from + j));
   }
 }
 
-static void add_force(sw_body *body, const sw_bow *bow, sw_vec f) {
-  double *force = body->field.force + 3 * (bow->first - body->first_node);
-  for (uint32_t i = 0; i < bow->count; i++) sw_accumulate(force + 3 * i, sw_scale(f, bow->w[i]));
+static void add_force(sw_body *body, const sw_mean *at, sw_vec f) {
+  for (uint32_t i = 0; i < at->count; i++) {
+    double *force = body->field.force + 3 * (at->node[i] - body->first_node);
+    sw_accumulate(force, sw_scale(f, at->w[i]));
+  }
 }
 
 static sw_status link_nodes(sw_system *s, const sw_bow bow[2], const int slides[2], blocks *b) {
   for (int i = 0; i < b->from[1]; i++)
     for (int j = b->from[1]; j < b->n && takes_part(b, slides, i); j++)
       if (takes_part(b, slides, j))
-        SW_TRY(sw_system_add_bridge(s, bow[0].first + (uint32_t)i,
-                                    bow[1].first + (uint32_t)(j - b->from[1]), block(b, i, j)));
+        SW_TRY(sw_system_add_bridge(s, bow[0].spot.node[i], bow[1].spot.node[j - b->from[1]],
+                                    block(b, i, j)));
   return SW_OK;
 }
 
 /* Where axes are nearer than this share of the radii's sum, normals mean little [-]. */
 static const double WELL_APART = 0.5;
 
-static places places_of(const sw_pair *k, const sw_pair_touch *t, const double *y, double d) {
+/* Firmness added; the curve never bends so much that a place is none of the nearest. */
+double sw_meet_rise(double along2, double bends, double firm) {
+  return fmax(along2 * (1.0 + firm) + bends, 0.3 * along2);
+}
+
+static places places_of(const sw_meet *t, const double *y, double d) {
   const sw_vec a = sw_bow_along(y, &t->bow[0]), b = sw_bow_along(y, &t->bow[1]);
   const sw_vec n = t->press.normal;
   const double aa = sw_norm2(a), bb = sw_norm2(b);
   return (places){.along = {a, sw_neg(b)},
-                  .aa = sw_pair_rise(aa, d * sw_dot(n, sw_bow_bend(y, &t->bow[0])), k->firm[0]),
-                  .bb = sw_pair_rise(bb, -d * sw_dot(n, sw_bow_bend(y, &t->bow[1])), k->firm[1]),
+                  .aa = sw_meet_rise(aa, d * sw_dot(n, sw_bow_bend(y, &t->bow[0])), t->firm[0]),
+                  .bb = sw_meet_rise(bb, -d * sw_dot(n, sw_bow_bend(y, &t->bow[1])), t->firm[1]),
                   .ab = sw_dot(a, b),
                   .slides = t->slides};
 }
 
-sw_status sw_pair_add(sw_system *s, const sw_pair *k, const sw_pair_touch *t, const double *y,
-                      sw_vec force, const double *K) {
-  sw_body *one = &s->bodies[k->body[0]], *two = &s->bodies[k->body[1]];
+sw_status sw_meet_push(sw_system *s, const sw_meet *t, const double *y, sw_vec force,
+                       const double *K) {
+  sw_body *one = &s->bodies[t->of.body[0]], *two = &s->bodies[t->of.body[1]];
   blocks b;
-  add_force(one, &t->bow[0], force);
-  add_force(two, &t->bow[1], sw_neg(force));
+  add_force(one, &t->bow[0].spot, force);
+  add_force(two, &t->bow[1].spot, sw_neg(force));
   if (!K) return SW_OK;
   begin(&b, t->bow);
   take_law(&b, K);
-  const double d = t->press.gap - t->forgiven + k->reach;
-  if (d > WELL_APART * k->reach && !t->barred && !t->far) {
-    const places at = places_of(k, t, y, d);
+  const double d = t->press.gap - t->forgiven + t->reach;
+  if (d > WELL_APART * t->reach && !t->barred && !t->far) {
+    const places at = places_of(t, y, d);
     add_turning(&b, &at, t->press.normal, d, -t->press.lag / d);
   }
-  add_to_rows(one, &t->bow[0], &b, 0);
-  add_to_rows(two, &t->bow[1], &b, 1);
+  add_to_rows(one, &t->bow[0].spot, &b, 0);
+  add_to_rows(two, &t->bow[1].spot, &b, 1);
   return link_nodes(s, t->bow, t->slides, &b);
 }

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/cells.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+
+double sw_thing_radius(const sw_body *b) {
+  return b->plan->web ? b->plan->web->skin : b->plan->beam.radius;
+}
+
+/* Of a body's segments, or edges of its surface [m2]. */
+static double longest2(const sw_body *b, const double *x) {
+  const sw_web *w = b->plan->web;
+  double most = 0;
+  for (size_t i = 0; w && i < w->particles; i++)
+    for (size_t k = w->side_first[i]; k < w->side_first[i + 1]; k++)
+      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(x, i), sw_vec_at(x, w->side[k]))));
+  for (size_t e = 0; e < b->plan->edges; e++)
+    most = fmax(most, sw_norm2(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e))));
+  return most;
+}
+
+/* Width of a cell: the gap that is looked for, and what a thing's middle may be off [m]. */
+static double width_of(const sw_mutual *m, const sw_system *s, double reach) {
+  double radius = 0, length2 = 0, far = 0;
+  for (size_t k = 0; k < s->body_count; k++) {
+    const sw_body *b = &s->bodies[k];
+    const double *x = s->x + 3 * b->first_node;
+    if (!sw_mutual_takes_part(m, k)) continue;
+    radius = fmax(radius, sw_thing_radius(b));
+    length2 = fmax(length2, longest2(b, x));
+    for (size_t i = 0; i < 3 * b->plan->nodes; i++) far = fmax(far, fabs(x[i]));
+  }
+  /* cell numbers must stay far below overflow */
+  return fmax(2.0 * radius + sqrt(length2) + reach, far * 1e-8);
+}
+
+static void put(sw_cells *g, const double *x, uint32_t body, size_t node, size_t end) {
+  sw_thing *t = &g->things[g->count++];
+  *t = (sw_thing){.node = (uint32_t)node, .end = (uint32_t)end, .body = body};
+  t->at = sw_cell_of(g->width, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
+  uint32_t *head = &g->head[sw_cell_bucket(t->at, g->size)];
+  t->next = *head;
+  *head = (uint32_t)g->count;
+}
+
+static void put_body(sw_cells *g, const sw_system *s, uint32_t body, int points) {
+  const sw_body *b = &s->bodies[body];
+  const sw_web *w = b->plan->web;
+  const size_t first = b->first_node;
+  for (size_t i = 0; i < b->plan->nodes; i++) {
+    if (points && (!w || w->outer[i])) put(g, s->x, body, first + i, first + i);
+    if (!w && i < b->plan->edges) put(g, s->x, body, first + i, first + i + 1);
+    for (size_t k = points && w ? w->side_first[i] : 0; points && w && k < w->side_first[i + 1];
+         k++)
+      put(g, s->x, body, first + i, first + w->side[k]);
+  }
+}
+
+sw_status sw_cells_fill(sw_mutual *m, const sw_system *s, double reach, int points, sw_cells *out) {
+  size_t most = 0;
+  for (size_t k = 0; k < s->body_count; k++) {
+    const sw_plan *p = s->bodies[k].plan;
+    most += p->nodes + (p->web ? p->web->side_first[p->web->particles] : p->edges);
+  }
+  *out = (sw_cells){.size = 64, .width = width_of(m, s, reach)};
+  while (out->size < 2 * most) out->size *= 2;
+  const size_t bytes = most * sizeof *out->things + out->size * sizeof *out->head;
+  SW_TRY(sw_grow(&m->grid, &m->grid_capacity, bytes, 1));
+  out->things = m->grid;
+  out->head = (uint32_t *)(void *)(out->things + most);
+  memset(out->head, 0, out->size * sizeof *out->head);
+  for (size_t k = 0; k < s->body_count; k++)
+    if (sw_mutual_takes_part(m, k)) put_body(out, s, (uint32_t)k, points);
+  return SW_OK;
+}
+
+sw_status sw_cells_around(const sw_cells *g, const sw_thing *t, sw_cells_visit meets, void *user) {
+  for (int d = 0; d < SW_CELL_NEIGHBOURS; d++) {
+    const sw_cell at = sw_cell_beside(t->at, d);
+    for (uint32_t m = g->head[sw_cell_bucket(at, g->size)]; m; m = g->things[m - 1].next)
+      if (sw_cell_same(g->things[m - 1].at, at)) SW_TRY(meets(user, t, &g->things[m - 1]));
+  }
+  return SW_OK;
+}

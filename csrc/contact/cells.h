@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Things that are near each other: points and edges of bodies, in cells of a grid. */
+#ifndef SW_CONTACT_CELLS_H
+#define SW_CONTACT_CELLS_H
+
+#include "contact/cell.h"
+#include "contact/meet.h"
+
+/* A point (node == end), or an edge or segment. In the system's arrays. */
+typedef struct sw_thing {
+  uint32_t node, end, body, next; /* next: in its cell's list + 1 */
+  sw_cell at;
+} sw_thing;
+
+typedef struct sw_cells {
+  sw_thing *things;
+  uint32_t *head; /* (size) first of each list + 1 */
+  size_t count, size;
+  double width; /* of a cell [m] */
+} sw_cells;
+
+/* The grid of all segments of what takes part, wide enough to tell what is nearer than a gap of
+ * reach [m]; points: of points and edges of surfaces too. Valid until the next one. SW_ENOMEM. */
+sw_status sw_cells_fill(sw_mutual *mutual, const sw_system *system, double reach, int points,
+                        sw_cells *out);
+/* What may be near thing t, itself too, in no order: meets(user, t, each). */
+typedef sw_status (*sw_cells_visit)(void *user, const sw_thing *t, const sw_thing *u);
+sw_status sw_cells_around(const sw_cells *cells, const sw_thing *t, sw_cells_visit meets,
+                          void *user);
+
+/* Of what touches there [m]. */
+double sw_thing_radius(const sw_body *body);
+
+#endif

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A place where two things meet: what it remembers, and whether it agrees with a solve. */
+#include "contact/meet.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+/* --- one touch ------------------------------------------------------------------- */
+
+/* A tangential vector that went with normal from, taken along to normal to. */
+static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
+  const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
+  return sw_madd(v, sw_add(from, to), -share);
+}
+
+/* How much of a place moves with nodes that nothing holds; *held: where it is held [-], [m]. */
+static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec *held) {
+  const sw_body *b = &s->bodies[t->of.body[side]];
+  const uint32_t node = t->of.node[side], other = t->of.end[side];
+  const double at = t->at[side];
+  const int *is = b->plan->held;
+  const int one = is[node - b->first_node] != SW_FREE, two = is[other - b->first_node] != SW_FREE;
+  const sw_vec start = sw_vec_at(s->x, node), end = sw_vec_at(s->x, other);
+  *held = one && two ? sw_lerp(start, end, at) : one ? start : end;
+  return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
+}
+
+/* Where things are held side by side, their axes nearer than their radii, no force takes them
+ * apart: what that leaves of depth beside the holds [m]. */
+static double imposed(const sw_system *s, const sw_meet *t) {
+  sw_vec a, b;
+  const double one = free_share(s, t, 0, &a), share = fmax(one, free_share(s, t, 1, &b));
+  return share < 1.0 ? (1.0 - share) * fmax(0.0, t->reach - sw_dist(a, b)) : 0.0;
+}
+
+/* What was placed in each other is let out slowly: within one step its way would turn into speed.
+ */
+static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
+  if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
+  const double always = imposed(s, t);
+  t->forgiven = always;
+  if (m->regime != SW_CONTACT_IMPLICIT) return;
+  const double depth = t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)) - always;
+  t->emerges |= met ? met->emerges : sw_press_was_put(depth, m->memory_count == 0);
+  const sw_left left = sw_press_leave(depth, met ? &met->kept : NULL, m->h, t->emerges);
+  t->forgiven += left.forgiven;
+  if (t->emerges) t->let_out = left.let_out;
+}
+
+/* Wherever it has slid to. */
+static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *met,
+                           const sw_meet *last) {
+  if (m->regime == SW_CONTACT_EXPLICIT) return t->usual;
+  if (last) return last->stiffer;
+  return met && met->kept.normal_force > 0 ? met->kept.k : t->usual;
+}
+
+/* Where wires along each other pressed at the step's start they do so in the first iterate, unless
+ * the prediction opens them by more: a depth far below what they move in a step says nothing of
+ * whether they part. Crossings of a tight knot wander along both segments, and do not settle so. Of
+ * the radii's sum [-]. */
+static const double STILL_NEAR = 0.02;
+
+/* A force that turns with its normal is a stiffness below zero. From a predicted place, as deep as
+ * a wire has flown in the step, it would be thousands of weights, and throw wires about: it is left
+ * out until the last update shifted the touch by no more than this share of the radii [-]. What was
+ * placed in each other, or is held so, is as deep as it looks; crossings of a knot wander. */
+static const double NEAR_SHIFT = 0.02;
+static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int pressed) {
+  if (m->regime != SW_CONTACT_IMPLICIT || t->kind == SW_CROSSING || t->forgiven > 0) return 0;
+  if (!last) return !pressed;
+  return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
+}
+
+/* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
+ * would be thousands of weights; then what stops the lighter wire there by itself [N]. */
+static double first_force(const sw_meet *t, double stops) {
+  const double depth = fmax(0.0, -t->press.gap), stiffness = t->press.k;
+  const int flown = sw_press_was_put(depth, 0) && !(t->forgiven > 0) && t->kind != SW_CROSSING;
+  return depth * (flown ? fmin(stiffness, stops) : stiffness);
+}
+
+static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
+                           const sw_met *met, const sw_meet *last, double stops) {
+  sw_press *press = &t->press;
+  const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
+  sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
+  if (pressed)
+    u = sw_add(u, carry(met->kept.elastic, met->normal, press->normal));
+  else if (!press->active)
+    u = sw_v(0, 0, 0);
+  sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
+  sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
+                  first_force(t, stops));
+  sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
+}
+
+sw_meet *sw_meet_new(sw_mutual *m) {
+  if (sw_grow((void **)&m->touches, &m->touch_capacity, m->touch_count + 1, sizeof *m->touches) !=
+      SW_OK)
+    return NULL;
+  return memset(&m->touches[m->touch_count], 0, sizeof *m->touches);
+}
+
+void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, double gap,
+                 sw_vec normal, const sw_met *met, const sw_meet *last, double stops) {
+  sw_press *press = &t->press;
+  const int pressed = met && met->kept.normal_force > 0;
+  t->stage = m->stage;
+  press->gap = gap, press->normal = normal;
+  if (!(sw_norm2(t->square) > 0)) t->square = normal;
+  press->k = t->stiffer = stiffness_of(m, t, met, last);
+  forgive(m, s, met, t);
+  press->gap += t->forgiven;
+  press->gap_after = press->gap;
+  sw_press_activate(press, last && m->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
+  t->far = is_far(m, t, last, pressed);
+  if (pressed && !last && m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING)
+    press->active |= press->gap < STILL_NEAR * t->reach;
+  begin_friction(m, s, y, t, met, last, stops);
+  m->touch_count++;
+}
+
+/* Axes further apart than this have not just passed each other: in a knot, normals turn by
+ * more than a right angle within two segments. Of the radii's sum [-]. */
+static const double PASSED = 0.5;
+
+void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *distance) {
+  if (met && *distance < PASSED * reach && sw_dot(*normal, met->normal) < 0)
+    *normal = sw_neg(*normal), *distance = -*distance;
+}
+
+/* --- after a solve ---------------------------------------------------------------- */
+
+/* Make touches that sink in too deep stiffer; 1 = there were some. */
+static int stiffen(sw_mutual *m, const sw_system *s) {
+  const int small = sw_press_is_short(m->regime == SW_CONTACT_STATIC, m->h, m->nominal);
+  int any = 0;
+  if (m->regime == SW_CONTACT_EXPLICIT || s->rough) return 0;
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    const double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
+    t->stiffer = sw_press_stiffer(&t->press, t->usual, t->forgiven, small ? before : -1.0);
+    any |= t->stiffer > t->press.k;
+  }
+  return any;
+}
+
+/* Of a body's touches, forces far below the largest one do not matter; of two bodies, what
+ * does not matter to either. */
+static void find_scales(sw_mutual *m) {
+  for (size_t b = 0; b < m->bodies; b++) m->largest[b] = 0;
+  for (size_t i = 0; i < m->touch_count; i++)
+    for (size_t k = 0; k < 2; k++) {
+      double *largest = &m->largest[m->touches[i].of.body[k]];
+      *largest = fmax(*largest, m->touches[i].press.lag);
+    }
+}
+
+static double scale_of(const sw_mutual *m, const sw_meet *t) {
+  return fmin(m->largest[t->of.body[0]], m->largest[t->of.body[1]]);
+}
+
+/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
+static const double SMALL_SHIFT = 0.05;
+
+typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
+
+static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, double scale) {
+  const sw_vec shift = sw_bows_apart(delta, t->bow);
+  const double friction = sw_mutual_rule(m, t->of.body)->friction;
+  const int agrees = sw_press_update(&t->press, friction, shift, scale);
+  for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &m->rubbing[t->of.body[i]]);
+  if (t->press.gap_after < 0.5 * t->reach && sw_norm(shift) > SMALL_SHIFT * t->reach)
+    return GOES_ON;
+  if (t->far && t->press.normal_force > 0) return GOES_ON;
+  return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
+}
+
+/* Is what friction is off by little for each body? */
+static int rubs_enough(const sw_mutual *m) {
+  if (m->regime != SW_CONTACT_IMPLICIT || m->updates <= SW_PATIENCE) return 0;
+  for (size_t b = 0; b < m->bodies; b++)
+    if (!sw_press_enough(&m->rubbing[b])) return 0;
+  return 1;
+}
+
+static int update_all(sw_mutual *m, const double *delta) {
+  verdict all = AGREES;
+  find_scales(m);
+  m->updates++;
+  memset(m->rubbing, 0, m->bodies * sizeof *m->rubbing);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const verdict one = update(m, &m->touches[i], delta, scale_of(m, &m->touches[i]));
+    all = one < all ? one : all;
+  }
+  return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
+}
+
+static sw_spot spot_of(const sw_mutual *m, sw_meet *t) {
+  sw_spot spot = {.press = &t->press,
+                  .friction = sw_mutual_rule(m, t->of.body)->friction,
+                  .scale = scale_of(m, t)};
+  for (int side = 0; side < 2; side++)
+    for (uint32_t i = 0; i < t->bow[side].spot.count; i++, spot.count++) {
+      spot.body[spot.count] = t->of.body[side];
+      spot.node[spot.count] = t->bow[side].spot.node[i];
+      spot.weight[spot.count] = side ? -t->bow[side].spot.w[i] : t->bow[side].spot.w[i];
+    }
+  return spot;
+}
+
+void sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
+  m->spots.count = 0;
+  if (contact) sw_contact_add_spots(contact, s, &m->spots);
+  find_scales(m);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    if (sw_press_slides(&t->press, sw_mutual_rule(m, t->of.body)->friction))
+      sw_spots_add(&m->spots, s, spot_of(m, t));
+  }
+  sw_spots_follow(&m->spots, s);
+}
+
+int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {
+  const int fine = update_all(m, delta);
+  if (fine && stiffen(m, s)) return 0;
+  for (size_t i = 0; fine && i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
+    if (sw_grow((void **)&m->hits, &m->hit_capacity, m->hit_count + 1, sizeof *m->hits) != SW_OK)
+      break; /* an impact is then dealt with in the next step */
+    m->hits[m->hit_count++] =
+        (sw_hit){.bow = {t->bow[0], t->bow[1]}, .normal = t->press.normal, .reach = t->reach};
+  }
+  return fine;
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What contact with obstacles keeps between steps, and what is done with that. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/curve.h"
+
+/* Chords round a peg press more and less from step to step; friction there goes by a mean over some
+ * of them. With half as many a wire's swing through a ring (spec/shape/torus_spec) is three times
+ * as sensitive to rounding, with one four times; twice as many are no better [-]. */
+static const double MEAN_STEPS = 8.0;
+
+static double steady_force(const sw_contact *c, const sw_system *s, const sw_touch *t) {
+  if (t->sharp && t->sharp != SW_SHARP_ROUND) return sw_contact_steady_force(s, t, c->h);
+  return t->steady + (t->press.normal_force - t->steady) / MEAN_STEPS;
+}
+
+static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) {
+  const sw_contact_at *o = &c->now[t->obstacle];
+  const sw_quat back = sw_quat_conj(o->pose.q);
+  SW_TRY(sw_grow((void **)&c->next_memory, &c->next_capacity, c->next_count + 1,
+                 sizeof *c->next_memory));
+  sw_memory *m = &c->next_memory[c->next_count++];
+  *m = (sw_memory){.obstacle = c->obstacles[t->obstacle].id,
+                   .segment = t->segment,
+                   .node = t->node,
+                   .feature = t->feature,
+                   .at = t->at,
+                   .kept = sw_press_keep(&t->press, t->usual, t->stiffer),
+                   .normal = sw_rotate(back, t->press.normal),
+                   .point = t->local,
+                   .seen = t->seen};
+  m->kept.steady = steady_force(c, s, t);
+  if (!(t->press.normal_force > 0)) return SW_OK;
+  m->slid = t->slid + sw_norm(t->press.slip);
+  m->kept.elastic = sw_rotate(back, m->kept.elastic);
+  return SW_OK;
+}
+
+void sw_contact_commit(sw_contact *c, sw_system *s) {
+  c->next_count = 0;
+  c->fresh = sw_contact_emerges(c) ? SW_CONTACT_EMERGING : 0;
+  sw_contact_conclude(c);
+  (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
+                      sizeof *c->next_memory);
+  for (size_t i = 0; i < c->touch_count; i++)
+    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
+  SW_SWAP(c->memory, c->next_memory);
+  SW_SWAP(c->memory_capacity, c->next_capacity);
+  c->memory_count = c->next_count;
+}
+
+const void *sw_contact_memory(const sw_contact *c, size_t *bytes) {
+  *bytes = c->memory_count * sizeof *c->memory;
+  return c->memory;
+}
+
+int sw_contact_is_fresh(const sw_contact *c) { return c->fresh; }
+
+sw_status sw_contact_set_memory(sw_contact *c, const void *memory, size_t bytes, int fresh) {
+  const size_t n = bytes / sizeof *c->memory;
+  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, n, sizeof *c->memory));
+  if (n) memcpy(c->memory, memory, bytes);
+  c->memory_count = n;
+  c->fresh = fresh;
+  c->touch_count = 0;
+  sw_contact_ask_again(c);
+  return SW_OK;
+}
+
+size_t sw_contact_layout(void) { return 4096 * sizeof(sw_memory) + sizeof(sw_touch); }
+
+const void *sw_contact_seen(const sw_contact *c, size_t *bytes) {
+  *bytes = c->touch_count * sizeof *c->touches;
+  return c->touches;
+}
+
+static int spans(const sw_mean *spot, size_t nodes) {
+  for (size_t i = 0; i < spot->count; i++)
+    if (spot->node[i] >= nodes) return 0;
+  return spot->count > 0;
+}
+
+sw_status sw_contact_set_seen(sw_contact *c, const void *seen, size_t bytes, size_t nodes) {
+  const size_t n = bytes / sizeof *c->touches;
+  c->touch_count = 0;
+  if (bytes % sizeof *c->touches != 0) return SW_EINVAL;
+  SW_TRY(sw_grow((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));
+  if (n) memcpy(c->touches, seen, bytes);
+  for (size_t i = 0; i < n; i++) {
+    const sw_touch *t = &c->touches[i];
+    if (t->obstacle < 0 || (size_t)t->obstacle >= c->count || t->node >= nodes ||
+        t->other >= nodes || t->spot.count > SW_MEAN_MOST || !spans(&t->spot, nodes))
+      return SW_EINVAL;
+  }
+  c->touch_count = n;
+  return SW_OK;
+}
+
+int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles) {
+  const size_t count = bytes / sizeof(sw_memory);
+  for (size_t i = 0; i < count; i++) {
+    sw_memory m;
+    memcpy(&m, (const char *)memory + i * sizeof m, sizeof m);
+    if (m.node >= nodes || m.obstacle < 0 || (size_t)m.obstacle >= obstacles || m.segment < 0 ||
+        !isfinite(m.at))
+      return 0;
+  }
+  return bytes % sizeof(sw_memory) == 0;
+}
+
+int sw_contact_memory_names(const void *memory, size_t bytes, size_t node) {
+  const sw_memory *m = memory;
+  for (size_t i = 0; i < bytes / sizeof *m; i++)
+    if (m[i].node == node || (m[i].segment && m[i].node + 1 == node)) return 1;
+  return 0;
+}
+
+sw_status sw_contact_inherit(sw_contact *c, const void *memory, size_t bytes, int fresh,
+                             const size_t *new_node, const size_t *new_edge) {
+  size_t kept = 0;
+  SW_TRY(sw_contact_set_memory(c, memory, bytes, fresh));
+  for (size_t i = 0; i < c->memory_count; i++) {
+    const size_t *now = c->memory[i].segment ? new_edge : new_node;
+    const size_t node = now[c->memory[i].node];
+    if (node == SIZE_MAX) continue;
+    c->memory[kept] = c->memory[i];
+    c->memory[kept++].node = node;
+  }
+  c->memory_count = kept;
+  return SW_OK;
+}
+
+static int in_order(const void *a, const void *b) {
+  const sw_memory *p = a, *q = b;
+  if (p->node != q->node) return p->node < q->node ? -1 : 1;
+  if (p->obstacle != q->obstacle) return p->obstacle < q->obstacle ? -1 : 1;
+  if (p->segment != q->segment) return p->segment < q->segment ? -1 : 1;
+  return (p->at > q->at) - (p->at < q->at);
+}
+
+sw_status sw_contact_add_memory(sw_contact *c, const void *memory, size_t bytes, size_t old_first,
+                                size_t old_end, size_t new_first, const size_t *obstacles,
+                                size_t count) {
+  const sw_memory *from = memory;
+  const size_t n = bytes / sizeof *from;
+  SW_TRY(sw_grow((void **)&c->memory, &c->memory_capacity, c->memory_count + n, sizeof *c->memory));
+  for (size_t i = 0; i < n; i++) {
+    int wanted = 0;
+    for (size_t k = 0; k < count; k++) wanted |= (size_t)from[i].obstacle == obstacles[k];
+    if (!wanted || from[i].node < old_first || from[i].node >= old_end) continue;
+    c->memory[c->memory_count] = from[i];
+    c->memory[c->memory_count++].node += new_first - old_first;
+  }
+  if (c->memory_count) qsort(c->memory, c->memory_count, sizeof *c->memory, in_order);
+  c->fresh = 0;
+  return SW_OK;
+}

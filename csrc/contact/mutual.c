@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Life of the contact of things with each other, memory between steps, read-outs. */
+#include "contact/mutual.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "contact/meet.h"
+#include "contact/same.h"
+#include "contact/tally.h"
+
+sw_status sw_mutual_start(sw_mutual *m, const sw_finder *finder, const sw_pair_rule *rules,
+                          size_t bodies) {
+  m->finder = finder;
+  m->bodies = bodies;
+  m->rules = sw_alloc(bodies * bodies, sizeof *m->rules);
+  m->base = sw_alloc(2 * bodies, sizeof *m->base);
+  m->rubbing = sw_alloc(bodies, sizeof *m->rubbing);
+  if (!m->rules || !m->base || !m->rubbing) return SW_ENOMEM;
+  m->largest = m->base + bodies;
+  memcpy(m->rules, rules, bodies * bodies * sizeof *rules);
+  return SW_OK;
+}
+
+sw_status sw_mutual_copy(const sw_mutual *m, const sw_system *s, sw_mutual **out) {
+  SW_TRY(m->finder->make(s, m->rules, out));
+  return *out ? sw_mutual_set_memory(*out, m->memory, m->memory_count * sizeof *m->memory) : SW_OK;
+}
+
+void sw_mutual_free(sw_mutual *m) {
+  if (!m) return;
+  m->finder->free(m);
+  sw_spots_free(&m->spots);
+  void *const blocks[] = {m->grid, m->rules, m->base,   m->rubbing,    m->touches,
+                          m->last, m->hits,  m->memory, m->next_memory};
+  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
+  sw_free(m);
+}
+
+int sw_mutual_idle(const sw_mutual *m) { return m->pair_count == 0; }
+
+int sw_mutual_takes_part(const sw_mutual *m, size_t body) {
+  for (size_t k = 0; k < m->bodies; k++)
+    if (m->rules[m->bodies * body + k].on) return 1;
+  return 0;
+}
+
+/* --- two things ------------------------------------------------------------------ */
+
+static int by_number(uint32_t p, uint32_t q) { return p < q ? -1 : p > q; }
+
+int sw_ends_order(const sw_ends *p, const sw_ends *q) {
+  if (p->node[0] != q->node[0]) return by_number(p->node[0], q->node[0]);
+  if (p->end[0] != q->end[0]) return by_number(p->end[0], q->end[0]);
+  if (p->node[1] != q->node[1]) return by_number(p->node[1], q->node[1]);
+  return by_number(p->end[1], q->end[1]);
+}
+
+int sw_ends_held(const sw_system *s, const sw_ends *e) {
+  for (int k = 0; k < 2; k++) {
+    const sw_body *b = &s->bodies[e->body[k]];
+    const int *held = b->plan->held;
+    if (held[e->node[k] - b->first_node] == SW_FREE || held[e->end[k] - b->first_node] == SW_FREE)
+      return 0;
+  }
+  return 1;
+}
+
+double sw_ends_speed(const sw_system *s, const sw_ends *e) {
+  const uint32_t one[2] = {e->node[0], e->end[0]}, two[2] = {e->node[1], e->end[1]};
+  double most = 0;
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++)
+      most = fmax(most, sw_norm2(sw_sub(sw_vec_at(s->v, one[i]), sw_vec_at(s->v, two[j]))));
+  return sqrt(most);
+}
+
+/* --- steps ----------------------------------------------------------------------- */
+
+/* What forces a body may press with: its weight; of a wire, that of bending it, its tension. */
+static double force_of(const sw_system *s, const sw_body *b) {
+  const sw_plan *p = b->plan;
+  double force = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
+  if (p->web) return force;
+  force = fmax(force, p->beam.EI / (p->length * p->length));
+  for (size_t e = 0; e < p->edges; e++) force = fmax(force, fabs(s->tension[b->first_edge + e]));
+  return force;
+}
+
+static sw_status fail(const sw_mutual *m, sw_status status, sw_error *err) {
+  return sw_fail(err, status, "%s: %s", m->finder->name,
+                 status == SW_ELIMIT ? m->finder->too_many : sw_status_text(status));
+}
+
+sw_status sw_mutual_choose(sw_mutual *m, sw_system *s) {
+  m->pair_count = m->touch_count = m->last_count = 0;
+  return m->finder->choose(m, s);
+}
+
+static const double RESERVE = 1.5; /* of what gravity can close in the step [-] */
+
+sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime regime, double h,
+                               double nominal, sw_error *err) {
+  m->regime = regime;
+  m->h = h, m->nominal = nominal;
+  m->hit_count = m->struck = m->barrier_count = 0;
+  m->least_reserve = 0;
+  m->fall = regime == SW_CONTACT_STATIC ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * h * h;
+  for (size_t b = 0; b < s->body_count; b++)
+    if (sw_mutual_takes_part(m, b))
+      sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &m->base[b], &m->rate2);
+  const sw_status status = sw_mutual_choose(m, s);
+  return status == SW_OK ? SW_OK : fail(m, status, err);
+}
+
+void sw_mutual_begin_stage(sw_mutual *m, double first) {
+  m->stage++;
+  m->updates = 0;
+  m->first = first;
+}
+
+sw_status sw_mutual_begin_look(sw_mutual *m, sw_system *s, sw_error *err) {
+  for (size_t i = 0; i < m->memory_count; i++) sw_kept_as_felt(&m->memory[i].kept);
+  return sw_mutual_begin_step(m, s, SW_CONTACT_STATIC, 0, 0, err);
+}
+
+static void turn_over(sw_mutual *m) {
+  SW_SWAP(m->touches, m->last);
+  SW_SWAP(m->touch_capacity, m->last_capacity);
+  m->last_count = m->touch_count, m->touch_count = 0;
+}
+
+static sw_status push(const sw_mutual *m, sw_system *s, sw_meet *t, const double *y,
+                      unsigned want) {
+  double K[6];
+  t->press.normal_force = 0;
+  t->press.tangential = sw_v(0, 0, 0);
+  if (!t->press.active) return SW_OK;
+  const double friction = sw_mutual_rule(m, t->of.body)->friction;
+  const sw_vec f = sw_press_eval(&t->press, friction, m->regime != SW_CONTACT_EXPLICIT, K);
+  return sw_meet_push(s, t, y, f, want & SW_WANT_STIFFNESS ? K : NULL);
+}
+
+sw_status sw_mutual_eval(sw_mutual *m, sw_system *s, const double *y, unsigned want,
+                         sw_error *err) {
+  turn_over(m);
+  sw_status status = m->finder->find(m, s, y);
+  for (size_t i = 0; i < m->touch_count && status == SW_OK; i++)
+    status = push(m, s, &m->touches[i], y, want);
+  return status == SW_OK ? SW_OK : fail(m, status, err);
+}
+
+/* --- review ------------------------------------------------------------------------- */
+
+/* A step that meets what it did not touch before is redone by implicit Euler: things reach each
+ * other within it and go on together, whatever their stiffness, and the integrator never sees the
+ * shock that would make it bounce. They do not rebound. How many places strike: once in a step, for
+ * the one that does not bounce deals with all of them. */
+static size_t strikes(const sw_mutual *m, const sw_system *s, double h) {
+  size_t count = 0;
+  for (size_t i = 0; i < m->hit_count && !m->struck; i++) {
+    const sw_hit *t = &m->hits[i];
+    count += sw_meet_excess(s, t->bow, t->reach, t->normal, h) > SW_SLOWEST_IMPACT;
+  }
+  return count;
+}
+
+double sw_meet_excess(const sw_system *s, const sw_bow bow[2], double reach, sw_vec normal,
+                      double h) {
+  const double gap = sw_dot(normal, sw_bows_apart(s->x, bow)) - reach;
+  const double approach = -sw_dot(sw_bows_apart(s->v, bow), normal);
+  return approach - (gap > 0 ? gap : 0.0) / h;
+}
+
+static sw_contact_verdict review(sw_mutual *m, sw_system *s, const double *x1, double h, int dull) {
+  const int wider = m->finder->widen(m, s, x1, h);
+  if (wider) return wider > 0 ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
+  const int crossed = m->finder->cross ? m->finder->cross(m, s, x1) : 0;
+  if (crossed < 0) return SW_CONTACT_SMALLER;
+  const size_t struck = strikes(m, s, h);
+  m->struck += struck;
+  if (crossed || (struck && !dull)) return SW_CONTACT_STRIKE;
+  if (h < SW_SMALLEST_CARE * m->nominal || m->regime == SW_CONTACT_EXPLICIT)
+    return SW_CONTACT_ACCEPT;
+  return m->finder->cuts(m, s, x1) ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
+}
+
+sw_contact_verdict sw_mutual_review(sw_mutual *m, sw_system *s, const double *x1, double h,
+                                    int dull) {
+  const sw_contact_verdict verdict = review(m, s, x1, h, dull);
+  m->hit_count = 0;
+  return verdict;
+}
+
+int sw_mutual_review_static(sw_mutual *m, sw_system *s, const double *x1) {
+  if (m->finder->widen(m, s, x1, 0.0)) return 1;
+  return m->finder->cross && m->finder->cross(m, s, x1) != 0;
+}
+
+/* --- memory ---------------------------------------------------------------------- */
+
+void sw_mutual_commit(sw_mutual *m, sw_system *s) {
+  m->next_count = 0;
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (sw_grow((void **)&m->next_memory, &m->next_capacity, m->next_count + 1,
+                sizeof *m->next_memory) != SW_OK)
+      break; /* a lost anchor only starts anew */
+    sw_met *out = &m->next_memory[m->next_count++];
+    *out = (sw_met){.of = t->of,
+                    .kind = t->kind,
+                    .at = {t->at[0], t->at[1]},
+                    .kept = sw_press_keep(&t->press, t->usual, t->stiffer),
+                    .normal = t->press.normal,
+                    .emerges = t->let_out > 0 || (t->emerges && t->forgiven > 0)};
+    if (m->finder->note) m->finder->note(m, s, t, out);
+  }
+  SW_SWAP(m->memory, m->next_memory);
+  SW_SWAP(m->memory_capacity, m->next_capacity);
+  m->memory_count = m->next_count;
+}
+
+const void *sw_mutual_memory(const sw_mutual *m, size_t *bytes) {
+  *bytes = m->memory_count * sizeof *m->memory;
+  return m->memory;
+}
+
+sw_status sw_mutual_set_memory(sw_mutual *m, const void *memory, size_t bytes) {
+  const size_t n = bytes / sizeof *m->memory;
+  SW_TRY(sw_grow((void **)&m->memory, &m->memory_capacity, n, sizeof *m->memory));
+  if (n) memcpy(m->memory, memory, bytes);
+  m->memory_count = n;
+  m->touch_count = 0;
+  if (m->finder->forget) m->finder->forget(m);
+  return SW_OK;
+}
+
+size_t sw_mutual_layout(void) { return 4096 * sizeof(sw_met) + sizeof(sw_meet); }
+
+const void *sw_mutual_seen(const sw_mutual *m, size_t *bytes) {
+  *bytes = m->touch_count * sizeof *m->touches;
+  return m->touches;
+}
+
+static int is_of(const size_t *first, size_t bodies, uint32_t body, uint32_t node) {
+  return body < bodies && node >= first[body] && node < first[body + 1];
+}
+
+static int are_of(const size_t *first, size_t bodies, const sw_ends *e) {
+  for (int k = 0; k < 2; k++)
+    if (!is_of(first, bodies, e->body[k], e->node[k]) ||
+        !is_of(first, bodies, e->body[k], e->end[k]))
+      return 0;
+  return 1;
+}
+
+sw_status sw_mutual_set_seen(sw_mutual *m, const void *seen, size_t bytes, const sw_system *s) {
+  const size_t n = bytes / sizeof *m->touches;
+  m->touch_count = 0;
+  if (bytes % sizeof *m->touches != 0) return SW_EINVAL;
+  SW_TRY(sw_grow((void **)&m->touches, &m->touch_capacity, n, sizeof *m->touches));
+  if (n) memcpy(m->touches, seen, bytes);
+  for (size_t i = 0; i < n; i++)
+    for (int k = 0; k < 2; k++) {
+      const sw_ends *e = &m->touches[i].of;
+      if (e->body[k] >= s->body_count) return SW_EINVAL;
+      const sw_body *b = &s->bodies[e->body[k]];
+      const size_t range[2] = {b->first_node, b->first_node + b->plan->nodes};
+      if (!is_of(range, 1, 0, e->node[k]) || !is_of(range, 1, 0, e->end[k])) return SW_EINVAL;
+    }
+  m->touch_count = n;
+  return SW_OK;
+}
+
+int sw_mutual_memory_fits(const void *memory, size_t bytes, const size_t *first, size_t bodies) {
+  const size_t count = bytes / sizeof(sw_met);
+  for (size_t i = 0; i < count; i++) {
+    sw_met t;
+    memcpy(&t, (const char *)memory + i * sizeof t, sizeof t);
+    if (!are_of(first, bodies, &t.of) || !isfinite(t.at[0] + t.at[1] + t.kept.normal_force))
+      return 0;
+  }
+  return bytes % sizeof(sw_met) == 0;
+}
+
+int sw_mutual_memory_names(const void *memory, size_t bytes, size_t node) {
+  const sw_met *t = memory;
+  for (size_t i = 0; i < bytes / sizeof *t; i++)
+    for (int k = 0; k < 2; k++)
+      if (t[i].of.node[k] == node || t[i].of.end[k] == node) return 1;
+  return 0;
+}
+
+static int in_order(const void *p, const void *q) {
+  const sw_met *one = p, *two = q;
+  const int order = sw_ends_order(&one->of, &two->of);
+  if (order || one->at[0] == two->at[0]) return order;
+  return one->at[0] < two->at[0] ? -1 : 1;
+}
+
+/* What two things are now; 0: they are gone. */
+static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) {
+  for (int k = 0; k < 2; k++) {
+    const size_t node = new_node[e->node[k]], end = new_node[e->end[k]];
+    if (node == SIZE_MAX || end == SIZE_MAX) return 0;
+    e->node[k] = (uint32_t)node, e->end[k] = (uint32_t)end;
+    e->body[k] = (uint32_t)new_body[e->body[k]];
+  }
+  return 1;
+}
+
+/* What is remembered is what touches, until a step looks: for read-outs. */
+static sw_status show(sw_mutual *m, const sw_met *met) {
+  sw_meet *t = sw_meet_new(m);
+  if (!t) return SW_ENOMEM;
+  t->of = met->of, t->kind = met->kind;
+  t->at[0] = met->at[0], t->at[1] = met->at[1];
+  t->press = sw_press_felt(&met->kept);
+  t->press.normal = met->normal;
+  m->touch_count++;
+  return SW_OK;
+}
+
+sw_status sw_mutual_inherit(sw_mutual *m, const void *memory, size_t bytes, const size_t *new_node,
+                            const size_t *new_body) {
+  size_t kept = 0;
+  SW_TRY(sw_mutual_set_memory(m, memory, bytes));
+  for (size_t i = 0; i < m->memory_count; i++) {
+    sw_met t = m->memory[i];
+    if (renumber(&t.of, new_node, new_body)) m->memory[kept++] = t;
+  }
+  m->memory_count = kept;
+  if (kept) qsort(m->memory, kept, sizeof *m->memory, in_order);
+  for (size_t i = 0; i < kept; i++) SW_TRY(show(m, &m->memory[i]));
+  return SW_OK;
+}
+
+/* --- read-outs ------------------------------------------------------------------- */
+
+sw_presses sw_mutual_presses(const sw_mutual *m) {
+  return SW_PRESSES(sw_meet, m->touches, m->touch_count);
+}
+
+sw_pair_place sw_mutual_place(const sw_mutual *m, size_t number) {
+  size_t i = 0;
+  for (size_t left = number + 1; i < m->touch_count; i++)
+    if (m->touches[i].press.normal_force > 0 && --left == 0) break;
+  const sw_meet *t = &m->touches[i];
+  return (sw_pair_place){.body = {t->of.body[0], t->of.body[1]},
+                         .node = {t->of.node[0], t->of.node[1]},
+                         .end = {t->of.end[0], t->of.end[1]},
+                         .at = {t->at[0], t->at[1]},
+                         .normal = t->press.normal,
+                         .normal_force = t->press.normal_force,
+                         .friction = t->press.tangential,
+                         .slip = t->press.slip,
+                         .gap = t->press.gap_after - t->forgiven};
+}
+
+double sw_mutual_penetration(const sw_mutual *m, size_t *node) {
+  double deepest = 0;
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    const double depth = t->forgiven - t->press.gap_after - t->aslant;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    if (node) *node = t->of.node[0];
+  }
+  return deepest;
+}
+
+int sw_mutual_steady(const sw_mutual *m) {
+  size_t before = 0;
+  for (size_t i = 0; i < m->memory_count; i++) before += m->memory[i].kept.normal_force > 0;
+  return before == sw_presses_count(sw_mutual_presses(m)) && !m->struck;
+}
+
+size_t sw_mutual_impacts(const sw_mutual *m) { return m->struck; }

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contact of things that have nodes with each other: of wires with wires and with themselves, and
+ * of objects of particles with wires, with each other and with themselves. The law is that of
+ * contact with obstacles. Two kinds of finders (pairs_near.c, grains.c) say where such things touch
+ * and how the places depend on nodes; the life of a touch is the same one. What two things do to
+ * each other stays in the matrix as links between their nodes. */
+#ifndef SW_CONTACT_MUTUAL_H
+#define SW_CONTACT_MUTUAL_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "contact/contact.h"
+#include "system/system.h"
+
+typedef struct sw_mutual sw_mutual;
+
+/* How two bodies touch. */
+typedef struct sw_pair_rule {
+  int on;          /* 0: they pass through each other */
+  double friction; /* [-] */
+} sw_pair_rule;
+
+/* Wires with wires and with themselves, by rules (bodies x bodies, symmetric), copied. Segments are
+ * round rods. Wires that cross touch where their smooth curves are nearest, or their segments;
+ * nearly parallel segments touch at each other's nodes. SW_ENOMEM. */
+sw_status sw_pairs_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
+/* Objects of particles with each other and with what is not a mesh of rings. A particle is a ball
+ * of the object's radius, a wire a chain of round rods. Particles that something joins, or that
+ * have a partner in common, do not touch. What lies between particles is no surface: a wire thinner
+ * than the gaps between balls gets through. *out = NULL: nothing of that kind. SW_ENOMEM. */
+sw_status sw_grains_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
+/* Another one with the same rules and memory, to look ahead with; *out, NULL before, is the
+ * caller's to free also when this fails. SW_ENOMEM. */
+sw_status sw_mutual_copy(const sw_mutual *mutual, const sw_system *system, sw_mutual **out);
+void sw_mutual_free(sw_mutual *mutual); /* NULL is allowed */
+
+/* Nothing is near enough to touch in this step. */
+int sw_mutual_idle(const sw_mutual *mutual);
+
+/* These do what those of sw_contact do. */
+sw_status sw_mutual_begin_step(sw_mutual *mutual, sw_system *system, sw_contact_regime regime,
+                               double h, double nominal, sw_error *err);
+void sw_mutual_begin_stage(sw_mutual *mutual, double first);
+sw_status sw_mutual_begin_look(sw_mutual *mutual, sw_system *system, sw_error *err);
+sw_status sw_mutual_eval(sw_mutual *mutual, sw_system *system, const double *y, unsigned want,
+                         sw_error *err);
+/* As sw_contact_refine, with what linked bodies touch besides (contact; NULL: nothing). */
+void sw_mutual_refine(sw_mutual *mutual, sw_contact *contact, sw_system *system);
+int sw_mutual_settled(sw_mutual *mutual, sw_system *system, const double *delta);
+/* Will wires (of sw_pairs_new) strike in a step of size h that begins now, as far as velocities
+ * tell? */
+int sw_pairs_expect(const sw_mutual *pairs, const sw_system *system, double h);
+/* dull: the trial was one that does not bounce, whatever struck. */
+sw_contact_verdict sw_mutual_review(sw_mutual *mutual, sw_system *system, const double *x1,
+                                    double h, int dull);
+/* 1 = solve again. */
+int sw_mutual_review_static(sw_mutual *mutual, sw_system *system, const double *x1);
+void sw_mutual_commit(sw_mutual *mutual, sw_system *system);
+
+/* Memory between steps, as sw_contact_memory. */
+const void *sw_mutual_memory(const sw_mutual *mutual, size_t *bytes);
+sw_status sw_mutual_set_memory(sw_mutual *mutual, const void *memory, size_t bytes);
+/* first (bodies + 1): node that each body begins with. */
+int sw_mutual_memory_fits(const void *memory, size_t bytes, const size_t *first, size_t bodies);
+int sw_mutual_memory_names(const void *memory, size_t bytes, size_t node);
+/* As sw_contact_seen. */
+const void *sw_mutual_seen(const sw_mutual *mutual, size_t *bytes);
+sw_status sw_mutual_set_seen(sw_mutual *mutual, const void *seen, size_t bytes,
+                             const sw_system *system);
+size_t sw_mutual_layout(void); /* as sw_contact_layout */
+/* new_node, new_body: what those of the memory are now; SIZE_MAX: they are gone. */
+sw_status sw_mutual_inherit(sw_mutual *mutual, const void *memory, size_t bytes,
+                            const size_t *new_node, const size_t *new_body);
+
+/* A place where two things press on each other. */
+typedef struct sw_pair_place {
+  size_t body[2];         /* in the system's arrays */
+  size_t node[2], end[2]; /* each is between these, or a particle, which is its own end */
+  double at[2];           /* from node to end [-] */
+  sw_vec normal;          /* towards the first one [-] */
+  double normal_force;    /* [N] */
+  sw_vec friction;        /* on the first one [N] */
+  sw_vec slip;            /* way that it slid in the last step [m] */
+  double gap;             /* [m] */
+} sw_pair_place;
+
+/* Place number k of those with a force; their number is sw_presses_count (contact/tally.h). */
+sw_pair_place sw_mutual_place(const sw_mutual *mutual, size_t k);
+double sw_mutual_penetration(const sw_mutual *mutual, size_t *node); /* [m] */
+/* As those of sw_contact. */
+struct sw_presses sw_mutual_presses(const sw_mutual *mutual);
+int sw_mutual_steady(const sw_mutual *mutual);
+size_t sw_mutual_impacts(const sw_mutual *mutual); /* [-] */
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is read of touches, whatever touches what. */
+#ifndef SW_CONTACT_TALLY_H
+#define SW_CONTACT_TALLY_H
+
+#include <stddef.h>
+
+/* A list of touches, and where in each are its sw_press and what its step lets out. */
+typedef struct sw_presses {
+  const void *list;
+  size_t count, size;    /* items [-]; of one of them [B] */
+  size_t press, let_out; /* places in it [B] */
+} sw_presses;
+#define SW_PRESSES(type, list, count) \
+  ((sw_presses){(list), (count), sizeof(type), offsetof(type, press), offsetof(type, let_out)})
+
+size_t sw_presses_count(sw_presses list);  /* touches with a force */
+double sw_presses_energy(sw_presses list); /* stored in the springs [J] */
+double sw_presses_rubbed(sw_presses list); /* lost by friction in the step [J] */
+/* What the forces have done in the step on the way that wires were let out of a depth [J]. */
+double sw_presses_emerged(sw_presses list);
+
+#endif
