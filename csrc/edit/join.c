@@ -3,6 +3,7 @@
 #include "body/join.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -212,5 +213,23 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
   sw_link_wire wires[SW_JOIN_ENDS];
   sw_scene_joint_wires(s, j, wires);
   j->cls->joint->force(j, wires, k, force, moment);
+  return SW_OK;
+}
+
+sw_status sw_scene_read_join(sw_scene *s, sw_handle h, const char *const **names,
+                             double out[SW_LINK_OUTPUTS], sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err));
+  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
+  const sw_joint_acts *acts = j->cls->joint;
+  *names = acts->outputs;
+  if (!acts->read)
+    return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
+  int there = 1;
+  for (size_t k = 0; k < j->count; k++) there &= j->ends[k].wire != SIZE_MAX;
+  if (there) SW_TRY(sw_scene_build(s, err));
+  sw_link_wire wires[SW_JOIN_ENDS];
+  if (there) sw_scene_joint_wires(s, j, wires);
+  acts->read(j, there ? wires : NULL, out);
   return SW_OK;
 }

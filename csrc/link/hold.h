@@ -91,8 +91,20 @@ typedef struct sw_hold_way {
   double force;      /* that moves the wire along it [N] */
 } sw_hold_way;
 
+/* What a user may ask of a hold at any time. */
+typedef struct sw_hold_order {
+  const char *name; /* NULL ends a list */
+  int jumps;        /* 1: the wire's velocity jumps */
+  /* With the scene at the time of the wire; motion: where value is the end of one, or NULL. */
+  sw_status (*give)(sw_hold *hold, const sw_link_wire *wire, double value, sw_motion *motion,
+                    sw_error *err);
+} sw_hold_order;
+
 /* What a hold does; functions may be NULL. */
 typedef struct sw_hold_acts {
+  const sw_hold_order *orders; /* or NULL */
+  const char *const *outputs;  /* names of what read gives, NULL-terminated, or NULL */
+  void (*read)(const sw_hold *hold, double t, double *out);
   int direction; /* 1: it keeps the wire's direction too */
   int lines;     /* 1: only of wires that are lines, not meshes of particles */
   /* Before anything is changed; arguments become what they mean for this wire. SW_EINVAL. */

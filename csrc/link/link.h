@@ -32,7 +32,8 @@ typedef struct sw_hold_args {
   double friction; /* [-] */
 } sw_hold_args;
 
-enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
+enum { SW_JOIN_ENDS = 8 };    /* most wires in a join */
+enum { SW_LINK_OUTPUTS = 8 }; /* most values that a link has to read [-] */
 
 /* A user's arguments for a joint. */
 typedef struct sw_join_args {

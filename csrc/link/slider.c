@@ -146,7 +146,17 @@ static void tape(sw_tape *t, sw_hold *h) {
   sw_tape_expect(t, isfinite(x->p + x->v + x->a), "a rail");
 }
 
-static const sw_hold_acts acts = {.lines = 1,
+static const char *const outputs[] = {"place", "speed", "force", NULL};
+
+/* Along the rail: place, speed, force of friction and ends on the wire [m], [m/s], [N]. */
+static void read(const sw_hold *h, double time, double *out) {
+  (void)time;
+  out[0] = h->slider.p, out[1] = h->slider.v, out[2] = h->slider.force;
+}
+
+static const sw_hold_acts acts = {.outputs = outputs,
+                                  .read = read,
+                                  .lines = 1,
                                   .check = check,
                                   .begin = begin,
                                   .clear = clear,

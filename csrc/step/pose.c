@@ -6,15 +6,16 @@
 #include "base/alloc.h"
 #include "body/live.h"
 #include "contact/contact.h"
-#include "edit/edit.h"
 #include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/passing.h"
 #include "step/rest.h"
+#include "watch/observe.h"
 
 enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 
