@@ -75,34 +75,34 @@ static void leave_forces(sw_scene *s, size_t wire) {
 /* A rule of no wires is one of all: what spoke of this wire alone goes. */
 static void leave_rules(sw_scene *s, size_t wire) {
   size_t kept = 0;
-  SW_ITEMS(sw_scene_rule, r, s->rules, s->rule_count) {
+  SW_ITEMS(sw_scene_rule, r, s->rules.list, s->rules.count) {
     const int of_all = r->count == 0;
     size_t n = 0;
     for (size_t i = 0; i < r->count; i++)
       if (r->wires[i] != wire) r->wires[n++] = (uint32_t)less(r->wires[i], wire);
     r->count = n;
     if (n || of_all)
-      s->rules[kept++] = *r;
+      s->rules.list[kept++] = *r;
     else
       sw_free(r->wires);
   }
-  s->rule_count = kept;
+  s->rules.count = kept;
 }
 
 static void leave_memory(sw_scene *s, size_t wire) {
   size_t kept = 0;
   for (size_t w = 0; s->kept.memory && w < s->kept.wires; w++)
     s->kept.now[w] = less(s->kept.now[w], wire);
-  SW_ITEMS(sw_kept_history, h, s->kept_histories, s->kept_history_count) {
+  SW_ITEMS(sw_kept_history, h, s->kept.histories, s->kept.history_count) {
     if (h->wire == wire) {
       sw_plan_release(h->plan);
       sw_free(h->data);
       continue;
     }
     h->wire = less(h->wire, wire);
-    s->kept_histories[kept++] = *h;
+    s->kept.histories[kept++] = *h;
   }
-  s->kept_history_count = kept;
+  s->kept.history_count = kept;
 }
 
 static void pads_on(sw_scene *s, const sw_tool *t) {

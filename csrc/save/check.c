@@ -181,7 +181,7 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
 
 void sw_tape_check_scene(sw_tape *t, sw_scene *s) {
   sw_tape_check_numbers(t, s);
-  for (size_t k = 0; k < s->rule_count; k++) check_rule(t, s, &s->rules[k]);
+  for (size_t k = 0; k < s->rules.count; k++) check_rule(t, s, &s->rules.list[k]);
   SW_EACH(force, f, s) check_force(t, s, f);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++) check_wire(t, s, w);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) check_hold(t, s, &s->holds[k]);

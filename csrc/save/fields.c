@@ -22,9 +22,9 @@ static void blank_scene(sw_scene *s) {
   memset(&s->course.stepper, 0, sizeof s->course.stepper);
   s->builds = 0;
   s->gone_capacity = 0, s->gone = NULL;
-  s->frame_capacity = s->events.capacity = s->watches.capacity = s->watches.next = 0;
-  s->frames = NULL, s->events.list = NULL, s->watches.list = NULL;
-  s->frame_memory = 0;
+  s->frames.capacity = s->events.capacity = s->watches.capacity = s->watches.next = 0;
+  s->frames.list = NULL, s->events.list = NULL, s->watches.list = NULL;
+  s->frames.memory = 0;
   memset(&s->why, 0, sizeof s->why);
   s->contact = NULL, s->pairs = NULL, s->grains = NULL, s->crowd = NULL, s->hold_loads = NULL;
   sw_books *b = &s->books; /* what it measures anew */
@@ -80,8 +80,8 @@ sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) 
     join.spring = 0;
     sw_tape_raw(&t, &join, sizeof join);
   }
-  put_list(&t, s->zones, s->zone_count, sizeof *s->zones);
-  put_list(&t, s->rules, s->rule_count, sizeof *s->rules);
+  put_list(&t, s->zones.list, s->zones.count, sizeof *s->zones.list);
+  put_list(&t, s->rules.list, s->rules.count, sizeof *s->rules.list);
   put_list(&t, s->events.list, s->events.count, sizeof *s->events.list);
   if (!sw_tape_good(&t)) sw_tape_free(&t);
   *out = t.bytes, *size = t.size;

@@ -15,12 +15,17 @@ typedef struct sw_tool sw_tool;                     /* gripper.h */
 typedef struct sw_gone sw_gone;                     /* wire.h */
 typedef struct sw_scene_force sw_scene_force;       /* forces.h */
 typedef struct sw_joint sw_joint;                   /* link/joint.h */
-typedef struct sw_frame sw_frame;                   /* read/kept_frames.h */
 typedef struct sw_kept_history sw_kept_history;     /* body/history.h */
-typedef struct sw_scene_rule sw_scene_rule;         /* body/touching.h */
 typedef struct sw_course sw_course;                 /* course.h */
 typedef struct sw_books sw_books;                   /* ledger.h */
 typedef struct sw_events sw_events;                 /* events.h */
+typedef struct sw_zones sw_zones;                   /* lists.h, as are the next four */
+typedef struct sw_watches sw_watches;
+typedef struct sw_frames sw_frames;
+typedef struct sw_rules sw_rules;
+typedef struct sw_kept sw_kept;
+typedef struct sw_scene_rule sw_scene_rule; /* body/touching.h */
+typedef struct sw_frame sw_frame;           /* read/kept_frames.h */
 typedef struct sw_system sw_system;
 typedef struct sw_contact sw_contact;
 typedef struct sw_pairs sw_pairs;
@@ -64,6 +69,11 @@ int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and hold
 sw_course *sw_scene_course(const sw_scene *scene);
 sw_books *sw_scene_books(const sw_scene *scene);
 sw_events *sw_scene_events_of(const sw_scene *scene);
+sw_zones *sw_scene_zones_of(const sw_scene *scene);
+sw_watches *sw_scene_watches_of(const sw_scene *scene);
+sw_frames *sw_scene_frames_of(const sw_scene *scene);
+sw_rules *sw_scene_rules_of(const sw_scene *scene);
+sw_kept *sw_scene_kept(const sw_scene *scene);
 sw_hold_load *sw_scene_hold_loads(const sw_scene *scene); /* (holds) of the stage solved last */
 sw_log *sw_scene_contact_steps(const sw_scene *scene);    /* time and span of those observed [s] */
 sw_extreme *sw_scene_penetrated(const sw_scene *scene);   /* the deepest penetration of the run */
@@ -72,6 +82,9 @@ int sw_scene_wears(const sw_scene *scene);                /* 1: what wears wires
 /* The given name, or kind and a number. */
 void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
 
+/* Nothing may be read until another state is restored, and why. */
+void sw_scene_diverge(sw_scene *scene, const sw_error *why);
+void sw_scene_set_wears(sw_scene *scene, int wears);
 void sw_scene_set_time(sw_scene *scene, double time); /* [s] */
 /* An observer looks: what runs stands still, and nothing may be changed. Returns what is to be
  * given back when it has. */

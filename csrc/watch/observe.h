@@ -42,7 +42,6 @@ void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
  */
 sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 
-typedef struct sw_watches sw_watches; /* world.h */
 /* Add a row of the accepted state. */
 sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);
 /* The same of all forces that tell what they do to wires (clips, ties). */
