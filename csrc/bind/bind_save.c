@@ -36,14 +36,6 @@ static int mod_save(lua_State *L) {
   return give_block(L, &b);
 }
 
-/* core.fields(scene) -> string, for specs: the objects' fields in memory */
-static int mod_fields(lua_State *L) {
-  sw_error err = {""};
-  block b = {NULL, 0};
-  lsw_must(L, sw_scene_fields(lsw_check_scene(L), &b.bytes, &b.size), &err);
-  return give_block(L, &b);
-}
-
 /* core.saved_note(string) -> the note */
 static int mod_saved_note(lua_State *L) {
   size_t size, note_size;
@@ -135,7 +127,7 @@ static int mod_numbered(lua_State *L) {
   return luaL_error(L, "a scene has no objects of class '%s'", name);
 }
 
-const luaL_Reg lsw_module_save[] = {
-    {"save", mod_save},     {"fields", mod_fields},     {"saved_note", mod_saved_note},
-    {"load", mod_load},     {"resume", mod_resume},     {"items", mod_items},
-    {"number", mod_number}, {"numbered", mod_numbered}, {NULL, NULL}};
+const luaL_Reg lsw_module_save[] = {{"save", mod_save},         {"saved_note", mod_saved_note},
+                                    {"load", mod_load},         {"resume", mod_resume},
+                                    {"items", mod_items},       {"number", mod_number},
+                                    {"numbered", mod_numbered}, {NULL, NULL}};

@@ -20,9 +20,6 @@ sw_status sw_scene_load(const void *bytes, size_t size, sw_scene **out, sw_error
  * Its snapshots are good for nothing from then on. On failure nothing changes. */
 sw_status sw_scene_resume(sw_scene *scene, const void *bytes, size_t size, sw_error *err);
 
-/* The fields of its objects as they lie in memory, for specs; freed with sw_free. SW_ENOMEM. */
-sw_status sw_scene_fields(const sw_scene *scene, unsigned char **out, size_t *size);
-
 /* What the scene is made of, object by object: two that were made alike have the same sum,
  * wherever they are by now. */
 typedef struct sw_scene_item {

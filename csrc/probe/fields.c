@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fields of a scene's objects as they lie in memory, for specs that look whether a tape has
  * them all: those of a scene that was restored in place are those of before. */
-#include "base/alloc.h"
+#include "bind/child.h"
 #include "body/touching.h"
 #include "link/joint.h"
-#include "save/file.h"
-#include "save/save.h"
+#include "probe/probe.h"
 #include "scene/forces.h"
+#include "scene/gripper.h"
 #include "scene/obstacle.h"
 #include "scene/wire.h"
 #include "scene/world.h"
@@ -45,45 +45,47 @@ static void blank_wire(sw_scene_wire *w) {
   w->strand.rate = NULL, w->twisted = NULL;
 }
 
-static void put_list(sw_tape *t, const void *list, size_t count, size_t size) {
-  if (count) sw_tape_raw(t, (void *)(uintptr_t)list, count * size);
+static void put(luaL_Buffer *out, const void *list, size_t count, size_t size) {
+  if (count) luaL_addlstring(out, list, count * size);
 }
 
-sw_status sw_scene_fields(const sw_scene *s, unsigned char **out, size_t *size) {
-  sw_scene *copy = sw_alloc(1, sizeof *copy);
-  if (!copy) return SW_ENOMEM;
-  sw_tape t = sw_tape_writer(NULL);
-  *copy = *s;
-  blank_scene(copy);
-  sw_tape_raw(&t, copy, sizeof *copy);
-  sw_free(copy);
-  for (size_t k = 0; k < s->wire_count; k++) {
-    sw_scene_wire wire = s->wires[k];
-    blank_wire(&wire);
-    sw_tape_raw(&t, &wire, sizeof wire);
-  }
-  for (size_t k = 0; k < s->obstacle_count; k++) {
-    sw_scene_obstacle obstacle = s->obstacles[k];
-    obstacle.logged = 0;
-    sw_tape_raw(&t, &obstacle, sizeof obstacle);
-  }
-  for (size_t k = 0; k < s->hold_count; k++) {
-    sw_hold hold = s->holds[k];
+static void put_holds(luaL_Buffer *out, const sw_scene *s) {
+  SW_EACH(hold, h, s) {
+    sw_hold hold = *h;
     hold.node = hold.number = hold.slider.rail = 0;
-    sw_tape_raw(&t, &hold, sizeof hold);
+    put(out, &hold, 1, sizeof hold);
   }
-  put_list(&t, s->gone, s->gone_count, sizeof *s->gone);
-  put_list(&t, s->tools, s->tool_count, sizeof *s->tools);
-  put_list(&t, s->forces, s->force_count, sizeof *s->forces);
-  for (size_t k = 0; k < s->join_count; k++) {
-    sw_joint join = s->joins[k];
+  SW_EACH(join, j, s) {
+    sw_joint join = *j;
     join.spring = 0;
-    sw_tape_raw(&t, &join, sizeof join);
+    put(out, &join, 1, sizeof join);
   }
-  put_list(&t, s->zones.list, s->zones.count, sizeof *s->zones.list);
-  put_list(&t, s->rules.list, s->rules.count, sizeof *s->rules.list);
-  put_list(&t, s->events.list, s->events.count, sizeof *s->events.list);
-  if (!sw_tape_good(&t)) sw_tape_free(&t);
-  *out = t.bytes, *size = t.size;
-  return t.status;
+}
+
+int lsw_probe_fields(lua_State *L) {
+  const sw_scene *s = lsw_check_scene(L);
+  luaL_Buffer out;
+  luaL_buffinit(L, &out);
+  sw_scene copy = *s;
+  blank_scene(&copy);
+  put(&out, &copy, 1, sizeof copy);
+  SW_EACH(wire, w, s) {
+    sw_scene_wire wire = *w;
+    blank_wire(&wire);
+    put(&out, &wire, 1, sizeof wire);
+  }
+  SW_EACH(obstacle, o, s) {
+    sw_scene_obstacle obstacle = *o;
+    obstacle.logged = 0;
+    put(&out, &obstacle, 1, sizeof obstacle);
+  }
+  put_holds(&out, s);
+  put(&out, s->gone, s->gone_count, sizeof *s->gone);
+  put(&out, s->tools, s->tool_count, sizeof *s->tools);
+  put(&out, s->forces, s->force_count, sizeof *s->forces);
+  put(&out, s->zones.list, s->zones.count, sizeof *s->zones.list);
+  put(&out, s->rules.list, s->rules.count, sizeof *s->rules.list);
+  put(&out, s->events.list, s->events.count, sizeof *s->events.list);
+  luaL_pushresult(&out);
+  return 1;
 }
