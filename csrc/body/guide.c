@@ -355,7 +355,7 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
     axes[2 * k] = sw_vec_at(system->directors_now, 2 * k + 1);
     axes[2 * k + 1] = sw_vec_at(system->normals_now, 2 * k + 1);
   }
-  sw_status status = sw_scene_thaw(s);
+  sw_status status = sw_scene_unbuild(s);
   /* a shift may have put nodes a little way into what they touch: let out slowly, not thrown */
   if (status == SW_OK && !kept->fresh) kept->fresh = SW_CONTACT_EMERGING;
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);

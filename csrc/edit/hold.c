@@ -90,7 +90,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   if (join)
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
                    sw_scene_wire_in(s, wire.slot)->name, join->name);
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot};
   h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
   if (args->name[0])
@@ -235,7 +235,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   if (!h->alive) return SW_OK;
   sw_motion_state now;
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   h->last_pose = now.pose;
   h->alive = 0;
   sw_drive_free(&h->drive);
@@ -267,7 +267,7 @@ sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params 
 sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   if (h->cls->hold->set) h->cls->hold->set(h, args);
   return SW_OK;
 }

@@ -136,7 +136,7 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
   if (cls->joint->apart && count != 2)
     return sw_fail(err, SW_EINVAL, "scene:join: slack makes it a tie, of 2 wires; ends lists %zu",
                    count);
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   if (!cls->joint->apart) SW_TRY(check_meeting(s, ends, count, err));
   sw_joint j = {.alive = 1,
                 .rigid = args->rigid && !cls->joint->apart,
@@ -194,7 +194,7 @@ sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_joint, j, sw_scene_find_join(s, h, err));
   if (!j->alive) return SW_OK;
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   j->alive = 0;
   return SW_OK;
 }

@@ -139,7 +139,7 @@ sw_status sw_scene_remove_body(sw_scene *s, sw_handle body, sw_error *err) {
   SW_TRY(note_poses(s, wire, SIZE_MAX, err));
   sw_status status =
       sw_grow((void **)&s->gone, &s->gone_capacity, s->gone_count + 1, sizeof *s->gone);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status != SW_OK) return sw_fail(err, status, "scene:remove: %s", sw_status_text(status));
   leave_holds(s, wire);
   leave_joins(s, wire);
@@ -161,7 +161,7 @@ sw_status sw_scene_remove_tool(sw_scene *s, sw_handle tool, sw_error *err) {
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
   SW_TRY(note_poses(s, SIZE_MAX, 1 + tool.slot, err));
-  sw_status status = sw_scene_thaw(s);
+  sw_status status = sw_scene_unbuild(s);
   for (size_t k = 0; k < t->pads && status == SW_OK; k++)
     status = sw_obstacle_log_fill(s, &s->obstacles[t->pad[k].obstacle]);
   if (status != SW_OK) return sw_fail(err, status, "scene:remove: %s", sw_status_text(status));

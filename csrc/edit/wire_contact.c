@@ -34,7 +34,7 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
     if (!sw_scene_find_body(s, wires[k], err)) return SW_EDEAD;
   for (size_t k = 0; args->on && k < (count ? count : sw_scene_wire_slots(s)); k++)
     SW_TRY(sw_scene_check_touching(sw_scene_wire_in(s, count ? wires[k].slot : k), err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   uint32_t *slots = sw_alloc(count, sizeof *slots);
   if (!slots ||
       sw_grow((void **)&sw_scene_rules_of(s)->list, &sw_scene_rules_of(s)->capacity,

@@ -99,7 +99,7 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
   sw_scene_wire next = {.cls = sw_wire_find("rod")};
   sw_status status = sw_line_mesh(sw_scene_wire_in(s, wire.slot), line, &next.mesh);
   if (status == SW_OK) status = sw_line_twist(line, &next);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status == SW_OK) return sw_scene_replace_wire(s, wire.slot, &next, err);
   sw_mesh_free(&next.mesh);
   sw_free(next.twisted);

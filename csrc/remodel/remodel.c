@@ -179,7 +179,7 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
   out->about = about;
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(make(s, h.slot, plan, l, next, err));
-  const sw_status thawed = sw_scene_thaw(s);
+  const sw_status thawed = sw_scene_unbuild(s);
   if (thawed != SW_OK) {
     sw_mesh_free(&next->mesh);
     sw_strand_free(&next->strand);

@@ -98,7 +98,7 @@ static sw_status become_mesh(sw_scene *s, const sw_frozen *f, const sw_motion_st
   sw_scene_wire next = {.cls = f->cls};
   sw_status status = sw_mesh_copy(&f->mesh, &next.mesh);
   if (status == SW_OK) status = sw_strand_copy(&f->strand, &next.strand);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status != SW_OK) {
     sw_mesh_free(&next.mesh);
     sw_strand_free(&next.strand);

@@ -27,7 +27,7 @@ static void check_strand(sw_tape *t, const sw_scene_wire *w) {
   sw_tape_expect(t, !w->mesh.rest && loose == !web->per_ring, "a mesh");
   sw_tape_expect(t, loose ? w->mesh.n == 3 : w->mesh.n == web->rings, "the rings of a mesh");
   sw_tape_expect(t, !w->beam.rolls, "a mesh that rolls as rods do");
-  sw_tape_expect(t, loose || w->strand.kit, "a mesh without calibration");
+  sw_tape_expect(t, loose || w->strand.calibrated, "a mesh without calibration");
   sw_tape_expect(t, web->around_count <= SW_OUTLINE && web->skin > 0, "the surface of a mesh");
 }
 
