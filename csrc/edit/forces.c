@@ -50,7 +50,7 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   if (cls->commit && w->beam.framed && !(cls->flags & SW_FORCE_ANY_SHAPE))
     return sw_fail(err, SW_EINVAL,
                    "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
-                   "does not know",
+                   "does not support",
                    cls->name, w->name);
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }

@@ -212,9 +212,9 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   sw_scene_end_breaking(s);
-  tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
+  tell_retries(s, "accepted although they made energy, because smaller ones did too", &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
-    tell_retries(s, "redone, more than 1 % of all, for they made energy", &l->redone);
+    tell_retries(s, "redone, more than 1 % of all, because they made energy", &l->redone);
   if (!(share > REMARK)) return SW_OK;
   if (!(share > FAILURE)) {
     sw_scene_tell(s, "energy", "", NAN, share,

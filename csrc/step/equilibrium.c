@@ -208,9 +208,10 @@ static sw_status transient(sw_statics *p, sw_error *err) {
     if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
     tau = fmin(tau * growth(s, p->report->iterations - before), LARGEST_GROWTH * first);
   }
-  return sw_fail(err, SW_ENOCONV,
-                 "not at rest after %zu iterations: the last step still moved %.3g m",
-                 p->report->iterations, p->report->residual);
+  return sw_fail(
+      err, SW_ENOCONV,
+      "not at rest after %zu iterations: the last iteration still moved the wires by %.3g m",
+      p->report->iterations, p->report->residual);
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the
