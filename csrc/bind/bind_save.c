@@ -96,7 +96,7 @@ static size_t slot_of(const lsw_class *c, const lsw_child *child) {
   return number == SIZE_MAX ? UINT32_MAX : number;
 }
 
-/* core.number(object) -> class, slot, generation, scene; nothing for what is none of a scene's */
+/* core.number(object) -> class, slot, generation, scene; nothing if it is no object of a scene */
 static int mod_number(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
   for (int k = 0; c && k < CHILDREN; k++) {

@@ -286,7 +286,7 @@ static const char *const *output_of(const sw_link_class *cls, const char *name) 
   return NULL;
 }
 
-/* What lacks a name, and who has it. */
+/* The error: the hold has nothing of this name; names the kind that has it. */
 static sw_status lacks(const sw_hold *h, const char *name, sw_error *err) {
   const sw_link_class *const *all = sw_link_all();
   while (*all && !order_of(*all, name) && !output_of(*all, name)) all++;

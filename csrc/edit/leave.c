@@ -188,7 +188,7 @@ void sw_tape_gone(sw_tape *t, sw_gone *x) {
   sw_tape_expect(t, isfinite(x->radius) && isfinite(x->time), "a wire that was taken away");
 }
 
-/* Numbers of frames are those of all that were ever made, each once. */
+/* Frames number all bodies that were ever made, each once. */
 void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
   const size_t made = sw_scene_bodies_made(s);
   unsigned char *taken SW_LOCAL = sw_alloc(made, 1);

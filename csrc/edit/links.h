@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What takes hold of wires: joins, holds, feeds; and the obstacles that they meet. */
+/* Links of wires as the user makes and changes them: joins, holds; and obstacles. */
 #ifndef SW_EDIT_LINKS_H
 #define SW_EDIT_LINKS_H
 
@@ -24,7 +24,7 @@ size_t sw_scene_join_ends(const sw_scene *scene, sw_handle join);
 /* Force and moment about its place that a living join puts on its end number k [N], [N m]. */
 sw_status sw_scene_join_force(sw_scene *scene, sw_handle join, size_t k, sw_vec *force,
                               sw_vec *moment, sw_error *err);
-/* What its class has to read, see link/joint.h. SW_EINVAL when that is nothing. */
+/* The read-outs of its class, see link/joint.h. SW_EINVAL when it has none. */
 sw_status sw_scene_read_join(sw_scene *scene, sw_handle join, const char *const **names,
                              double out[SW_LINK_OUTPUTS], sw_error *err);
 
@@ -44,11 +44,11 @@ sw_status sw_scene_hold_args(const sw_scene *scene, sw_handle hold, const sw_par
 /* What may be changed of the arguments from now on. */
 sw_status sw_scene_set_hold(sw_scene *scene, sw_handle hold, const sw_hold_args *args,
                             sw_error *err);
-/* Names of what its class has to read, NULL-terminated, or NULL: nothing. */
+/* Names of the read-outs of its class, NULL-terminated, or NULL: it has none. */
 sw_status sw_scene_hold_outputs(const sw_scene *scene, sw_handle hold, const char *const **names,
                                 sw_error *err);
-/* One of the values that its class has to read, one of its orders (retains the motion), see
- * link/hold.h. SW_EINVAL when it has none of that name. */
+/* Read one read-out of its class; give it one of its orders (retains the motion), see link/hold.h.
+ * SW_EINVAL when its class has none of that name. */
 sw_status sw_scene_read_hold(sw_scene *scene, sw_handle hold, const char *name, double *out,
                              sw_error *err);
 sw_status sw_scene_order_hold(sw_scene *scene, sw_handle hold, const char *name, double value,
@@ -61,7 +61,7 @@ typedef struct sw_obstacle_args {
   sw_vec at;          /* [m] */
   sw_quat rotation;   /* [-] */
   double friction;    /* Coulomb coefficient [-] */
-  double kinetic;     /* the same of what slides; NAN = as friction [-] */
+  double kinetic;     /* kinetic friction; NAN = as friction [-] */
   double restitution; /* share of the approach speed kept in an impact [-] */
 } sw_obstacle_args;
 extern const sw_params sw_obstacle_params;

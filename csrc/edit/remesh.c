@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Other meshes for the wires of a scene: as they would have been made, where nothing has
- * moved yet, else carried over. */
+/* Other meshes for the wires of a scene. A wire that has not moved yet is made anew with the other
+ * mesh; else its state is carried over. */
 #include <math.h>
 #include <string.h>
 

@@ -114,7 +114,8 @@ typedef struct sw_hold_acts {
   void (*clear)(sw_hold *hold);
   /* At time t: adds what the wire does in the frame of the hold to its state. */
   void (*place)(sw_hold *hold, const sw_link_wire *wire, double t, sw_hold_state *state);
-  /* The scene's time is that of an accepted state: mesh and hold follow. 1: velocities jumped. */
+  /* A state was accepted, and the scene has its time: mesh and hold follow. 1: velocities jumped.
+   */
   int (*follow)(sw_hold *hold, const sw_link_wire *wire);
   /* The plan back to the mesh, before this is read. */
   void (*undo)(sw_hold *hold, const sw_link_wire *wire);
@@ -128,7 +129,7 @@ typedef struct sw_hold_acts {
   void (*set)(sw_hold *hold, const sw_hold_args *args);
   /* 1: what came from a tape goes with the wire. */
   int (*fits)(const sw_hold *hold, const sw_link_wire *wire);
-  /* What is taken on a tape besides what all holds have. */
+  /* Puts its own state on a tape, besides the fields that all holds have. */
   void (*tape)(sw_tape *tape, sw_hold *hold);
 } sw_hold_acts;
 

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Links: what keeps wires somewhere, or at each other. A member is one file: what it holds or
- * pulls, how it reacts, what is read of it, its parameters; it ends in one sw_link_class and has
- * one X(name) line in list.def. Holds keep part of one wire (hold.h), joints two wires or more
- * (joint.h). */
+/* Links keep wires at a place, or at each other. A member is one file with its parameters, what it
+ * holds or pulls, its reaction and its read-outs; it ends in one sw_link_class and has one X(name)
+ * line in list.def. Holds keep part of one wire (hold.h), joints two wires or more (joint.h). */
 #ifndef SW_LINK_LINK_H
 #define SW_LINK_LINK_H
 
