@@ -156,8 +156,8 @@ static void undo(sw_hold *h, const sw_link_wire *w) {
 
 /* --- forces ----------------------------------------------------------------------- */
 
-/* Curvature where the wire leaves the guide on the clamp's side, squared and times EI. Of a
- * wire with frames it is that at rest and what bends it besides. */
+/* Curvature where the wire leaves the guide on the clamp's side, squared and times EI. In a wire
+ * with frames this is its curvature at rest plus the bending. */
 static double bent(const sw_system *s, const sw_body *b, size_t clamp, const double *x) {
   const sw_plan *p = b->plan;
   const sw_clamp_hinge *c = &p->clamps[clamp];

@@ -48,11 +48,11 @@ typedef struct sw_hold_watch {
   sw_crash crash; /* the last one, of no part; depth 0: none */
 } sw_hold_watch;
 
-/* What a hold bears up to each stage of a trial step, as its momentum adds up [N s], [N m s]. */
+/* Impulse and its moment that a hold bears up to each stage of a trial step [N s], [N m s]. */
 typedef struct sw_hold_sums {
   sw_vec force[SW_BOOK_STAGES], moment[SW_BOOK_STAGES];
   int last;  /* stage booked last */
-  int known; /* 1: they are those of the step that led here */
+  int known; /* 1: they belong to the step that led here */
 } sw_hold_sums;
 
 typedef struct sw_hold {

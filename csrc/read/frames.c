@@ -74,7 +74,8 @@ void sw_scene_drop_last_frame(sw_scene *s) {
   sw_free(all->list[all->count].data);
 }
 
-/* Frames of a run from another state may tell of what the scene does not know, or of later. */
+/* Frames of a run from another state may have objects that the scene has not, or be later than its
+ * time. */
 static int is_of_past(const sw_scene *s, const sw_frame *f) {
   return f->time <= sw_scene_time(s) && f->wires <= sw_scene_bodies_made(s) &&
          f->obstacles <= sw_scene_obstacle_slots(s) && f->holds <= sw_scene_hold_slots(s) &&

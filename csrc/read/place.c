@@ -28,7 +28,7 @@ static sw_status tension(sw_scene *s, sw_handle h, double place, double *out, sw
   return SW_OK;
 }
 
-/* Strings bear no twist, nor do lines between the meshed parts of a wire. */
+/* Strings bear no twist; lines between the meshed parts of a wire bear none either. */
 static const char *without_twist(const sw_scene *s, const sw_scene_wire *w, sw_handle h,
                                  double place) {
   const sw_plan *p = sw_scene_system(s)->bodies[h.slot].plan;

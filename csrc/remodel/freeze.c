@@ -128,7 +128,8 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 
-/* How the rod lies at the mesh's rings; directions across are those of the mesh, carried there. */
+/* The rod at the places of the mesh's rings; the directions across it are carried over from the
+ * mesh. */
 static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
   sw_line rod = {0};
   const sw_status status = sw_line_read(s, f->wire, f->stations.n, f->stations.s, &rod, err);

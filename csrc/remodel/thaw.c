@@ -61,7 +61,7 @@ static void place_pressed(const sw_frozen *f, const sw_motion_state *tool, const
   }
 }
 
-/* Particles of the strand, whose places are those of then, to where they are now. */
+/* Move the particles of the strand from their places at the freeze to their present places. */
 static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                   sw_strand *strand) {
   const sw_web *web = strand->web;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene that came from a file: objects name each other by numbers, and nothing may lead to what
- * is not there, whatever the file says. */
+/* Checks of a scene that came from a file. Objects name each other by numbers; whatever the file
+ * says, no number may lead to an object that is not there. */
 #include <stdint.h>
 #include <string.h>
 

@@ -13,7 +13,8 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
+/* Energy that steps gained, as a share of the energy in play: above the first an event, above the
+ * second a failure [-]. */
 static const double REMARK = 0.02, FAILURE = 0.05;
 
 /* A held point is off its hold by more than rounding [m]. */

@@ -169,8 +169,8 @@ static void nudge(sw_statics *p, int number) {
   }
 }
 
-/* Of the pseudo step, by what the last one took: where wires touch, one that fails costs more
- * than is gained by a long one [-]. */
+/* Factor on the pseudo step, by the iterations of the last one. Where wires touch, a failed step
+ * costs more than a long step gains [-]. */
 static double growth(const sw_scene *s, size_t iterations) {
   if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
   return iterations <= 14 ? 1.1 : 0.7;

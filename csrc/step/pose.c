@@ -150,8 +150,8 @@ static double reach_of(const sw_scene *s, const sw_tool *t) {
 
 enum { MOST_CUTS = 60 }; /* of a step, by motions that start slowly and end fast [-] */
 
-/* The largest step up to h in which the tool carries the wires that it presses no further than
- * that. */
+/* The largest step up to h in which the tool carries the wires between its pads no further than
+ * this limit. */
 static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
                               sw_error *err) {
   sw_motion_state from, to;

@@ -34,7 +34,7 @@ static size_t core_of(const sw_composite *c, uint32_t particle) {
   return particle < c->ring ? c->cores : (particle - c->ring) / c->each;
 }
 
-/* A pair's share of what presses one core or holds it: of its pairs, each the same; of two
+/* A pair's share of the pressure and grip of one core: the same for each of its pairs; between two
  * cores the mean [-]. */
 static double share_of(const sw_composite *c, const sw_slide *pair) {
   const size_t core[2] = {core_of(c, pair->from), core_of(c, pair->to)};

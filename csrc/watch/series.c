@@ -68,7 +68,7 @@ sw_status sw_watch_wire(sw_scene *s, size_t slot, const sw_wire_extremes *now, s
   return add(s, OF_WIRE, (sw_handle){(uint32_t)slot, w->generation}, row, w->name, err);
 }
 
-/* Where force_x stands among the values that the force has to read; -1: nowhere. */
+/* Number of force_x among the read-outs of the force; -1: it has none. */
 static int place_of_force(const sw_force_class *cls) {
   for (int k = 0; cls->read && cls->outputs[k]; k++)
     if (strcmp(cls->outputs[k], "force_x") == 0) return k;
