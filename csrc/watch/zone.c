@@ -22,7 +22,7 @@ static const sw_param rows[] = {
      "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
     {"temperature", SW_PARAM_NUMBER, "degC", NAN, -273.15, 5000, 0, NULL,
      offsetof(sw_zone_args, temperature),
-     "that wires are exposed to in it; without one they are to keep out of it"},
+     "of wires in the zone; a zone without a temperature is forbidden"},
 };
 const sw_params sw_zone_params = SW_PARAMS("zone", rows);
 

@@ -48,7 +48,7 @@ end
 
 local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them, lets go", {
   gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
-  { "name", "text", "-", "what messages and series call it", usual = "gripper1, ..." },
+  { "name", "text", "-", "name in messages and series", usual = "gripper1, ..." },
   { "pads", "table", "-", "its fingers", rows = pads.rows },
   { "at", "vector", "m", "the tool's centre while it holds nothing" },
   { "rotation", "rotation", "-", "of the tool there: x along the wire, fingers close along y, z up" },
@@ -354,7 +354,7 @@ end
 
 rows.calls{
   { "gripper:stop", "", "stays where it is now", "the gripper" },
-  { "gripper.name", nil, "by which messages and series call it" },
+  { "gripper.name", nil, "name in messages and series" },
   { "gripper.width", nil, "of the pads along the wire", "m" },
   { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },
   { "gripper.wires", nil, "all that it holds", "a list" },
