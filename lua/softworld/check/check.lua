@@ -32,7 +32,8 @@ local call = rows.call("run:check", "{...}", "does the process pass? see help 'c
   { "fatigue", "table", "-", "the curves by which cycles of tension and bending wear the wire",
     rows = wanted.fatigue },
   { "abrasion", "table", "-", "wear of the wire's surface by sliding", rows = wanted.abrasion },
-  { "vibration", "table", "-", "vibration of the holds, with the wires as they lie at the end", rows = wanted.vibration },
+  { "vibration", "table", "-", "vibration of the holds, with the wires as they lie at the end",
+    rows = wanted.vibration },
   { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
 })
 
