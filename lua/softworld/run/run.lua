@@ -6,7 +6,7 @@ local advice = require "softworld.run.advice"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local choose = require "softworld.model.choose"
-local grasp = require "softworld.grip.grasp"
+local reactions = require "softworld.grip.reactions"
 local leave = require "softworld.scene.leave"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
@@ -96,7 +96,7 @@ local function drive(scene, args, total, bar)
     bar:update(scene.time - start, total.steps)
     if not part.ok then return part.reason end
     local asked = observe.settle(scene)
-    local stopped = grasp.look(scene) or asked
+    local stopped = reactions.look(scene) or asked
     if stopped then return stopped, "stopped" end
     if left <= 0 then
       waiting.at_end(scene)
