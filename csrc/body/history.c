@@ -17,14 +17,14 @@
 #include "system/system.h"
 
 void sw_scene_forget_histories(sw_scene *s) {
-  sw_kept *kept = sw_scene_kept(s);
-  for (size_t k = 0; k < kept->history_count; k++) {
-    sw_plan_release(kept->histories[k].plan);
-    sw_free(kept->histories[k].data);
+  sw_histories *kept = sw_scene_histories_of(s);
+  for (size_t k = 0; k < kept->count; k++) {
+    sw_plan_release(kept->list[k].plan);
+    sw_free(kept->list[k].data);
   }
-  sw_free(kept->histories);
-  kept->histories = NULL;
-  kept->history_count = 0;
+  sw_free(kept->list);
+  kept->list = NULL;
+  kept->count = 0;
 }
 
 static sw_status keep(sw_scene *s, size_t wire, const sw_term *term, sw_kept_history *out) {
@@ -44,7 +44,7 @@ static sw_status keep(sw_scene *s, size_t wire, const sw_term *term, sw_kept_his
 }
 
 sw_status sw_scene_keep_histories(sw_scene *s) {
-  sw_kept *kept = sw_scene_kept(s);
+  sw_histories *kept = sw_scene_histories_of(s);
   sw_system *system = sw_scene_system(s);
   size_t count = 0;
   sw_scene_forget_histories(s);
@@ -52,20 +52,20 @@ sw_status sw_scene_keep_histories(sw_scene *s) {
     for (size_t k = 0; k < system->bodies[b].term_count; k++)
       count += system->bodies[b].terms[k].history != NULL;
   if (!count) return SW_OK;
-  kept->histories = sw_alloc(count, sizeof *kept->histories);
-  if (!kept->histories) return SW_ENOMEM;
+  kept->list = sw_alloc(count, sizeof *kept->list);
+  if (!kept->list) return SW_ENOMEM;
   for (size_t b = 0; b < system->body_count; b++)
     SW_ITEMS(const sw_term, term, system->bodies[b].terms, system->bodies[b].term_count) {
       if (!term->history) continue;
-      SW_TRY(keep(s, b, term, &kept->histories[kept->history_count]));
-      kept->history_count++;
+      SW_TRY(keep(s, b, term, &kept->list[kept->count]));
+      kept->count++;
     }
   return SW_OK;
 }
 
 static const sw_kept_history *find(const sw_scene *s, size_t wire, const sw_term *term) {
-  sw_kept *kept = sw_scene_kept(s);
-  SW_ITEMS(const sw_kept_history, h, kept->histories, kept->history_count) {
+  sw_histories *kept = sw_scene_histories_of(s);
+  SW_ITEMS(const sw_kept_history, h, kept->list, kept->count) {
     if (h->wire != wire || (long)h->force != term->id) continue;
     if (term->id < 0 ? h->inner == term->cls
                      : h->generation == sw_scene_force_in(s, term->id)->generation)
@@ -84,7 +84,7 @@ static int any_begins(const sw_scene *s) {
 
 void sw_scene_inherit_histories(sw_scene *s) {
   sw_system *system = sw_scene_system(s);
-  if (!sw_scene_kept(s)->history_count && !any_begins(s)) return;
+  if (!sw_scene_histories_of(s)->count && !any_begins(s)) return;
   sw_system_refresh(system);
   for (size_t b = 0; b < system->body_count; b++)
     SW_ITEMS(const sw_term, term, system->bodies[b].terms, system->bodies[b].term_count) {

@@ -93,16 +93,16 @@ static void leave_memory(sw_scene *s, size_t wire) {
   size_t kept = 0;
   for (size_t w = 0; s->kept.memory && w < s->kept.wires; w++)
     s->kept.now[w] = less(s->kept.now[w], wire);
-  SW_ITEMS(sw_kept_history, h, s->kept.histories, s->kept.history_count) {
+  SW_ITEMS(sw_kept_history, h, s->histories.list, s->histories.count) {
     if (h->wire == wire) {
       sw_plan_release(h->plan);
       sw_free(h->data);
       continue;
     }
     h->wire = less(h->wire, wire);
-    s->kept.histories[kept++] = *h;
+    s->histories.list[kept++] = *h;
   }
-  s->kept.history_count = kept;
+  s->histories.count = kept;
 }
 
 static void pads_on(sw_scene *s, const sw_tool *t) {

@@ -63,12 +63,12 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
 /* What a scene that is not built remembers of its last system. */
 static void tape_kept(sw_tape *t, sw_scene *s) {
   sw_tape_kept_contact(t, s);
-  size_t unused = s->kept.history_count;
+  size_t unused = s->histories.count;
   const size_t n =
-      tape_list(t, &s->kept.histories, &s->kept.history_count, &unused, sizeof *s->kept.histories);
+      tape_list(t, &s->histories.list, &s->histories.count, &unused, sizeof *s->histories.list);
   for (size_t k = 0; k < n && sw_tape_good(t); k++) {
-    if (sw_tape_reads(t)) s->kept.history_count = k + 1;
-    sw_tape_kept_history(t, s, &s->kept.histories[k]);
+    if (sw_tape_reads(t)) s->histories.count = k + 1;
+    sw_tape_kept_history(t, s, &s->histories.list[k]);
   }
 }
 

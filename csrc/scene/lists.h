@@ -38,7 +38,7 @@ typedef struct sw_rules {
   size_t count, capacity;
 } sw_rules;
 
-/* What the last built system remembers, for the next one: touches, and forces. */
+/* Contact memory of the last built system, for the next one. */
 typedef struct sw_kept {
   void *memory; /* copy, or NULL */
   size_t bytes;
@@ -51,9 +51,13 @@ typedef struct sw_kept {
   size_t *now;   /* (wires) its slot now; SIZE_MAX: it is gone */
   size_t wires;
   int fresh;
-  size_t changed;             /* a wire that has other nodes since, from 1; 0: none */
-  sw_kept_history *histories; /* of forces, likewise */
-  size_t history_count;
+  size_t changed; /* a wire that has other nodes since, from 1; 0: none */
 } sw_kept;
+
+/* The same of forces. */
+typedef struct sw_histories {
+  sw_kept_history *list;
+  size_t count;
+} sw_histories;
 
 #endif

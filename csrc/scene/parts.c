@@ -42,6 +42,7 @@ sw_zones *sw_scene_zones_of(const sw_scene *s) { return (sw_zones *)&s->zones; }
 sw_watches *sw_scene_watches_of(const sw_scene *s) { return (sw_watches *)&s->watches; }
 sw_frames *sw_scene_frames_of(const sw_scene *s) { return (sw_frames *)&s->frames; }
 sw_rules *sw_scene_rules_of(const sw_scene *s) { return (sw_rules *)&s->rules; }
+sw_histories *sw_scene_histories_of(const sw_scene *s) { return (sw_histories *)&s->histories; }
 sw_kept *sw_scene_kept(const sw_scene *s) { return (sw_kept *)&s->kept; }
 sw_hold_load *sw_scene_hold_loads(const sw_scene *s) { return s->hold_loads; }
 sw_log *sw_scene_contact_steps(const sw_scene *s) { return (sw_log *)&s->contact_steps; }

@@ -19,11 +19,12 @@ typedef struct sw_kept_history sw_kept_history;     /* body/history.h */
 typedef struct sw_course sw_course;                 /* course.h */
 typedef struct sw_books sw_books;                   /* ledger.h */
 typedef struct sw_events sw_events;                 /* events.h */
-typedef struct sw_zones sw_zones;                   /* lists.h, as are the next four */
+typedef struct sw_zones sw_zones;                   /* lists.h, as are the next five */
 typedef struct sw_watches sw_watches;
 typedef struct sw_frames sw_frames;
 typedef struct sw_rules sw_rules;
 typedef struct sw_kept sw_kept;
+typedef struct sw_histories sw_histories;
 typedef struct sw_scene_rule sw_scene_rule; /* body/touching.h */
 typedef struct sw_frame sw_frame;           /* read/kept_frames.h */
 typedef struct sw_system sw_system;
@@ -74,6 +75,7 @@ sw_watches *sw_scene_watches_of(const sw_scene *scene);
 sw_frames *sw_scene_frames_of(const sw_scene *scene);
 sw_rules *sw_scene_rules_of(const sw_scene *scene);
 sw_kept *sw_scene_kept(const sw_scene *scene);
+sw_histories *sw_scene_histories_of(const sw_scene *scene);
 sw_hold_load *sw_scene_hold_loads(const sw_scene *scene); /* (holds) of the stage solved last */
 sw_log *sw_scene_contact_steps(const sw_scene *scene);    /* time and span of those observed [s] */
 sw_extreme *sw_scene_penetrated(const sw_scene *scene);   /* the deepest penetration of the run */

@@ -52,6 +52,7 @@ struct sw_scene {
   sw_crowd *crowd;          /* between particles that repel each other, or NULL */
   sw_rules rules;
   sw_kept kept;
+  sw_histories histories;
   sw_course course; /* of its steps */
 
   int diverged;
