@@ -28,6 +28,7 @@ HOST = $(wildcard csrc/host/*.c)
 PAGE = $(BUILD)/page/player.html
 OBJ = $(SRC:csrc/%.c=$(BUILD)/obj/%.o) $(BUILD)/obj/page.o $(BUILD)/obj/font.o
 HOSTOBJ = $(HOST:csrc/%.c=$(BUILD)/obj/%.o)
+PROBEOBJ = $(patsubst csrc/%.c,$(BUILD)/obj/%.o,$(wildcard csrc/probe/*.c))
 
 all: $(BUILD)/softworld $(BUILD)/lib/softworld/core.so $(BUILD)/lib/softworld/probe.so
 
@@ -40,7 +41,7 @@ $(BUILD)/lib/softworld/core.so: $(OBJ)
 	$(CC) $(SAN) -shared -Wl,-z,nodelete -o $@ $^ $(LIBS)
 
 # For specs and benches, within the program only, which has the core; not installed.
-$(BUILD)/lib/softworld/probe.so: $(BUILD)/obj/probe/probe.o
+$(BUILD)/lib/softworld/probe.so: $(PROBEOBJ)
 	@mkdir -p $(@D)
 	$(CC) $(SAN) -shared -o $@ $^
 
@@ -78,7 +79,7 @@ $(BUILD)/obj/font.o: $(BUILD)/font.bin
 	printf '%s\n' '.section .rodata' '.global sw_font_start' '.hidden sw_font_start' \
 	  'sw_font_start: .incbin "$<"' '.section .note.GNU-stack,"",%progbits' | $(CC) -x assembler -c -o $@ -
 
--include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d) $(BUILD)/obj/probe/probe.d
+-include $(OBJ:.o=.d) $(HOSTOBJ:.o=.d) $(PROBEOBJ:.o=.d)
 
 # The host finds share/lua/5.4 beside its own bin; stock lua5.4 has both folders
 # on its default paths when PREFIX is /usr/local or /usr.

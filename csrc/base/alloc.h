@@ -36,7 +36,7 @@ size_t sw_alloc_size(const void *p);
  * doubling; old content is kept, new content is zero. SW_ENOMEM leaves both
  * untouched. */
 sw_status sw_grow(void **p, size_t *capacity, size_t need, size_t size);
-/* The same of what is empty: nothing is kept. SW_ENOMEM leaves it without capacity. */
+/* The same for an empty array: nothing is copied. After SW_ENOMEM it has no capacity. */
 sw_status sw_grow_empty(void **p, size_t *capacity, size_t need, size_t size);
 
 /* Exchange two values of one type. */

@@ -16,8 +16,8 @@ typedef struct sw_bracket {
 void sw_bracket_clear(sw_bracket *b);
 /* It was off by so much at a place. Returns the side that this is: 1 = too large. */
 int sw_bracket_add(sw_bracket *b, double at, double off);
-/* Forget the other side where a trial contradicts it: falls = 1, the quantity falls from a lower
- * place to a higher one; off: of the trial at that place. */
+/* Forget the other side if a trial contradicts it: falls = 1, the quantity falls from a lower place
+ * to a higher one; off: of the trial at that place. */
 void sw_bracket_mend(sw_bracket *b, int falls, double at, double off);
 /* 1: both sides are known. */
 int sw_bracket_closed(const sw_bracket *b);

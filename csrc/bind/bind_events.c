@@ -13,7 +13,7 @@ static const sw_param tell_rows[] = {
     {"kind", SW_PARAM_TEXT, "-", 0, 0, 0, SW_PARAM_REQUIRED, NULL, offsetof(tell_args, kind),
      "one word, such as crash"},
     {"object", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(tell_args, object),
-     "name of what it happened to"},
+     "name of the object to which it happened"},
     {"s", SW_PARAM_NUMBER, "m", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, s),
      "arc length"},
     {"value", SW_PARAM_NUMBER, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL, offsetof(tell_args, value),

@@ -150,8 +150,8 @@ static int mod_lock(lua_State *L) {
   return 2;
 }
 
-/* core.create(path, text): a new file with this text, if there is none of this name, which holds
- * on shared file systems too. true; nil and the reason, or nil and "busy" when there is one. */
+/* core.create(path, text) -> true: made a new file with this text, also on shared file systems; nil
+ * and the reason, or nil and "busy" when a file of this name exists. */
 static int mod_create(lua_State *L) {
   size_t size;
   const char *path = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 2, &size);

@@ -101,7 +101,7 @@ static int keep_function(lua_State *L, lsw_scene_handle *owner, int function) {
   return number;
 }
 
-/* Note which force the function belongs to, or forget it when there is none. */
+/* Note which force the function belongs to; forget the function when there is no force. */
 static void mark_function(lua_State *L, int number, const sw_handle *id) {
   lua_getiuservalue(L, 1, 1);
   if (id && lua_rawgeti(L, -1, number) == LUA_TTABLE) {

@@ -211,8 +211,9 @@ static int mod_frame_range(lua_State *L) {
   return 2;
 }
 
-/* core.frame_squeeze(scene, i, w) -> of each node of wire w in frame i: sizes of what presses on
- * it, less the size of their sum [N]: none where it is pressed from one side. */
+/* core.frame_squeeze(scene, i, w) -> for each node of wire w in frame i: the sum of the sizes of
+ * the contact forces on it, less the size of their sum [N]; 0 where it is pressed from one side
+ * only. */
 static int mod_frame_squeeze(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const lua_Integer i = lsw_integer(L, 2, "frame_squeeze: frame");

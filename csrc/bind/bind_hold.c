@@ -134,33 +134,44 @@ static int meth_set(lua_State *L) {
   return 0;
 }
 
-/* --- sliders -------------------------------------------------------------------- */
+/* --- what some have to read ----------------------------------------------------- */
+
+static int reading(lua_State *L, const char *name) {
+  double value;
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  LSW_DO(L, sw_scene_read_hold, c.scene, c.id, name, &value);
+  if (isnan(value))
+    lua_pushnil(L);
+  else
+    lua_pushnumber(L, value);
+  return 1;
+}
+
+/* clamp:read() -> all that its kind has to read, by name; see the file of the kind */
+static int meth_read(lua_State *L) {
+  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
+  const char *const *names;
+  LSW_DO(L, sw_scene_hold_outputs, c.scene, c.id, &names);
+  lua_newtable(L);
+  for (; names && *names; names++) {
+    reading(L, *names);
+    lua_setfield(L, -2, *names);
+  }
+  return 1;
+}
 
 /* slider:place() -> place along the rail, speed, force on the wire along it [m], [m/s], [N] */
 static int meth_place(lua_State *L) {
-  sw_slide_state state;
-  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  LSW_DO(L, sw_scene_slide_state, c.scene, c.id, &state);
-  lua_pushnumber(L, state.place);
-  lua_pushnumber(L, state.speed);
-  lua_pushnumber(L, state.force);
-  return 3;
-}
-
-/* --- feeds ---------------------------------------------------------------------- */
-
-static sw_feed_state feed_state(lua_State *L) {
-  sw_feed_state state;
-  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  LSW_DO(L, sw_scene_feed_state, c.scene, c.id, &state);
-  return state;
+  return reading(L, "place") + reading(L, "speed") + reading(L, "force");
 }
 
 /* Length of wire paid out so far, unstressed [m]. */
-static int meth_fed(lua_State *L) { return lua_pushnumber(L, feed_state(L).fed), 1; }
+static int meth_fed(lua_State *L) { return reading(L, "fed"); }
 
 /* Force that moves the wire outwards [N]; the guide's walls bear the rest of force(). */
-static int meth_drive_force(lua_State *L) { return lua_pushnumber(L, feed_state(L).drive), 1; }
+static int meth_drive_force(lua_State *L) { return reading(L, "drive_force"); }
+
+/* --- feeds ---------------------------------------------------------------------- */
 
 /* The argument at 2, checked as the parameter of that name of scene:feed is. */
 static double feed_argument(lua_State *L, const char *name) {
@@ -174,34 +185,27 @@ static double feed_argument(lua_State *L, const char *name) {
   return value;
 }
 
-/* may_be_nil: that is none. */
-static int set_feed(lua_State *L, const char *name, int may_be_nil,
-                    sw_status (*set)(sw_scene *, sw_handle, double, sw_error *)) {
+/* Gives an order with the argument at 2, checked as a row of scene:feed; may_be_nil: that is none.
+ */
+static int order_feed(lua_State *L, const char *order, const char *row, int may_be_nil) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, name);
-  LSW_DO(L, set, c.scene, c.id, value);
+  const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, row);
+  LSW_DO(L, sw_scene_order_hold, c.scene, c.id, order, value, NULL);
   return 0;
 }
 
 /* feed:speed() -> now; feed:speed(v) sets it [m/s]. */
 static int meth_speed(lua_State *L) {
-  if (lua_gettop(L) > 1) return set_feed(L, "speed", 0, sw_scene_feed_speed);
-  lua_pushnumber(L, feed_state(L).speed);
-  return 1;
+  return lua_gettop(L) > 1 ? order_feed(L, "speed", "speed", 0) : reading(L, "speed");
 }
 
 /* feed:push(force): that force instead of a speed [N]. */
-static int meth_push(lua_State *L) { return set_feed(L, "force", 0, sw_scene_feed_push); }
+static int meth_push(lua_State *L) { return order_feed(L, "push", "force", 0); }
 
 /* feed:force_limit() -> the limit or nil; feed:force_limit(force), (nil) for none [N]. */
 static int meth_force_limit(lua_State *L) {
-  if (lua_gettop(L) > 1) return set_feed(L, "force_limit", 1, sw_scene_feed_limit);
-  const double limit = feed_state(L).limit;
-  if (isnan(limit))
-    lua_pushnil(L);
-  else
-    lua_pushnumber(L, limit);
-  return 1;
+  return lua_gettop(L) > 1 ? order_feed(L, "force_limit", "force_limit", 1)
+                           : reading(L, "force_limit");
 }
 
 typedef struct length_args {
@@ -237,7 +241,7 @@ static int meth_feed(lua_State *L) {
   plan.points = points, plan.count = 2;
   plan.speed = a.speed, plan.duration = a.duration, plan.acceleration = a.acceleration;
   if (a.length != 0) LSW_DO(L, sw_motion_create, &plan, &motion);
-  const sw_status status = sw_scene_feed_length(c.scene, c.id, motion, a.length, &err);
+  const sw_status status = sw_scene_order_hold(c.scene, c.id, "length", a.length, motion, &err);
   lua_pushnumber(L, motion ? sw_motion_end(motion) : 0.0);
   sw_motion_release(motion);
   lsw_must(L, status, &err);
@@ -275,6 +279,7 @@ static const luaL_Reg methods[] = {{"force", meth_force},
                                    {"crash", meth_crash},
                                    {"get", meth_get},
                                    {"set", meth_set},
+                                   {"read", meth_read},
                                    {"place", meth_place},
                                    {"fed", meth_fed},
                                    {"feed", meth_feed},

@@ -67,16 +67,12 @@ static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L).mome
 
 /* join:read() of a tie -> { distance, tension, peak, broken, broken_time, broken_force } */
 static int meth_read(lua_State *L) {
-  sw_tie_state state;
+  const char *const *names;
+  double values[SW_LINK_OUTPUTS];
   const lsw_self j = lsw_check_self(L, &lsw_class_join);
-  LSW_DO(L, sw_scene_tie_state, j.scene, j.id, &state);
+  LSW_DO(L, sw_scene_read_join, j.scene, j.id, &names, values);
   lua_newtable(L);
-  lsw_set_number(L, "distance", state.distance);
-  lsw_set_number(L, "tension", state.tension);
-  lsw_set_number(L, "peak", state.peak);
-  lsw_set_number(L, "broken", state.broken);
-  lsw_set_number(L, "broken_time", state.broken_time);
-  lsw_set_number(L, "broken_force", state.broken_force);
+  for (size_t k = 0; names[k]; k++) lsw_set_number(L, names[k], values[k]);
   return 1;
 }
 

@@ -61,8 +61,8 @@ static int given(lua_State *L, const char *name) {
   return there;
 }
 
-/* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone is that
- * of what slides, too. */
+/* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone also sets
+ * the kinetic friction. */
 static int meth_set(lua_State *L) {
   sw_obstacle_args args;
   const lsw_self o = check(L);

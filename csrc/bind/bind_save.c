@@ -36,14 +36,6 @@ static int mod_save(lua_State *L) {
   return give_block(L, &b);
 }
 
-/* core.fields(scene) -> string, for specs: the objects' fields in memory */
-static int mod_fields(lua_State *L) {
-  sw_error err = {""};
-  block b = {NULL, 0};
-  lsw_must(L, sw_scene_fields(lsw_check_scene(L), &b.bytes, &b.size), &err);
-  return give_block(L, &b);
-}
-
 /* core.saved_note(string) -> the note */
 static int mod_saved_note(lua_State *L) {
   size_t size, note_size;
@@ -104,7 +96,7 @@ static size_t slot_of(const lsw_class *c, const lsw_child *child) {
   return number == SIZE_MAX ? UINT32_MAX : number;
 }
 
-/* core.number(object) -> class, slot, generation, scene; nothing for what is none of a scene's */
+/* core.number(object) -> class, slot, generation, scene; nothing if it is no object of a scene */
 static int mod_number(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
   for (int k = 0; c && k < CHILDREN; k++) {
@@ -135,7 +127,7 @@ static int mod_numbered(lua_State *L) {
   return luaL_error(L, "a scene has no objects of class '%s'", name);
 }
 
-const luaL_Reg lsw_module_save[] = {
-    {"save", mod_save},     {"fields", mod_fields},     {"saved_note", mod_saved_note},
-    {"load", mod_load},     {"resume", mod_resume},     {"items", mod_items},
-    {"number", mod_number}, {"numbered", mod_numbered}, {NULL, NULL}};
+const luaL_Reg lsw_module_save[] = {{"save", mod_save},         {"saved_note", mod_saved_note},
+                                    {"load", mod_load},         {"resume", mod_resume},
+                                    {"items", mod_items},       {"number", mod_number},
+                                    {"numbered", mod_numbered}, {NULL, NULL}};

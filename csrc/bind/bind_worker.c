@@ -137,8 +137,8 @@ static int mod_fork(lua_State *L) {
   if (lsw_servers() > 0)
     return luaL_error(
         L,
-        "no worker can be forked while a live view is open, whose threads would not be in the "
-        "fork: close the view, or compute in this process with workers = 0");
+        "no worker can be forked while a live view is open: close the view, or compute in this "
+        "process with workers = 0");
   lua_settop(L, 1);
   worker *ours = new_worker(L), *theirs = new_worker(L);
   luaL_checkstack(L, 8, "fork");

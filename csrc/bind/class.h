@@ -18,7 +18,7 @@ typedef struct lsw_handle {
 
 typedef struct lsw_class {
   const char *name; /* "scene": the word used in messages, type() and tostring */
-  sw_kind kind;     /* of scenes' objects; SW_OF_NONE: it is none */
+  sw_kind kind;     /* kind of the scene's object; SW_OF_NONE: it is no object of a scene */
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
   void (*more)(lua_State *L);        /* adds methods to the table on top, or NULL */

@@ -177,7 +177,7 @@ static void inherit_twist(sw_scene *s) {
   }
 }
 
-sw_status sw_scene_thaw(sw_scene *s) {
+sw_status sw_scene_unbuild(sw_scene *s) {
   if (!s->built) return SW_OK;
   sw_scene_undo_holds(s);
   SW_TRY(keep_contact(s));

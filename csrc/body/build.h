@@ -8,7 +8,7 @@
 #include "scene/wire.h"
 
 /* Leave the built state: the meshes become authoritative again. */
-sw_status sw_scene_thaw(sw_scene *scene);
+sw_status sw_scene_unbuild(sw_scene *scene);
 /* Make the system from the meshes and holds, if it is not. */
 sw_status sw_scene_build(sw_scene *scene, sw_error *err);
 

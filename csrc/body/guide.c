@@ -9,8 +9,10 @@
 #include "contact/mutual.h"
 #include "link/hold.h"
 #include "link/spool.h"
-#include "scene/world.h"
+#include "scene/lists.h"
+#include "scene/parts.h"
 #include "state/hinge.h"
+#include "system/system.h"
 
 /* First edges between these shares of the second one keep the clamp's quadrature good; beyond
  * that nodes are made and removed. Apart by more than one, so that a feed that goes to and fro
@@ -24,11 +26,11 @@ enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and 
 double sw_feed_step(const sw_scene *s, double h) {
   SW_EACH(hold, o, s) {
     if (!o->alive || !sw_hold_passes(o)) continue;
-    const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, s->time).fed;
-    double way = fabs(sw_feed_at(o, s->time + h).fed - now);
+    const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, sw_scene_time(s)).fed;
+    double way = fabs(sw_feed_at(o, sw_scene_time(s) + h).fed - now);
     for (int i = 0; way > most && i < 60; i++) { /* in even parts: a tiny one would be a kick */
       h /= fmin(64, ceil(way / most));
-      way = fabs(sw_feed_at(o, s->time + h).fed - now);
+      way = fabs(sw_feed_at(o, sw_scene_time(s) + h).fed - now);
     }
   }
   return h;
@@ -39,14 +41,15 @@ sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err
   double most = -1;
   SW_EACH(hold, o, s) {
     if (!o->alive || !sw_hold_passes(o)) continue;
-    const double speed = fabs(sw_feed_at(o, s->time).speed);
+    const double speed = fabs(sw_feed_at(o, sw_scene_time(s)).speed);
     if (speed > most) most = speed, fastest = o;
   }
   if (!fastest) return sw_fail(err, SW_ENOCONV, "%s", refused);
   return sw_fail(
       err, SW_ENOCONV,
       "wire '%s' goes through feed '%s' at %.3g m/s, faster than steps can follow%s%.300s",
-      s->wires[fastest->wire].name, fastest->name, most, refused[0] ? ": " : "", refused);
+      sw_scene_wire_in(s, fastest->wire)->name, fastest->name, most, refused[0] ? ": " : "",
+      refused);
 }
 
 /* One side of a guide. */
@@ -155,12 +158,13 @@ static const double LARGEST_SHIFT = 0.1;
 static int touches(const guide *g, long k) {
   const sw_scene *s = g->s;
   const double arc = g->m->s[inner(g, k)];
-  if (!s->kept.memory) return 0;
-  for (size_t i = s->kept.first[g->h->wire]; i < s->kept.first[g->h->wire + 1]; i++)
-    if (s->kept.s[i] == arc)
-      return sw_contact_memory_names(s->kept.memory, s->kept.bytes, i) ||
-             sw_mutual_memory_names(s->kept.pairs, s->kept.pair_bytes, i) ||
-             sw_mutual_memory_names(s->kept.grains, s->kept.grain_bytes, i);
+  const sw_kept_contact *m = sw_scene_kept(s);
+  if (!m->memory) return 0;
+  for (size_t i = m->first[g->h->wire]; i < m->first[g->h->wire + 1]; i++)
+    if (m->s[i] == arc)
+      return sw_contact_memory_names(m->memory, m->bytes, i) ||
+             sw_mutual_memory_names(m->pairs, m->pair_bytes, i) ||
+             sw_mutual_memory_names(m->grains, m->grain_bytes, i);
   return 0;
 }
 
@@ -291,13 +295,14 @@ static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
   return sw_fail(err, SW_EEMPTY,
                  "feed '%s': at t = %.6g s wire '%s' is drawn in up to %s%s%s, %.3g m are left; "
                  "stop the feed before",
-                 g->h->name, s->time, s->wires[g->h->wire].name, next ? "'" : "its end",
-                 next ? next->name : "", next ? "'" : "", fabs(to - from));
+                 g->h->name, sw_scene_time(s), sw_scene_wire_in(s, g->h->wire)->name,
+                 next ? "'" : "its end", next ? next->name : "", next ? "'" : "", fabs(to - from));
 }
 
 /* The guide's side of hold h; directions are as the holds were last placed. */
 static guide guide_of(sw_scene *s, sw_hold *h, int side, const sw_vec *axes) {
-  guide g = {.s = s, .h = h, .m = &s->wires[h->wire].mesh, .side = side, .director = axes[0]};
+  guide g = {
+      .s = s, .h = h, .m = &sw_scene_wire_in(s, h->wire)->mesh, .side = side, .director = axes[0]};
   g.normal = g.m->rest ? axes[1] : sw_perpendicular(axes[0]);
   return g;
 }
@@ -329,27 +334,29 @@ static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted
   static const sw_vec looking[2] = {{1, 0, 0}, {0, 1, 0}};
   SW_EACH(hold, h, s) {
     if (!h->alive || !sw_hold_passes(h)) continue;
-    const double fed = sw_feed_at(h, t).fed - sw_feed_at(h, s->time).fed;
+    const double fed = sw_feed_at(h, t).fed - sw_feed_at(h, sw_scene_time(s)).fed;
     SW_TRY(tend(s, h, fed, axes != NULL, axes ? axes + 2 * h->number : looking, wanted, err));
   }
   return SW_OK;
 }
 
 sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) {
+  sw_kept_contact *kept = sw_scene_kept(s);
+  sw_system *system = sw_scene_system(s);
   *changed = 0;
   SW_TRY(tend_all(s, t, NULL, changed, err));
   if (!*changed) return SW_OK;
-  const size_t count = s->system.hold_count;
-  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
+  const size_t count = system->hold_count;
+  SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));
   sw_vec *axes SW_LOCAL = sw_alloc(2 * count, sizeof *axes);
   if (!axes) return sw_fail(err, SW_ENOMEM, "feed: out of memory");
   for (size_t k = 0; k < count; k++) {
-    axes[2 * k] = sw_vec_at(s->system.directors_now, 2 * k + 1);
-    axes[2 * k + 1] = sw_vec_at(s->system.normals_now, 2 * k + 1);
+    axes[2 * k] = sw_vec_at(system->directors_now, 2 * k + 1);
+    axes[2 * k + 1] = sw_vec_at(system->normals_now, 2 * k + 1);
   }
-  sw_status status = sw_scene_thaw(s);
+  sw_status status = sw_scene_unbuild(s);
   /* a shift may have put nodes a little way into what they touch: let out slowly, not thrown */
-  if (status == SW_OK && !s->kept.fresh) s->kept.fresh = SW_CONTACT_EMERGING;
+  if (status == SW_OK && !kept->fresh) kept->fresh = SW_CONTACT_EMERGING;
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
   if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");
   if (status != SW_OK) return status;

@@ -8,8 +8,8 @@
 
 /* A stage was solved, see sw_coupling. */
 void sw_hold_book(sw_scene *scene, const sw_booking *booking);
-/* The step that led here had a jerk: what the hold bore in it is not what it bears at its end.
- * Means over it, about its place [N], [N m]. */
+/* 1: the step that led here had a jerk, so the hold's load at its end differs from its mean over
+ * the step. The means, about the hold's place [N], [N m]. */
 int sw_hold_jerked(const sw_scene *scene, const sw_hold *hold, sw_vec *force, sw_vec *moment);
 /* What is written beside a force: above 0 the time that it is the mean of, below 0 the step at
  * whose end it is the force [s]. */
@@ -26,7 +26,7 @@ sw_status sw_scene_check_clear(const sw_scene *scene, size_t wire, const sw_hold
 sw_status sw_scene_check_holds(const sw_scene *scene, sw_error *err);
 /* Its wire, as links see it. */
 sw_link_wire sw_scene_link_wire(const sw_scene *scene, size_t wire);
-/* The scene's time is that of an accepted state: meshes and holds follow. */
+/* A state was accepted, and the scene has its time: meshes and holds follow. */
 void sw_scene_follow_holds(sw_scene *scene);
 /* Plans back to the meshes, before these are read. */
 void sw_scene_undo_holds(sw_scene *scene);

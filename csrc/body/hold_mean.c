@@ -29,8 +29,8 @@ void sw_hold_book(sw_scene *s, const sw_booking *b) {
   }
 }
 
-/* A force at a step's end that differs from its mean by this share of the larger one, and by this
- * of what is usual for the wire, is that of a jerk [-]. */
+/* A step has a jerk if the force at its end differs from the mean over it by the first share of the
+ * larger of both, and by the second share of a usual force of the wire [-]. */
 static const double JERK = 0.05, SHARP = 0.1;
 
 static double usual_force(const sw_scene *s, size_t wire) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a built scene has besides its objects: the state of the system, of contact and of the
- * stepper. Put back into a scene built of the same objects it gives the same bits. */
+/* The live part of a built scene, besides its objects: the state of the system, of contact and of
+ * the stepper. Put back into a scene built of the same objects it gives the same bits. */
 #include "body/live.h"
 
 #include <string.h>

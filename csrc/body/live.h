@@ -7,8 +7,9 @@
 #include "integrate/integrate.h"
 #include "scene/scene.h"
 
-/* What a built scene has besides its objects, where it lies: in the scene, to be put on a tape, or
- * on the tape, on any address, to be copied into a scene that is built of the same objects. */
+/* The live part of a built scene, besides its objects, by its addresses: those in the scene, to be
+ * put on a tape, or those on the tape, to be copied into a scene that is built of the same objects.
+ */
 typedef struct sw_live {
   const void *state;           /* x v a tension and so on of the built system */
   size_t state_size;           /* in doubles */

@@ -25,10 +25,10 @@ static void state_rule(const sw_scene_rule *r, size_t wires, sw_pair_rule *table
 sw_status sw_scene_new_pairs(sw_scene *s) {
   int any = 0;
   const size_t n = s->wire_count;
-  if (!s->rule_count) return SW_OK;
+  if (!s->rules.count) return SW_OK;
   sw_pair_rule *table SW_LOCAL = sw_alloc(n * n, sizeof *table);
   if (!table) return SW_ENOMEM;
-  for (size_t k = 0; k < s->rule_count; k++) state_rule(&s->rules[k], n, table);
+  for (size_t k = 0; k < s->rules.count; k++) state_rule(&s->rules.list[k], n, table);
   for (size_t k = 0; k < n * n; k++) any |= table[k].on;
   if (!any) return SW_OK;
   SW_TRY(sw_pairs_new(&s->system, table, &s->pairs));

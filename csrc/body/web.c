@@ -111,7 +111,7 @@ static void add_held(const sw_body *b, const sw_hold *h, sw_held_node node, sw_s
   }
 }
 
-/* taken (particles) has 1 + the slot of what holds a particle. */
+/* taken (particles): 1 + the slot of the hold that has the particle; 0 = none. */
 static sw_status mark(const sw_scene *s, size_t k, size_t *taken, sw_error *err) {
   const sw_hold *h = sw_scene_hold_in(s, k);
   const size_t particles = sw_scene_wire_in(s, h->wire)->strand.web->particles;

@@ -83,7 +83,7 @@ sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *bea
   const double limit = OF_LIMIT * ring_limit(args, mesh, beam);
   if (args->mesh == SW_LATTICE_TUBE) {
     const double chord = 2 * tube->ring_radius * sin(M_PI / (double)tube->particles);
-    /* A limit of 0 is that of a reach which the mesh refuses. */
+    /* A limit of 0 means that the mesh refuses this reach. */
     if (isnan(h)) h = limit > 1e-6 * chord ? fmin(chord, limit) : chord;
     return sw_lattice_tube(tube, h, out, err);
   }

@@ -199,8 +199,8 @@ static sw_status elements_alone(task *t, sw_error *err) {
   return reach(t, err);
 }
 
-/* The same, with the Poisson's ratio that gives GJ too. Where that is none of a material GJ stays
- * as near as it is. */
+/* The same, with the Poisson's ratio that gives GJ too. If no material has that ratio, GJ stays as
+ * near as possible. */
 static sw_status one_that_twists(task *t, sw_error *err) {
   const double nu = t->c->nu, core_nu = t->c->core_nu;
   SW_TRY(elements_alone(t, err));
@@ -250,8 +250,8 @@ static int springs_along(task *t, double EA, double EI) {
   return 0;
 }
 
-/* Elements make GJ, springs along the wire the rest of EA and EI. *possible: 0 when elements
- * alone have more than that. */
+/* Elements make GJ, springs along the wire the rest of EA and EI. *possible: 0 when the elements
+ * alone already have more EA or EI. */
 static sw_status with_springs(task *t, int *possible, sw_error *err) {
   const double *target = t->c->target, s2 = t->scale * t->scale;
   const double E = target[SW_TARGET_GJ] / (t->unit[SW_TARGET_GJ] * s2 * s2);
@@ -341,7 +341,7 @@ static sw_status fit(task *t, double spacing, sw_error *err) {
   return is_good(t, 0) ? SW_OK : refuse(t, err);
 }
 
-/* Where core and shell are, and of what. */
+/* Places and materials of core and shell. */
 static sw_status begin_composite(task *t, const sw_section *section, double *core_share,
                                  sw_error *err) {
   const sw_composite_args *given = &t->mesh->composite;

@@ -77,8 +77,8 @@ static sw_status residuals(void *user, const double *x, double *r, double *jacob
   return SW_OK;
 }
 
-/* First guess of springs that are neither along the wire nor against twist: bars with the
- * modulus of the lines along the wire, whose stiffness is base. */
+/* First guess for springs that neither go along the wire nor resist twist: bars with the modulus of
+ * the lines along the wire, whose stiffness is base. */
 static double bar(const search *s, const sw_cell_link *l, double base) {
   const double h = s->cell.spacing;
   if (l->group == SW_GROUP_BEND) return LEAST * s->c->target[SW_TARGET_EI] / h;

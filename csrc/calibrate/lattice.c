@@ -29,13 +29,13 @@ static const sw_param tube_rows[] = {
      "particles that a diagonal goes round, below half a ring; 0 chooses"},
     {"brace", SW_PARAM_INTEGER, "-", -1, -1, 32, 0, NULL, AT(brace),
      "chords from each particle of a ring to the one this many further, 2 to half a ring; 0 has "
-     "none; -1 chooses 2 where nothing else keeps the ring round"},
+     "none; -1 chooses 2 if nothing else keeps the ring round"},
     {"ring_radius", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      AT(ring_radius),
      "of the particles' centres (not given: the wire's radius; without core, where EA and EI "
      "agree)"},
     {"core", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, AT(core),
-     "a central line of particles with spokes, which carries what the ring does not of EA"},
+     "a central line of particles with spokes, which has the EA that the ring lacks"},
     {"bend", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, AT(bend),
      "springs against bending of the central line"},
 };

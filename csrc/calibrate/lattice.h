@@ -69,8 +69,8 @@ sw_status sw_lattice_radial(const sw_radial_args *args, double radius, double sp
 /* The same with layers at any radii, layers + 1 of them from 0 on [m]. */
 sw_status sw_lattice_layers(size_t particles, size_t layers, const double *radius, double spacing,
                             sw_lattice *out, sw_error *err);
-/* spacing NAN: the voxels are cubes. radius: of circle and annulus; the voxels' area is that of
- * the section. */
+/* spacing NAN: the voxels are cubes. radius: of circle and annulus; the voxels have the area of the
+ * section. */
 sw_status sw_lattice_cubic(const sw_cubic_args *args, double radius, double spacing,
                            sw_lattice *out, sw_error *err);
 void sw_lattice_free(sw_lattice *lattice);

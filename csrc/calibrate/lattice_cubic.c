@@ -24,7 +24,7 @@ static const sw_param rows[] = {
     LENGTH(width, "of a rectangle, along x"),
     LENGTH(height, "of a rectangle, along y"),
     {"EI2", SW_PARAM_NUMBER, "N m2", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(EI2),
-     "of a rectangle: bending stiffness in the plane of y and z; EI is that of x and z"},
+     "of a rectangle: bending stiffness in the plane of y and z; EI is for the plane of x and z"},
 };
 const sw_params sw_cubic_params = SW_PARAMS("calibrate", rows);
 

@@ -11,7 +11,7 @@ struct sw_search {
   double *start, *x, *broken; /* n, n and constraints numbers */
   double value;               /* of x [-] */
   int begun, waits;           /* for the value of x */
-  int known;                  /* value and broken are those of x */
+  int known;                  /* 1: value and broken belong to x */
   int stop;                   /* nothing is evaluated any more */
   int ok;
   sw_error reason;

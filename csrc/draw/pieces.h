@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which stretches of a line are in front of what a layer shows. */
+/* The parts of a line that are in front of the surfaces of a layer. */
 #ifndef SW_DRAW_PIECES_H
 #define SW_DRAW_PIECES_H
 

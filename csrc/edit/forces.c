@@ -50,7 +50,7 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   if (cls->commit && w->beam.framed && !(cls->flags & SW_FORCE_ANY_SHAPE))
     return sw_fail(err, SW_EINVAL,
                    "force %s: wire '%s' is curved at rest, has two values of EI or rolls, which it "
-                   "does not know",
+                   "does not support",
                    cls->name, w->name);
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }
@@ -133,7 +133,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   }
   SW_TRY(check_force(s, cls, wire, args, err));
   if (cls->flags & SW_FORCE_ON_SOME) SW_TRY(check_some(cls, w, args, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   sw_scene_force f = {.alive = 1,
                       .cls = cls,
                       .wire = wire.generation ? (long)wire.slot : -1,
@@ -205,7 +205,7 @@ sw_status sw_scene_set_force(sw_scene *s, sw_handle force, const void *args, sw_
   if (!f->alive)
     return sw_fail(err, SW_EINVAL, "force %s: it was released; make another one", f->cls->name);
   SW_TRY(check_force(s, f->cls, wire, args, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   const double place = f->args[0];
   memcpy(f->args, args, sizeof f->args);
   if (f->cls->flags & SW_FORCE_AT_PLACE) f->args[0] = place;
@@ -217,7 +217,7 @@ sw_status sw_scene_remove_force(sw_scene *s, sw_handle force, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_scene_force, f, sw_scene_find_force(s, force, err));
   if (!f->alive) return SW_OK;
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   f->alive = 0;
   return SW_OK;
 }

@@ -14,6 +14,7 @@
 #include "edit/edit.h"
 #include "edit/links.h"
 #include "link/joint.h"
+#include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/driven.h"
 #include "scene/lookup.h"
@@ -89,7 +90,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   if (join)
     return sw_fail(err, SW_EINVAL, "feed: wire '%s' is joined to others by '%s': it cannot be fed",
                    sw_scene_wire_in(s, wire.slot)->name, join->name);
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot};
   h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
   if (args->name[0])
@@ -234,7 +235,7 @@ sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {
   if (!h->alive) return SW_OK;
   sw_motion_state now;
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &now, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   h->last_pose = now.pose;
   h->alive = 0;
   sw_drive_free(&h->drive);
@@ -266,17 +267,60 @@ sw_status sw_scene_hold_args(const sw_scene *s, sw_handle hold, const sw_params 
 sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *args, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   if (h->cls->hold->set) h->cls->hold->set(h, args);
   return SW_OK;
 }
 
-sw_status sw_scene_slide_state(sw_scene *s, sw_handle hold, sw_slide_state *out, sw_error *err) {
+/* --- what its class has of its own ------------------------------------------------- */
+
+static const sw_hold_order *order_of(const sw_link_class *cls, const char *name) {
+  for (const sw_hold_order *o = cls->hold ? cls->hold->orders : NULL; o && o->name; o++)
+    if (strcmp(o->name, name) == 0) return o;
+  return NULL;
+}
+
+static const char *const *output_of(const sw_link_class *cls, const char *name) {
+  for (const char *const *o = cls->hold ? cls->hold->outputs : NULL; o && *o; o++)
+    if (strcmp(*o, name) == 0) return o;
+  return NULL;
+}
+
+/* The error: the hold has nothing of this name; names the kind that has it. */
+static sw_status lacks(const sw_hold *h, const char *name, sw_error *err) {
+  const sw_link_class *const *all = sw_link_all();
+  while (*all && !order_of(*all, name) && !output_of(*all, name)) all++;
+  return sw_fail(err, SW_EINVAL, "%s '%s' has no %s; holds of scene:%s have it", h->cls->name,
+                 h->name, name, *all ? (*all)->name : "nothing");
+}
+
+sw_status sw_scene_hold_outputs(const sw_scene *s, sw_handle hold, const char *const **names,
+                                sw_error *err) {
+  SW_FIND(const sw_hold, h, sw_scene_living_hold(s, hold, err));
+  *names = h->cls->hold->outputs;
+  return SW_OK;
+}
+
+sw_status sw_scene_read_hold(sw_scene *s, sw_handle hold, const char *name, double *out,
+                             sw_error *err) {
+  double values[SW_LINK_OUTPUTS];
   SW_TRY(sw_scene_readable(s, err));
   SW_FIND(const sw_hold, h, sw_scene_living_hold(s, hold, err));
-  if (!h->cls->hold->rail)
-    return sw_fail(err, SW_EINVAL, "%s '%s' has no rail: wires slide along those of scene:slider",
-                   h->cls->name, h->name);
-  *out = (sw_slide_state){h->slider.p, h->slider.v, h->slider.force};
+  const char *const *at = output_of(h->cls, name);
+  if (!at) return lacks(h, name, err);
+  h->cls->hold->read(h, sw_scene_time(s), values);
+  *out = values[at - h->cls->hold->outputs];
+  return SW_OK;
+}
+
+sw_status sw_scene_order_hold(sw_scene *s, sw_handle hold, const char *name, double value,
+                              sw_motion *motion, sw_error *err) {
+  SW_FIND(sw_hold, h, sw_scene_living_hold(s, hold, err));
+  const sw_hold_order *order = order_of(h->cls, name);
+  if (!order) return lacks(h, name, err);
+  SW_TRY(sw_scene_editable(s, err));
+  const sw_link_wire wire = sw_scene_link_wire(s, h->wire);
+  SW_TRY(order->give(h, &wire, value, motion, err));
+  if (order->jumps) sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }

@@ -3,6 +3,7 @@
 #include "body/join.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -135,7 +136,7 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
   if (cls->joint->apart && count != 2)
     return sw_fail(err, SW_EINVAL, "scene:join: slack makes it a tie, of 2 wires; ends lists %zu",
                    count);
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   if (!cls->joint->apart) SW_TRY(check_meeting(s, ends, count, err));
   sw_joint j = {.alive = 1,
                 .rigid = args->rigid && !cls->joint->apart,
@@ -193,7 +194,7 @@ sw_status sw_scene_release_join(sw_scene *s, sw_handle h, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_joint, j, sw_scene_find_join(s, h, err));
   if (!j->alive) return SW_OK;
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   j->alive = 0;
   return SW_OK;
 }
@@ -212,5 +213,23 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
   sw_link_wire wires[SW_JOIN_ENDS];
   sw_scene_joint_wires(s, j, wires);
   j->cls->joint->force(j, wires, k, force, moment);
+  return SW_OK;
+}
+
+sw_status sw_scene_read_join(sw_scene *s, sw_handle h, const char *const **names,
+                             double out[SW_LINK_OUTPUTS], sw_error *err) {
+  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_editable(s, err));
+  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
+  const sw_joint_acts *acts = j->cls->joint;
+  *names = acts->outputs;
+  if (!acts->read)
+    return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
+  int there = 1;
+  for (size_t k = 0; k < j->count; k++) there &= j->ends[k].wire != SIZE_MAX;
+  if (there) SW_TRY(sw_scene_build(s, err));
+  sw_link_wire wires[SW_JOIN_ENDS];
+  if (there) sw_scene_joint_wires(s, j, wires);
+  acts->read(j, there ? wires : NULL, out);
   return SW_OK;
 }

@@ -75,34 +75,34 @@ static void leave_forces(sw_scene *s, size_t wire) {
 /* A rule of no wires is one of all: what spoke of this wire alone goes. */
 static void leave_rules(sw_scene *s, size_t wire) {
   size_t kept = 0;
-  SW_ITEMS(sw_scene_rule, r, s->rules, s->rule_count) {
+  SW_ITEMS(sw_scene_rule, r, s->rules.list, s->rules.count) {
     const int of_all = r->count == 0;
     size_t n = 0;
     for (size_t i = 0; i < r->count; i++)
       if (r->wires[i] != wire) r->wires[n++] = (uint32_t)less(r->wires[i], wire);
     r->count = n;
     if (n || of_all)
-      s->rules[kept++] = *r;
+      s->rules.list[kept++] = *r;
     else
       sw_free(r->wires);
   }
-  s->rule_count = kept;
+  s->rules.count = kept;
 }
 
 static void leave_memory(sw_scene *s, size_t wire) {
   size_t kept = 0;
   for (size_t w = 0; s->kept.memory && w < s->kept.wires; w++)
     s->kept.now[w] = less(s->kept.now[w], wire);
-  SW_ITEMS(sw_kept_history, h, s->kept_histories, s->kept_history_count) {
+  SW_ITEMS(sw_kept_history, h, s->histories.list, s->histories.count) {
     if (h->wire == wire) {
       sw_plan_release(h->plan);
       sw_free(h->data);
       continue;
     }
     h->wire = less(h->wire, wire);
-    s->kept_histories[kept++] = *h;
+    s->histories.list[kept++] = *h;
   }
-  s->kept_history_count = kept;
+  s->histories.count = kept;
 }
 
 static void pads_on(sw_scene *s, const sw_tool *t) {
@@ -139,7 +139,7 @@ sw_status sw_scene_remove_body(sw_scene *s, sw_handle body, sw_error *err) {
   SW_TRY(note_poses(s, wire, SIZE_MAX, err));
   sw_status status =
       sw_grow((void **)&s->gone, &s->gone_capacity, s->gone_count + 1, sizeof *s->gone);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status != SW_OK) return sw_fail(err, status, "scene:remove: %s", sw_status_text(status));
   leave_holds(s, wire);
   leave_joins(s, wire);
@@ -161,7 +161,7 @@ sw_status sw_scene_remove_tool(sw_scene *s, sw_handle tool, sw_error *err) {
   if (!t) return SW_EDEAD;
   SW_TRY(sw_drive_eval(s, &t->drive, s->time, &now, err));
   SW_TRY(note_poses(s, SIZE_MAX, 1 + tool.slot, err));
-  sw_status status = sw_scene_thaw(s);
+  sw_status status = sw_scene_unbuild(s);
   for (size_t k = 0; k < t->pads && status == SW_OK; k++)
     status = sw_obstacle_log_fill(s, &s->obstacles[t->pad[k].obstacle]);
   if (status != SW_OK) return sw_fail(err, status, "scene:remove: %s", sw_status_text(status));
@@ -188,7 +188,7 @@ void sw_tape_gone(sw_tape *t, sw_gone *x) {
   sw_tape_expect(t, isfinite(x->radius) && isfinite(x->time), "a wire that was taken away");
 }
 
-/* Numbers of frames are those of all that were ever made, each once. */
+/* Frames number all bodies that were ever made, each once. */
 void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
   const size_t made = sw_scene_bodies_made(s);
   unsigned char *taken SW_LOCAL = sw_alloc(made, 1);

@@ -6,13 +6,13 @@
 #include "base/tape.h"
 #include "scene/parts.h"
 
-/* Take a wire or an object of particles away. What holds it lets go, its joins, ties and forces
- * end, tools that hold it rigidly have their pads again. Slots of others may change: see body_now.
- * What it leaves in frames, series and snapshots stays. SW_ECALLBACK from a motion of what holds
- * it; nothing is changed then. */
+/* Take a wire or an object of particles away. Its holds release it, its joins, ties and forces end,
+ * tools that hold it rigidly have their pads again. Slots of others may change: see body_now. Its
+ * frames, series and snapshots stay. SW_ECALLBACK from the motion of one of its holds; nothing is
+ * changed then. */
 sw_status sw_scene_remove_body(sw_scene *scene, sw_handle body, sw_error *err);
 
-/* A tool. It goes with its pads and lets go of what it holds; its series can still be read. */
+/* Take a tool away, with its pads. It releases its wires; its series can still be read. */
 sw_status sw_scene_remove_tool(sw_scene *scene, sw_handle tool, sw_error *err);
 
 /* What is known of those that have left, on a tape. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What takes hold of wires: joins, holds, feeds; and the obstacles that they meet. */
+/* Links of wires as the user makes and changes them: joins, holds; and obstacles. */
 #ifndef SW_EDIT_LINKS_H
 #define SW_EDIT_LINKS_H
 
@@ -24,15 +24,9 @@ size_t sw_scene_join_ends(const sw_scene *scene, sw_handle join);
 /* Force and moment about its place that a living join puts on its end number k [N], [N m]. */
 sw_status sw_scene_join_force(sw_scene *scene, sw_handle join, size_t k, sw_vec *force,
                               sw_vec *moment, sw_error *err);
-/* What a tie bears, and what became of it. */
-typedef struct sw_tie_state {
-  double distance;                  /* of both places [m] */
-  double tension, peak;             /* now, largest so far [N] */
-  int broken;                       /* 1: it broke */
-  double broken_time, broken_force; /* [s], [N] */
-} sw_tie_state;
-/* SW_EINVAL when the join is none. */
-sw_status sw_scene_tie_state(sw_scene *scene, sw_handle join, sw_tie_state *out, sw_error *err);
+/* The read-outs of its class, see link/joint.h. SW_EINVAL when it has none. */
+sw_status sw_scene_read_join(sw_scene *scene, sw_handle join, const char *const **names,
+                             double out[SW_LINK_OUTPUTS], sw_error *err);
 
 /* --- holds ------------------------------------------------------------------ */
 
@@ -50,32 +44,15 @@ sw_status sw_scene_hold_args(const sw_scene *scene, sw_handle hold, const sw_par
 /* What may be changed of the arguments from now on. */
 sw_status sw_scene_set_hold(sw_scene *scene, sw_handle hold, const sw_hold_args *args,
                             sw_error *err);
-/* Of a hold along which the wire slides; SW_EINVAL: it does not. */
-typedef struct sw_slide_state {
-  double place, speed; /* along the rail [m], [m/s] */
-  double force;        /* of friction and ends on the wire, along it [N] */
-} sw_slide_state;
-sw_status sw_scene_slide_state(sw_scene *scene, sw_handle hold, sw_slide_state *out, sw_error *err);
-
-/* --- feeds ------------------------------------------------------------------- */
-
-/* From now on the wire is paid out at this speed; negative: drawn in [m/s]. */
-sw_status sw_scene_feed_speed(sw_scene *scene, sw_handle hold, double speed, sw_error *err);
-/* From now on it is pushed out with this force [N]. */
-sw_status sw_scene_feed_push(sw_scene *scene, sw_handle hold, double force, sw_error *err);
-/* It slips where more force than this would be needed; NAN: never [N]. */
-sw_status sw_scene_feed_limit(sw_scene *scene, sw_handle hold, double force, sw_error *err);
-/* Stop, and pay out a length: its motion is the motion's x (retains it). Negative lengths that
- * are not there are refused. */
-sw_status sw_scene_feed_length(sw_scene *scene, sw_handle hold, sw_motion *motion, double length,
-                               sw_error *err);
-typedef struct sw_feed_state {
-  double fed;   /* paid out so far [m] */
-  double speed; /* now [m/s] */
-  double drive; /* force that moves the wire, outwards; not that of the guide's walls [N] */
-  double limit; /* NAN = none [N] */
-} sw_feed_state;
-sw_status sw_scene_feed_state(sw_scene *scene, sw_handle hold, sw_feed_state *out, sw_error *err);
+/* Names of the read-outs of its class, NULL-terminated, or NULL: it has none. */
+sw_status sw_scene_hold_outputs(const sw_scene *scene, sw_handle hold, const char *const **names,
+                                sw_error *err);
+/* Read one read-out of its class; give it one of its orders (retains the motion), see link/hold.h.
+ * SW_EINVAL when its class has none of that name. */
+sw_status sw_scene_read_hold(sw_scene *scene, sw_handle hold, const char *name, double *out,
+                             sw_error *err);
+sw_status sw_scene_order_hold(sw_scene *scene, sw_handle hold, const char *name, double value,
+                              sw_motion *motion, sw_error *err);
 
 /* --- obstacles -------------------------------------------------------------- */
 
@@ -84,7 +61,7 @@ typedef struct sw_obstacle_args {
   sw_vec at;          /* [m] */
   sw_quat rotation;   /* [-] */
   double friction;    /* Coulomb coefficient [-] */
-  double kinetic;     /* the same of what slides; NAN = as friction [-] */
+  double kinetic;     /* kinetic friction; NAN = as friction [-] */
   double restitution; /* share of the approach speed kept in an impact [-] */
 } sw_obstacle_args;
 extern const sw_params sw_obstacle_params;

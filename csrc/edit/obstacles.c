@@ -34,7 +34,7 @@ const sw_params sw_obstacle_params = SW_PARAMS("obstacle", obstacle_rows);
 sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_args *args,
                                 sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   sw_scene_obstacle o = {.alive = 1,
                          .shape = shape,
                          .drive = {.pose = {args->at, args->rotation}},
@@ -51,7 +51,7 @@ sw_status sw_scene_add_obstacle(sw_scene *s, sw_shape *shape, const sw_obstacle_
 sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   if (sw_obstacle_log_fill(s, o) != SW_OK) return sw_fail(err, SW_ENOMEM, "out of memory");
   o->alive = 0;
   return SW_OK;
@@ -82,7 +82,7 @@ sw_status sw_scene_obstacle_set_surface(sw_scene *s, sw_handle obstacle,
                                         const sw_obstacle_args *args, sw_error *err) {
   SW_FIND(sw_scene_obstacle, o, sw_scene_find_obstacle(s, obstacle, err));
   SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   o->friction = args->friction, o->kinetic = args->kinetic, o->restitution = args->restitution;
   sw_course_jump(sw_scene_course(s));
   return SW_OK;

@@ -362,7 +362,7 @@ sw_status sw_scene_add_particles(sw_scene *s, const sw_particles_args *args,
   sw_error text = {""};
   m.err = &text;
   sw_status status = check(&m, args);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status == SW_OK) status = make_body(&m, &w);
   if (status == SW_OK) status = sw_scene_check_rules(s, sw_scene_wire_slots(s), &w, &text);
   w.number = sw_scene_bodies_made(s);

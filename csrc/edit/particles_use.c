@@ -189,7 +189,7 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
   char usual[SW_NAME_SIZE];
   snprintf(usual, sizeof usual, "clamp%zu", sw_scene_hold_slots(s) + 1);
   snprintf(h.name, sizeof h.name, "%s", name[0] ? name : usual);
-  sw_status status = sw_scene_thaw(s);
+  sw_status status = sw_scene_unbuild(s);
   if (status == SW_OK) status = take(w, &h, particles, count, at);
   if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);
   if (status != SW_OK) {

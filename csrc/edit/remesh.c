@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Other meshes for the wires of a scene: as they would have been made, where nothing has
- * moved yet, else carried over. */
+/* Other meshes for the wires of a scene. A wire that has not moved yet is made anew with the other
+ * mesh; else its state is carried over. */
 #include <math.h>
 #include <string.h>
 
@@ -201,7 +201,7 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
                      "wire '%s': segments = %zu is not allowed; it must be from 2 to 10000000",
                      sw_scene_wire_in(s, w)->name, segments[w]);
   SW_TRY(check_fed(s, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   for (size_t w = 0; w < count; w++) {
     const sw_status status = is_drawn(sw_scene_wire_in(s, w)) ? redraw(s, w, segments[w], err)
                                                               : carry_over(s, w, segments[w]);
@@ -258,7 +258,7 @@ sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_e
   if (strcmp(w->cls->name, "rod") != 0)
     return sw_fail(err, SW_EINVAL, "redraw: wire '%s' is a %s, not a rod", w->name, w->cls->name);
   SW_TRY(check_fed(s, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   const sw_beam beam = w->beam;
   const int rolled = w->drawing.rolls;
   const sw_status status = change_beam(s, h.slot, as, err);

@@ -8,10 +8,12 @@
 #include "body/build.h"
 #include "body/touching.h"
 #include "edit/edit.h"
+#include "scene/lists.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/plan.h"
+#include "system/system.h"
 
 static const sw_param rows[] = {
     {"between", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
@@ -30,26 +32,28 @@ sw_status sw_scene_wire_contact(sw_scene *s, const sw_wire_contact_args *args,
   SW_TRY(sw_scene_editable(s, err));
   for (size_t k = 0; k < count; k++)
     if (!sw_scene_find_body(s, wires[k], err)) return SW_EDEAD;
-  for (size_t k = 0; args->on && k < (count ? count : s->wire_count); k++)
-    SW_TRY(sw_scene_check_touching(&s->wires[count ? wires[k].slot : k], err));
-  SW_TRY(sw_scene_thaw(s));
+  for (size_t k = 0; args->on && k < (count ? count : sw_scene_wire_slots(s)); k++)
+    SW_TRY(sw_scene_check_touching(sw_scene_wire_in(s, count ? wires[k].slot : k), err));
+  SW_TRY(sw_scene_unbuild(s));
   uint32_t *slots = sw_alloc(count, sizeof *slots);
-  if (!slots || sw_grow((void **)&s->rules, &s->rule_capacity, s->rule_count + 1,
-                        sizeof *s->rules) != SW_OK) {
+  if (!slots ||
+      sw_grow((void **)&sw_scene_rules_of(s)->list, &sw_scene_rules_of(s)->capacity,
+              sw_scene_rules_of(s)->count + 1, sizeof *sw_scene_rules_of(s)->list) != SW_OK) {
     sw_free(slots);
     return sw_fail(err, SW_ENOMEM, "scene:wire_contact: out of memory");
   }
   for (size_t k = 0; k < count; k++) slots[k] = wires[k].slot;
-  s->rules[s->rule_count++] = (sw_scene_rule){.wires = slots,
-                                              .count = count,
-                                              .self = args->self,
-                                              .rule = {.on = args->on, .friction = args->friction}};
+  sw_scene_rules_of(s)->list[sw_scene_rules_of(s)->count++] =
+      (sw_scene_rule){.wires = slots,
+                      .count = count,
+                      .self = args->self,
+                      .rule = {.on = args->on, .friction = args->friction}};
   return SW_OK;
 }
 
 sw_status sw_scene_check_touched(const sw_scene *s, size_t wire, const sw_scene_wire *as,
                                  sw_error *err) {
-  SW_ITEMS(const sw_scene_rule, r, s->rules, s->rule_count) {
+  SW_ITEMS(const sw_scene_rule, r, sw_scene_rules_of(s)->list, sw_scene_rules_of(s)->count) {
     int mine = r->count == 0;
     for (size_t i = 0; i < r->count; i++) mine |= r->wires[i] == wire;
     if (mine && r->rule.on) SW_TRY(sw_scene_check_touching(as, err));
@@ -58,33 +62,37 @@ sw_status sw_scene_check_touched(const sw_scene *s, size_t wire, const sw_scene_
 }
 
 void sw_scene_drop_rules(sw_scene *s, size_t keep) {
-  while (s->rule_count > keep) sw_free(s->rules[--s->rule_count].wires);
+  sw_rules *rules = sw_scene_rules_of(s);
+  while (rules->count > keep) sw_free(rules->list[--rules->count].wires);
 }
 
 sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
   SW_TRY(sw_scene_still(s, err));
-  *count = s->built ? sw_scene_places(s) : 0;
+  *count = sw_scene_is_built(s) ? sw_scene_places(s) : 0;
   return SW_OK;
 }
 
 /* Where a touch is on a body: place and arc length; of a particle its place along the object. */
 static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, double *arc) {
-  const sw_body *b = &s->system.bodies[p->body[k]];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[p->body[k]];
   const size_t i = p->node[k] - b->first_node;
   *arc = sw_plan_place(b->plan, i);
   if (i < b->plan->edges) *arc += p->at[k] * b->plan->rest[i]; /* a wire's */
-  return sw_lerp(sw_vec_at(s->system.x, p->node[k]), sw_vec_at(s->system.x, p->end[k]), p->at[k]);
+  return sw_lerp(sw_vec_at(system->x, p->node[k]), sw_vec_at(system->x, p->end[k]), p->at[k]);
 }
 
 static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) {
-  const sw_body *b = &s->system.bodies[p->body[k]];
+  const sw_body *b = &sw_scene_system(s)->bodies[p->body[k]];
   return sw_plan_skin(b->plan, p->node[k] - b->first_node);
 }
 
 /* Of a wire and an object of particles the object comes first, whichever has the edge there. */
 static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
-  if (s->system.bodies[p.body[0]].plan->web || !s->system.bodies[p.body[1]].plan->web) return p;
+  if (sw_scene_system(s)->bodies[p.body[0]].plan->web ||
+      !sw_scene_system(s)->bodies[p.body[1]].plan->web)
+    return p;
   return (sw_pair_place){.body = {p.body[1], p.body[0]},
                          .node = {p.node[1], p.node[0]},
                          .end = {p.end[1], p.end[0]},
@@ -100,7 +108,7 @@ void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
   sw_vec at[2];
   for (int k = 0; k < 2; k++) {
     at[k] = touched_at(s, &p, k, &out->s[k]);
-    memcpy(out->wire[k], s->wires[p.body[k]].name, SW_NAME_SIZE);
+    memcpy(out->wire[k], sw_scene_wire_in(s, p.body[k])->name, SW_NAME_SIZE);
   }
   const double r1 = touching_radius(s, &p, 0), r2 = touching_radius(s, &p, 1);
   out->point = sw_lerp(at[1], at[0], r2 / (r1 + r2));

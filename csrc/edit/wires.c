@@ -234,7 +234,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
     return sw_fail(err, SW_EINVAL, "wire '%s': give from and to, or path [m]", w.name);
   if (points && count < 2)
     return sw_fail(err, SW_EINVAL, "wire '%s': path needs at least two points", w.name);
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   sw_status status = keep_drawing(&w, args, points ? points : straight, points ? count : 2);
   if (status == SW_OK) status = draw_wire(s, &w, args, mesh, err);
   if (status == SW_OK) {
@@ -248,7 +248,7 @@ sw_status sw_scene_add_wire(sw_scene *s, const sw_wire_args *args, const sw_beam
 
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *s, sw_handle h) {
   const sw_scene_wire *w = sw_scene_find_wire(s, h, NULL);
-  return w && w->strand.kit ? &w->strand.kit->calibration : NULL;
+  return w && w->strand.calibrated ? &w->strand.calibrated->calibration : NULL;
 }
 
 const char *sw_scene_wire_model(const sw_scene *s, sw_handle h) {

@@ -57,7 +57,7 @@ sw_status sw_scene_redraw(sw_scene *scene, sw_handle wire, const sw_redrawing *a
 /* Even segments that a wire's mesh stands for, holds' own nodes left out. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
 
-/* What the springs of a wire that is a mesh were fitted to; NULL: it is none, or is gone. */
+/* The calibration of a wire that is a mesh; NULL: it is no mesh, or is gone. */
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *scene, sw_handle wire);
 /* Name of its model; NULL: it is gone. */
 const char *sw_scene_wire_model(const sw_scene *scene, sw_handle wire);

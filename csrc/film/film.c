@@ -88,7 +88,7 @@ static sw_status add_track(maker *m, track t) {
   return SW_OK;
 }
 
-/* Bounds of its numbers, over all frames; 0: there is none. */
+/* Bounds of its numbers, over all frames; 0: it has no numbers. */
 static int range_of(const maker *m, const track *t, double *low, double *high) {
   *low = HUGE_VAL, *high = -HUGE_VAL;
   for (size_t f = 0; f < m->frames; f++) {

@@ -117,7 +117,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* What friction is to be from now on, by what presses each node. */
+/* Sets friction for the next step from the normal force on each node. */
 static void measure_friction(const sw_clip *c, const sw_field *f, double *each) {
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
@@ -263,7 +263,8 @@ static void commit(const void *args, const sw_field *f, double *history) {
   history[SW_CLIP_BEGUN] = 1;
 }
 
-/* Node for node by arc length, springs and their friction shared out by what there was. */
+/* Node for node by arc length: each node of the new mesh gets its share of the old springs and
+ * their friction. */
 static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
   const size_t before = sw_axis_points(old), points = sw_axis_points(f->plan);
   for (size_t k = 0; k < SW_CLIP_HEAD; k++) history[k] = from[k];

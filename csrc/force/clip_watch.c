@@ -178,7 +178,7 @@ int sw_clip_news(const void *args, const double *history, sw_force_news *out) {
   *out = (sw_force_news){.kind = "clip", .s = history[SW_CLIP_NEWS_S], .value = value};
   if (what == SW_CLIP_CROSSING)
     snprintf(out->text, sizeof out->text,
-             "the wire crosses it at %.3g degrees, more than the 45 that it describes", value);
+             "the wire crosses it at %.3g degrees; its model holds up to 45 degrees", value);
   else if (what == SW_CLIP_COARSE)
     snprintf(out->text, sizeof out->text,
              "the wire comes out askew (%.2g degrees); its edges of %.3g mm should be a quarter of "

@@ -28,7 +28,7 @@ enum {
   SW_CLIP_U_BEFORE,     /* this height and */
   SW_CLIP_V_BEFORE,     /* this far to the side [m] */
   SW_CLIP_PUSH,         /* the most that floor or wall did to it since it is deep in them [N] */
-  SW_CLIP_BROKEN,       /* by what the wire has broken it, see below; 0 = it has not */
+  SW_CLIP_BROKEN,       /* part through which the wire broke out, see below; 0 = it did not */
   SW_CLIP_BROKEN_TIME,
   SW_CLIP_BROKEN_FORCE,
   SW_CLIP_NEWS, /* what is to be told of the last step */

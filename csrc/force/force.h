@@ -24,7 +24,7 @@ enum {
   SW_FORCE_ANY_SHAPE = 512, /* its history is not of bends: goes with material frames as well */
   SW_FORCE_LOAD = 1024,     /* a dead load: its energy is work that it gives */
   SW_FORCE_POWER = 2048,    /* tells the power that it takes from the motion (SW_WANT_POWER) */
-  SW_FORCE_BENDING = 16384, /* its energy is that of a line's bending */
+  SW_FORCE_BENDING = 16384, /* its energy is bending energy of a line */
   SW_FORCE_OF_AXIS = 8192,  /* acts on a centre line, which loose particles have not */
   SW_FORCE_DRIVEN = 4096    /* has no energy; something outside drives it: F.v of any sign */
 };

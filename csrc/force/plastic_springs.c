@@ -35,7 +35,7 @@ static const sw_param rows[] = {
 /* Slipping found less by rounding than this share of the limit is none: solving starts with the
  * elastic side [-]. */
 static const double ON_LIMIT = 1e-10;
-static const double CAUTIOUS_SHARE = 0.5; /* of what flowing takes off the stiffness [-] */
+static const double CAUTIOUS_SHARE = 0.5; /* share of the stiffness that flowing takes off [-] */
 
 typedef struct spring {
   double k, harden, limit; /* [N/m], [N/m], [N] */

@@ -20,7 +20,8 @@ typedef struct stick_slip_args {
 static const sw_param rows[] = {
     {"EI_stick", SW_PARAM_NUMBER, "N m2", 0, 0, HUGE_VAL, SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,
      NULL, offsetof(stick_slip_args, EI_stick),
-     "bending stiffness while the strands stick; the wire's EI is that of slipping strands"},
+     "bending stiffness while the strands stick; the wire's EI is the stiffness of slipping "
+     "strands"},
     {"friction_moment", SW_PARAM_NUMBER, "N m", 0, 0, HUGE_VAL,
      SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN, NULL, offsetof(stick_slip_args, friction_moment),
      "moment that friction between slipping strands carries"},

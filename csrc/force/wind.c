@@ -33,7 +33,7 @@ static const sw_param rows[] = {
     {"frequency", SW_PARAM_NUMBER, "Hz", 1, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(frequency),
      "frequency of gusts"},
     {"density", SW_PARAM_NUMBER, "kg/m3", 1.2, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(density),
-     "density of what streams: air; water has 1000"},
+     "density of the fluid: air; water has 1000"},
     {"normal", SW_PARAM_NUMBER, "-", 1.2, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(normal),
      "drag coefficient across the wire, by its diameter; 1.2 is a smooth cylinder's"},
     {"tangential", SW_PARAM_NUMBER, "-", 0.02, 0, HUGE_VAL, SW_PARAM_CHANGES, NULL, AT(tangential),

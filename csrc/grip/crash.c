@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the parts of a tool run into obstacles? Both are rigid and go where they are told, so nothing
- * stops them; it is noticed and told. Parts are looked at by their
- * bones, and by the ends of the bones of what they meet. */
+ * stops them; a crash is only reported. Overlap is looked for at the bones (corners, edges, axes)
+ * of the parts, and at the ends of the bones of the obstacles. */
 #include <math.h>
 
 #include "grip/jaws.h"
@@ -12,7 +12,7 @@
 #include "scene/obstacle.h"
 #include "scene/parts.h"
 
-static const double NOTICED = 1e-5; /* overlap of less than this is none [m] */
+static const double NOTICED = 1e-5; /* a smaller overlap is no crash [m] */
 
 typedef struct overlap {
   const sw_shape *other;

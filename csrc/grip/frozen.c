@@ -85,7 +85,7 @@ void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {
 
 int sw_frozen_fits(const sw_frozen *f, const sw_scene *s) {
   const sw_web *web = f->strand.web;
-  if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.kit || f->mesh.rest)
+  if (!f->cls || !f->cls->mesh || !web || !web->per_ring || !f->strand.calibrated || f->mesh.rest)
     return 0;
   if (sw_scene_body_now(s, f->wire).slot >= sw_scene_wire_slots(s)) return 0;
   if (f->mesh.n != web->rings || f->stations.n != web->rings) return 0;

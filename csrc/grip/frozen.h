@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of a frozen grip: what pads held, and what both changes between pads and a rigid
- * grip need. */
+/* The inside of a frozen grip: the state of the wire between the pads, for the change to a rigid
+ * grip and back. */
 #ifndef SW_GRIP_FROZEN_H
 #define SW_GRIP_FROZEN_H
 
@@ -42,8 +42,8 @@ sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen
 
 void sw_frozen_retain(sw_frozen *frozen);
 void sw_frozen_release(sw_frozen *frozen);
-/* What a force on the wire and its moment about the tool's centre, in the tool's axes, are of what
- * the pads could bear in place of the rigid grip [-]. */
+/* A force on the wire and its moment about the tool's centre, in the tool's axes, as a share of the
+ * load that the pads could bear in place of the rigid grip [-]. */
 double sw_frozen_margin(const sw_frozen *frozen, sw_vec force, sw_vec moment);
 void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
 int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);

@@ -93,7 +93,7 @@ sw_status sw_scene_tool_hold(sw_scene *s, sw_handle tool, sw_handle hold, sw_err
 sw_status sw_scene_tool_pads_on(sw_scene *s, sw_handle tool, int on, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
-  SW_TRY(sw_scene_thaw(s));
+  SW_TRY(sw_scene_unbuild(s));
   for (size_t k = 0; k < t->pads; k++) sw_scene_obstacle_in(s, t->pad[k].obstacle)->off = !on;
   return SW_OK;
 }
@@ -102,7 +102,7 @@ sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *arg
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   sw_jaw *j = &t->jaw;
-  if (j->force != args->force) SW_TRY(sw_scene_thaw(s)); /* contact is told */
+  if (j->force != args->force) SW_TRY(sw_scene_unbuild(s)); /* contact is told */
   j->mode = args->mode;
   j->goal = args->opening, j->most = args->speed, j->force = args->force;
   j->speed = 0, j->since = sw_scene_time(s);

@@ -111,8 +111,8 @@ static int transfer(lua_State *L, lua_State *co, int count) {
   return results;
 }
 
-/* Move the error value from the top of co to L. Its calls are still known
- * here, and nowhere later, so the position is put right now. */
+/* Move the error value from the top of co to L. Only here its calls are still known, so the
+ * position is added now. */
 static void take_error(lua_State *L, lua_State *co) {
   const int dead = lua_status(co) != LUA_OK && lua_status(co) != LUA_YIELD;
   lua_xmove(co, L, 1);

@@ -56,7 +56,7 @@ typedef struct sw_integrator {
   /* onwards: the step ends at x_n + reach (y - x_n), and its velocities; keeps > 0: its
    * accelerations at a_n + keeps (a - a_n), which the next step begins with [-]. */
   double reach, keeps;
-  /* Of one step on what is infinitely stiff (implicit): largest size of what it leaves [-]. */
+  /* Amplification of an infinitely stiff mode in one step (implicit): its largest size [-]. */
   double at_infinity;
   const char *start;     /* implicit: method for the first step after a
                             discontinuity; NULL = itself */

@@ -156,8 +156,8 @@ static void undo(sw_hold *h, const sw_link_wire *w) {
 
 /* --- forces ----------------------------------------------------------------------- */
 
-/* Curvature where the wire leaves the guide on the clamp's side, squared and times EI. Of a
- * wire with frames it is that at rest and what bends it besides. */
+/* Curvature where the wire leaves the guide on the clamp's side, squared and times EI. In a wire
+ * with frames this is its curvature at rest plus the bending. */
 static double bent(const sw_system *s, const sw_body *b, size_t clamp, const double *x) {
   const sw_plan *p = b->plan;
   const sw_clamp_hinge *c = &p->clamps[clamp];
@@ -227,7 +227,8 @@ static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, con
 
 /* --- what is asked of it ------------------------------------------------------------ */
 
-void sw_feed_stop(sw_hold *h, double t) {
+/* It stops where it is at time t; what follows starts from then. */
+static void stop(sw_hold *h, double t) {
   sw_feed *f = &h->feed;
   f->fed = sw_feed_at(h, t).fed - f->slip;
   f->since = t;
@@ -237,11 +238,64 @@ void sw_feed_stop(sw_hold *h, double t) {
   f->motion = NULL;
 }
 
-double sw_feed_reserve(const sw_hold *h, const sw_mesh *m, double length) {
+static sw_status go(sw_hold *h, const sw_link_wire *w, double speed, sw_motion *motion,
+                    sw_error *err) {
+  (void)motion, (void)err;
+  stop(h, w->time);
+  h->feed.speed = speed;
+  return SW_OK;
+}
+
+static sw_status push(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion,
+                      sw_error *err) {
+  const double speed = sw_feed_at(h, w->time).speed;
+  (void)motion, (void)err;
+  stop(h, w->time);
+  h->feed.push = force, h->feed.slip_speed = speed;
+  return SW_OK;
+}
+
+static sw_status limit(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion,
+                       sw_error *err) {
+  (void)w, (void)motion, (void)err;
+  h->feed.limit = force;
+  if (isnan(force) && isnan(h->feed.push))
+    h->feed.slip_speed = h->feed.slip_growth = h->feed.slip_way = 0;
+  return SW_OK;
+}
+
+/* Wire on the side of the guide from which this length would come; a spool has no end [m]. */
+static double reserve(const sw_hold *h, const sw_mesh *m, double length) {
   const int from_far = length * h->feed.outward < 0;
   const int is_end = from_far ? h->s1 >= m->s[m->n - 1] : h->s1 <= m->s[0];
-  if (is_end) return HUGE_VAL; /* a spool */
+  if (is_end) return HUGE_VAL;
   return from_far ? m->s[m->n - 1] - h->s1 : h->s1 - m->s[0];
+}
+
+static sw_status pay_out(sw_hold *h, const sw_link_wire *w, double length, sw_motion *motion,
+                         sw_error *err) {
+  const double there = reserve(h, w->mesh, length);
+  if (!(fabs(length) < there))
+    return sw_fail(err, SW_EINVAL,
+                   "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are there",
+                   h->name, length, there, w->name);
+  stop(h, w->time);
+  h->feed.motion = sw_motion_retain(motion), h->feed.start = w->time;
+  return SW_OK;
+}
+
+/* Wire paid out per time; a force that pushes it out; the force beyond which it slips, NAN: none; a
+ * length, as the motion's x [m/s], [N], [N], [m]. */
+static const sw_hold_order orders[] = {
+    {"speed", 1, go}, {"push", 1, push}, {"force_limit", 0, limit}, {"length", 1, pay_out}, {0}};
+
+static const char *const outputs[] = {"fed", "speed", "drive_force", "force_limit", NULL};
+
+/* Paid out so far, speed, force that moves the wire outwards (the guide's walls bear the rest), its
+ * limit or NAN [m], [m/s], [N], [N]. */
+static void read(const sw_hold *h, double t, double *out) {
+  const sw_feed_now now = sw_feed_at(h, t);
+  out[0] = now.fed, out[1] = now.speed, out[2] = h->feed.drive, out[3] = h->feed.limit;
 }
 
 /* --- on a tape --------------------------------------------------------------------- */
@@ -274,7 +328,10 @@ static int fits(const sw_hold *h, const sw_link_wire *w) {
          (w->mesh->rest != NULL) == (f->shape.rest != NULL);
 }
 
-static const sw_hold_acts acts = {.direction = 1,
+static const sw_hold_acts acts = {.orders = orders,
+                                  .outputs = outputs,
+                                  .read = read,
+                                  .direction = 1,
                                   .lines = 1,
                                   .check = check,
                                   .begin = begin,

@@ -43,10 +43,6 @@ typedef struct sw_feed_now {
   double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
 } sw_feed_now;
 sw_feed_now sw_feed_at(const struct sw_hold *hold, double t);
-/* It stops where it is at time t; what follows starts from then. */
-void sw_feed_stop(struct sw_hold *hold, double t);
-/* Wire on the side of the guide from which this length would come; a spool has no end [m]. */
-double sw_feed_reserve(const struct sw_hold *hold, const sw_mesh *mesh, double length);
 /* What is left of the spare lengths when so much is fed [m]. */
 void sw_feed_spare(const sw_feed *feed, double fed, double spare[2]);
 

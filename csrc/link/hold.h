@@ -48,11 +48,11 @@ typedef struct sw_hold_watch {
   sw_crash crash; /* the last one, of no part; depth 0: none */
 } sw_hold_watch;
 
-/* What a hold bears up to each stage of a trial step, as its momentum adds up [N s], [N m s]. */
+/* Impulse and its moment that a hold bears up to each stage of a trial step [N s], [N m s]. */
 typedef struct sw_hold_sums {
   sw_vec force[SW_BOOK_STAGES], moment[SW_BOOK_STAGES];
   int last;  /* stage booked last */
-  int known; /* 1: they are those of the step that led here */
+  int known; /* 1: they belong to the step that led here */
 } sw_hold_sums;
 
 typedef struct sw_hold {
@@ -91,8 +91,20 @@ typedef struct sw_hold_way {
   double force;      /* that moves the wire along it [N] */
 } sw_hold_way;
 
+/* What a user may ask of a hold at any time. */
+typedef struct sw_hold_order {
+  const char *name; /* NULL ends a list */
+  int jumps;        /* 1: the wire's velocity jumps */
+  /* With the scene at the time of the wire; motion: where value is the end of one, or NULL. */
+  sw_status (*give)(sw_hold *hold, const sw_link_wire *wire, double value, sw_motion *motion,
+                    sw_error *err);
+} sw_hold_order;
+
 /* What a hold does; functions may be NULL. */
 typedef struct sw_hold_acts {
+  const sw_hold_order *orders; /* or NULL */
+  const char *const *outputs;  /* names of what read gives, NULL-terminated, or NULL */
+  void (*read)(const sw_hold *hold, double t, double *out);
   int direction; /* 1: it keeps the wire's direction too */
   int lines;     /* 1: only of wires that are lines, not meshes of particles */
   /* Before anything is changed; arguments become what they mean for this wire. SW_EINVAL. */
@@ -102,7 +114,8 @@ typedef struct sw_hold_acts {
   void (*clear)(sw_hold *hold);
   /* At time t: adds what the wire does in the frame of the hold to its state. */
   void (*place)(sw_hold *hold, const sw_link_wire *wire, double t, sw_hold_state *state);
-  /* The scene's time is that of an accepted state: mesh and hold follow. 1: velocities jumped. */
+  /* A state was accepted, and the scene has its time: mesh and hold follow. 1: velocities jumped.
+   */
   int (*follow)(sw_hold *hold, const sw_link_wire *wire);
   /* The plan back to the mesh, before this is read. */
   void (*undo)(sw_hold *hold, const sw_link_wire *wire);
@@ -116,7 +129,7 @@ typedef struct sw_hold_acts {
   void (*set)(sw_hold *hold, const sw_hold_args *args);
   /* 1: what came from a tape goes with the wire. */
   int (*fits)(const sw_hold *hold, const sw_link_wire *wire);
-  /* What is taken on a tape besides what all holds have. */
+  /* Puts its own state on a tape, besides the fields that all holds have. */
   void (*tape)(sw_tape *tape, sw_hold *hold);
 } sw_hold_acts;
 

@@ -20,9 +20,9 @@ static const sw_param rows[] = {
      offsetof(sw_join_args, strength), "pull at which a tie breaks (default: never)"},
 };
 
-/* Stiffer than the stiffest segment there by so much. Ends go apart by that share of what this
- * segment gives way; at twice of it by half as much, with one digit less for rounding to take from
- * the forces [-]. */
+/* Stiffness of the springs of a join over that of the stiffest segment there. Ends go apart by the
+ * inverse share of this segment's stretch. At twice this value they go apart by half as much, and
+ * the forces lose one more digit to rounding [-]. */
 static const double STIFFER = 100.0;
 
 typedef sw_joint_end end;

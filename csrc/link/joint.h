@@ -31,7 +31,10 @@ typedef struct sw_joint {
 
 /* What a joint does; wires: those of its ends. */
 typedef struct sw_joint_acts {
-  int apart; /* 1: its ends need not meet */
+  int apart;                  /* 1: its ends need not meet */
+  const char *const *outputs; /* names of what read gives, NULL-terminated, or NULL */
+  /* wires: NULL when one of them is gone. */
+  void (*read)(const sw_joint *joint, const sw_link_wire *wires, double *out);
   /* It begins, or meshes are others. */
   void (*measure)(sw_joint *joint, const sw_link_wire *wires);
   /* Into the new system. SW_ENOMEM. */

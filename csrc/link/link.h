@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Links: what keeps wires somewhere, or at each other. A member is one file: what it holds or
- * pulls, how it reacts, what is read of it, its parameters; it ends in one sw_link_class and has
- * one X(name) line in list.def. Holds keep part of one wire (hold.h), joints two wires or more
- * (joint.h). */
+/* Links keep wires at a place, or at each other. A member is one file with its parameters, what it
+ * holds or pulls, its reaction and its read-outs; it ends in one sw_link_class and has one X(name)
+ * line in list.def. Holds keep part of one wire (hold.h), joints two wires or more (joint.h). */
 #ifndef SW_LINK_LINK_H
 #define SW_LINK_LINK_H
 
@@ -32,7 +31,8 @@ typedef struct sw_hold_args {
   double friction; /* [-] */
 } sw_hold_args;
 
-enum { SW_JOIN_ENDS = 8 }; /* most wires in a join */
+enum { SW_JOIN_ENDS = 8 };    /* most wires in a join */
+enum { SW_LINK_OUTPUTS = 8 }; /* most values that a link has to read [-] */
 
 /* A user's arguments for a joint. */
 typedef struct sw_join_args {

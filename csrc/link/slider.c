@@ -66,7 +66,7 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
                  w->name, sw_dist(near.x, at), a->s - m->s[0], LARGEST_GAP * edge);
 }
 
-/* The curve as the hold sees it, whose frame is that of the world at the wire's place. */
+/* The curve in the hold's frame: axes of the world, origin at the wire's place. */
 static sw_status make_curve(const sw_hold *h, sw_curve **out) {
   const sw_hold_args *a = &h->args;
   if (!a->points) return sw_curve_line(a->line, out);
@@ -103,7 +103,7 @@ static void rail(const sw_hold *h, sw_rail *out) {
                    .a = x->a};
 }
 
-/* What has come to an end stays there: its speed is gone. */
+/* 1: the place is at an end and would go beyond it; it stops there. */
 static int stops(const sw_slider *x) {
   return (x->p <= x->from && x->v < 0) || (x->p >= x->to && x->v > 0);
 }
@@ -146,7 +146,17 @@ static void tape(sw_tape *t, sw_hold *h) {
   sw_tape_expect(t, isfinite(x->p + x->v + x->a), "a rail");
 }
 
-static const sw_hold_acts acts = {.lines = 1,
+static const char *const outputs[] = {"place", "speed", "force", NULL};
+
+/* Along the rail: place, speed, force of friction and ends on the wire [m], [m/s], [N]. */
+static void read(const sw_hold *h, double time, double *out) {
+  (void)time;
+  out[0] = h->slider.p, out[1] = h->slider.v, out[2] = h->slider.force;
+}
+
+static const sw_hold_acts acts = {.outputs = outputs,
+                                  .read = read,
+                                  .lines = 1,
                                   .check = check,
                                   .begin = begin,
                                   .clear = clear,

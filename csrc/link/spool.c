@@ -39,8 +39,8 @@ static sw_rest_place go_on(sw_vec x, sw_quat q, sw_vec w, double u) {
                          sw_quat_unit(sw_quat_mul(q, sw_quat_exp(sw_scale(w, u))))};
 }
 
-/* The unloaded wire at arc length s. Beyond its ends it goes on with the curvature and twist
- * that it has there: what is on the spool is like what has come from it. */
+/* The unloaded wire at arc length s. Beyond its ends it goes on with the curvature and twist of the
+ * end: the wire on the spool is like the wire that came off it. */
 sw_rest_place sw_spool_at(const sw_mesh *m, double s) {
   const size_t last = m->n - 1;
   if (s < m->s[0] || s > m->s[last]) {

@@ -41,8 +41,29 @@ static double pull(const sw_joint *j, const sw_system *s, const double *x, doubl
 
 static void breaks(sw_joint *j, sw_system *s) { s->joins->springs[j->spring].k = 0; }
 
-static const sw_joint_acts acts = {
-    .apart = 1, .add = add, .force = force, .pull = pull, .breaks = breaks};
+static const char *const outputs[] = {"distance",    "tension",      "peak", "broken",
+                                      "broken_time", "broken_force", NULL};
+
+/* How far its places are apart, its pull now and at most [m], [N]; when and how it broke. */
+static void read(const sw_joint *j, const sw_link_wire *wires, double *out) {
+  const sw_system *s = wires ? wires->system : NULL;
+  double bears;
+  out[0] = s ? sw_dist(sw_vec_at(s->x, sw_joint_node(&j->ends[0], &wires[0])),
+                       sw_vec_at(s->x, sw_joint_node(&j->ends[1], &wires[1])))
+             : (double)NAN;
+  out[1] = s && j->alive ? pull(j, s, s->x, &bears) : 0.0;
+  out[2] = j->fate[SW_TIE_PEAK];
+  out[3] = j->fate[SW_TIE_BROKEN] > 0;
+  out[4] = j->fate[SW_TIE_BROKEN_TIME], out[5] = j->fate[SW_TIE_BROKEN_FORCE];
+}
+
+static const sw_joint_acts acts = {.apart = 1,
+                                   .outputs = outputs,
+                                   .read = read,
+                                   .add = add,
+                                   .force = force,
+                                   .pull = pull,
+                                   .breaks = breaks};
 
 const sw_link_class sw_link_tie = {
     .name = "tie",

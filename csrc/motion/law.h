@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inside the motion room: what a law is and what it is planned from. */
+/* Inside the motion room: a law of motion and the input of its plan. */
 #ifndef SW_MOTION_LAW_H
 #define SW_MOTION_LAW_H
 

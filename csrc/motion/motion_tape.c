@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Motions on a tape: what they were planned from, and views with what they look at. */
+/* Motions on a tape: the input of their plans; views with the motion behind them. */
 #include "base/alloc.h"
 #include "motion/law.h"
 

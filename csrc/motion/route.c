@@ -117,8 +117,8 @@ static void measure(sw_route *route) {
   }
 }
 
-/* Share a turn over the whole path out to the legs: by length, where there is
- * none by time, where there is none evenly. */
+/* Share a turn over the whole path among the legs: by their length, if there is none by their time,
+ * if there is none evenly. */
 static sw_status spread(sw_route *route, sw_vec turn, sw_error *err) {
   const size_t legs = route->count - 1;
   if (route->angle > 0)

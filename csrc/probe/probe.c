@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Lua module softworld.probe: the solvers as specs and benches see them. It is no part of what
- * is installed, and takes the core from the program that loads it. band3(rows, right) -> x,
+/* The Lua module softworld.probe: solvers and a scene's fields as specs see them. It is no part of
+ * what is installed, and takes the core from the program that loads it. band3(rows, right) -> x,
  * negative pivots, product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
  * node. product is rows times right. */
+#include "probe/probe.h"
+
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -236,7 +238,8 @@ static int mod_blocks_time(lua_State *L) {
   return 2;
 }
 
-static const luaL_Reg functions[] = {{"band3", mod_band3},
+static const luaL_Reg functions[] = {{"fields", lsw_probe_fields},
+                                     {"band3", mod_band3},
                                      {"band4", mod_band4},
                                      {"sparse", mod_sparse},
                                      {"blocks", mod_blocks},

@@ -11,10 +11,12 @@
 #include "body/spin.h"
 #include "record/wear.h"
 #include "record/zone.h"
+#include "scene/course.h"
+#include "scene/parts.h"
 #include "scene/values.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "state/clamp.h"
+#include "system/system.h"
 
 /* The largest of |t2 - t1| / hinge length, squared: the curvature to second
  * order in the hinge angle; the exact angle is taken at the place found. */
@@ -138,20 +140,21 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
 }
 
 static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *now) {
-  if (s->wires[w].strand.web) {
+  sw_system *system = sw_scene_system(s);
+  if (sw_scene_wire_in(s, w)->strand.web) {
     sw_strand_extremes(s, w, tension, now);
-    now->curvature.time = now->tension.time = now->strain.time = s->time;
-    now->ovalisation.time = now->folding.time = s->time;
+    now->curvature.time = now->tension.time = now->strain.time = sw_scene_time(s);
+    now->ovalisation.time = now->folding.time = sw_scene_time(s);
     now->torsion = (sw_extreme){.value = -HUGE_VAL};
     return;
   }
-  curvature_extreme(&s->system, &s->system.bodies[w], &now->curvature);
-  const sw_body *b = &s->system.bodies[w];
-  largest_tension(b, sw_system_pull(&s->system, b), &now->tension);
-  strain_extreme(&s->system, &s->system.bodies[w], &now->strain);
+  curvature_extreme(system, &system->bodies[w], &now->curvature);
+  const sw_body *b = &system->bodies[w];
+  largest_tension(b, sw_system_pull(system, b), &now->tension);
+  strain_extreme(system, &system->bodies[w], &now->strain);
   now->ovalisation = now->folding = (sw_extreme){.value = -HUGE_VAL};
-  sw_scene_torsion(&s->system, b, &now->torsion);
-  now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = s->time;
+  sw_scene_torsion(system, b, &now->torsion);
+  now->curvature.time = now->tension.time = now->strain.time = now->torsion.time = sw_scene_time(s);
 }
 
 void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }
@@ -170,13 +173,13 @@ static double watched_place(const sw_body *b, size_t e) {
 }
 
 int sw_scene_is_averaged(const sw_scene *s) {
-  return s->course.span > 0 &&
-         s->course.span < (1 - 1e-9) * s->course.window; /* times are rounded */
+  sw_course *course = sw_scene_course(s);
+  return course->span > 0 && course->span < (1 - 1e-9) * course->window; /* times are rounded */
 }
 
 static sw_status fit_window(sw_scene *s, size_t w) {
-  sw_window *window = &s->wires[w].window;
-  const sw_body *b = &s->system.bodies[w];
+  sw_window *window = &sw_scene_wire_in(s, w)->window;
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
   const size_t n = watched_edges(b);
   if (window->edges == n) return SW_OK;
   double *places SW_LOCAL = sw_alloc(n, sizeof *places);
@@ -187,60 +190,64 @@ static sw_status fit_window(sw_scene *s, size_t w) {
 
 /* The largest mean over the window up to now. */
 static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
-  const sw_window *window = &s->wires[w].window;
+  const sw_window *window = &sw_scene_wire_in(s, w)->window;
   sw_extreme mean = {.time = window->now};
-  const size_t e = sw_window_largest(window, s->course.window, &mean.value);
-  mean.s = watched_place(&s->system.bodies[w], e);
+  const size_t e = sw_window_largest(window, sw_scene_course(s)->window, &mean.value);
+  mean.s = watched_place(&sw_scene_system(s)->bodies[w], e);
   keep_largest(kept, &mean);
 }
 
 /* Was the step that led here one that smears blows? */
-static int is_coarse(const sw_scene *s) { return s->course.span >= (1 - 1e-9) * SW_WINDOW; }
+static int is_coarse(const sw_scene *s) {
+  return sw_scene_course(s)->span >= (1 - 1e-9) * SW_WINDOW;
+}
 
 /* A coarse step counts with its mean over time: that at its end, of a blow, says nothing of how
  * long it lasts. */
 const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
-  const double *mean = s->course.span > 0 && is_coarse(s) ? s->course.stepper.mean : NULL;
-  return mean ? mean + b->first_edge : sw_system_pull(&s->system, b);
+  sw_course *course = sw_scene_course(s);
+  const double *mean = course->span > 0 && is_coarse(s) ? course->stepper.mean : NULL;
+  return mean ? mean + b->first_edge : sw_system_pull(sw_scene_system(s), b);
 }
 
 /* NULL: of a mesh, or at rest, there are only those of the state. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
-  return b->plan->web || !(s->course.span > 0) ? NULL : sw_scene_step_tension(s, b);
+  return b->plan->web || !(sw_scene_course(s)->span > 0) ? NULL : sw_scene_step_tension(s, b);
 }
 
 static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
-  sw_scene_wire *wire = &s->wires[w];
+  sw_course *course = sw_scene_course(s);
+  sw_scene_wire *wire = sw_scene_wire_in(s, w);
   sw_wire_extremes *kept = &wire->extremes;
-  const sw_body *b = &s->system.bodies[w];
+  const sw_body *b = &sw_scene_system(s)->bodies[w];
   const double *T = step_tension(s, b);
   sw_extreme step = now->tension;
-  if (T) largest_tension(b, T, &step), step.time = s->time;
-  if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = s->course.span;
+  if (T) largest_tension(b, T, &step), step.time = sw_scene_time(s);
+  if (step.value > kept->raw.value) kept->raw = step, kept->raw_span = course->span;
   if (!sw_scene_is_averaged(s)) keep_largest(&kept->tension, &step);
   if (!sw_scene_is_averaged(s) && !wire->window.marks) return;
-  if (!(s->course.span > 0)) {
+  if (!(course->span > 0)) {
     sw_window_forget(&wire->window);
     return;
   }
-  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), s->time, s->course.span,
-                    s->course.window) &&
+  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), sw_scene_time(s),
+                    course->span, course->window) &&
       sw_scene_is_averaged(s))
     keep_mean(s, w, &kept->tension);
 }
 
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
-  const sw_window *window = &s->wires[w].window;
+  const sw_window *window = &sw_scene_wire_in(s, w)->window;
   const int counted = isfinite(run->raw.value) && is_coarse(s); /* with its mean */
   if (!counted && now->tension.value > run->raw.value)
-    run->raw = now->tension, run->raw_span = s->course.span;
-  const int fits = window->marks && window->edges == watched_edges(&s->system.bodies[w]);
+    run->raw = now->tension, run->raw_span = sw_scene_course(s)->span;
+  const int fits = window->marks && window->edges == watched_edges(&sw_scene_system(s)->bodies[w]);
   const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
   if (!fits && (missing || !counted))
     keep_largest(&run->tension, &now->tension);
   else if (fits && (missing || (sw_window_waits(window) && sw_scene_is_averaged(s) &&
-                                sw_window_full(window, s->course.window))))
+                                sw_window_full(window, sw_scene_course(s)->window))))
     keep_mean(s, w, &run->tension);
 }
 
@@ -254,25 +261,29 @@ void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now)
 
 sw_status sw_scene_note_extremes(sw_scene *s, size_t w, sw_wire_extremes *now, sw_error *err) {
   double *tension = NULL;
-  if ((sw_scene_is_averaged(s) || s->wires[w].window.marks) && fit_window(s, w) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'", s->wires[w].name);
-  if (s->wires[w].strand.web && s->wires[w].window.edges == watched_edges(&s->system.bodies[w]))
-    tension = sw_window_values(&s->wires[w].window);
+  if ((sw_scene_is_averaged(s) || sw_scene_wire_in(s, w)->window.marks) &&
+      fit_window(s, w) != SW_OK)
+    return sw_fail(err, SW_ENOMEM, "out of memory for the tension of '%s'",
+                   sw_scene_wire_in(s, w)->name);
+  if (sw_scene_wire_in(s, w)->strand.web &&
+      sw_scene_wire_in(s, w)->window.edges == watched_edges(&sw_scene_system(s)->bodies[w]))
+    tension = sw_window_values(&sw_scene_wire_in(s, w)->window);
   wire_now(s, w, tension, now);
-  sw_scene_keep_extremes(&s->wires[w].extremes, now);
+  sw_scene_keep_extremes(&sw_scene_wire_in(s, w)->extremes, now);
   keep_tension(s, w, now);
   return SW_OK;
 }
 
 void sw_scene_reset_extremes(sw_scene *s) {
-  for (size_t w = 0; w < s->wire_count; w++) {
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++) {
     const sw_extreme least = {.value = -HUGE_VAL};
-    s->wires[w].extremes = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
-    sw_window_forget(&s->wires[w].window);
-    sw_wear_free(&s->wires[w].wear);
-    sw_zones_forget(&s->wires[w].zones);
-    if (s->built) s->system.bodies[w].pushed = 0;
+    sw_scene_wire_in(s, w)->extremes =
+        (sw_wire_extremes){least, least, least, least, least, least, least, 0};
+    sw_window_forget(&sw_scene_wire_in(s, w)->window);
+    sw_wear_free(&sw_scene_wire_in(s, w)->wear);
+    sw_zones_forget(&sw_scene_wire_in(s, w)->zones);
+    if (sw_scene_is_built(s)) sw_scene_system(s)->bodies[w].pushed = 0;
   }
-  s->deepest = (sw_extreme){0};
-  s->wears = 0;
+  *sw_scene_penetrated(s) = (sw_extreme){0};
+  sw_scene_set_wears(s, 0);
 }

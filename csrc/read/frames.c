@@ -16,19 +16,22 @@
 #include "read/kept_frames.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
-#include "scene/world.h"
+#include "scene/lists.h"
+#include "scene/parts.h"
 #include "state/web.h"
 #include "strand/ring.h"
+#include "system/system.h"
 
 enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD, NONE = 3, LEAST = 3 }; /* NONE: of a gone body */
 
 const double SW_FRAME_MEMORY = 256e6;
 
 void sw_scene_drop_frames(sw_scene *s) {
-  for (size_t i = 0; i < s->frame_count; i++) sw_free(s->frames[i].data);
-  s->frame_count = 0;
-  s->frame_stride = 1;
-  s->frame_bytes = 0;
+  sw_frames *all = sw_scene_frames_of(s);
+  for (size_t i = 0; i < all->count; i++) sw_free(all->list[i].data);
+  all->count = 0;
+  all->stride = 1;
+  all->bytes = 0;
 }
 
 sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
@@ -39,11 +42,11 @@ sw_status sw_scene_clear_frames(sw_scene *s, sw_error *err) {
 
 sw_status sw_scene_keep_frames(sw_scene *s, double memory, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
-  s->frame_memory = memory;
+  sw_scene_frames_of(s)->memory = memory;
   return SW_OK;
 }
 
-size_t sw_scene_frames_thinned(const sw_scene *s) { return s->frame_stride; }
+size_t sw_scene_frames_thinned(const sw_scene *s) { return sw_scene_frames_of(s)->stride; }
 
 static double bytes_of(const sw_frame *f) {
   return (double)(f->size * sizeof *f->data + sizeof *f);
@@ -51,38 +54,42 @@ static double bytes_of(const sw_frame *f) {
 
 /* Every second one goes. The last one stays: what is due next is two of them later. */
 static void thin(sw_scene *s) {
+  sw_frames *all = sw_scene_frames_of(s);
   size_t kept = 0;
-  for (size_t i = 0; i < s->frame_count; i++) {
+  for (size_t i = 0; i < all->count; i++) {
     if (i % 2 == 0) {
-      s->frames[kept++] = s->frames[i];
+      all->list[kept++] = all->list[i];
       continue;
     }
-    s->frame_bytes -= bytes_of(&s->frames[i]);
-    sw_free(s->frames[i].data);
+    all->bytes -= bytes_of(&all->list[i]);
+    sw_free(all->list[i].data);
   }
-  s->frame_count = kept;
-  s->frame_stride *= 2;
+  all->count = kept;
+  all->stride *= 2;
 }
 
 void sw_scene_drop_last_frame(sw_scene *s) {
-  s->frame_bytes -= bytes_of(&s->frames[--s->frame_count]);
-  sw_free(s->frames[s->frame_count].data);
+  sw_frames *all = sw_scene_frames_of(s);
+  all->bytes -= bytes_of(&all->list[--all->count]);
+  sw_free(all->list[all->count].data);
 }
 
-/* Frames of a run from another state may tell of what the scene does not know, or of later. */
+/* Frames of a run from another state may have objects that the scene has not, or be later than its
+ * time. */
 static int is_of_past(const sw_scene *s, const sw_frame *f) {
-  return f->time <= s->time && f->wires <= sw_scene_bodies_made(s) &&
-         f->obstacles <= s->obstacle_count && f->holds <= s->hold_count &&
-         f->tools <= s->tool_count;
+  return f->time <= sw_scene_time(s) && f->wires <= sw_scene_bodies_made(s) &&
+         f->obstacles <= sw_scene_obstacle_slots(s) && f->holds <= sw_scene_hold_slots(s) &&
+         f->tools <= sw_scene_tool_slots(s);
 }
 
 void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
-  const size_t ratio = s->frame_stride > stride && stride ? s->frame_stride / stride : 1;
+  sw_frames *all = sw_scene_frames_of(s);
+  const size_t ratio = all->stride > stride && stride ? all->stride / stride : 1;
   size_t kept = (count + ratio - 1) / ratio;
-  if (kept > s->frame_count) kept = s->frame_count;
+  if (kept > all->count) kept = all->count;
   for (size_t k = 0; k < kept; k++)
-    if (!is_of_past(s, &s->frames[k])) kept = k;
-  while (s->frame_count > kept) sw_scene_drop_last_frame(s);
+    if (!is_of_past(s, &all->list[k])) kept = k;
+  while (all->count > kept) sw_scene_drop_last_frame(s);
 }
 
 static void store_vec(float *out, sw_vec a) {
@@ -98,9 +105,10 @@ static void store_body(float *out, sw_pose pose, sw_vec force) {
 
 /* The middle line of a mesh and its surface. */
 static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   const sw_web *web = b->plan->web;
   const size_t around = web->around_count;
-  const double *x = s->system.x + 3 * b->first_node;
+  const double *x = system->x + 3 * b->first_node;
   double outline[3 * SW_OUTLINE], wide[3 * SW_OUTLINE];
   float *p = *to;
   double *pressed SW_LOCAL = sw_alloc(b->plan->nodes, sizeof *pressed);
@@ -109,7 +117,7 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
   *p++ = (float)web->rings;
   for (size_t r = 0; r < web->rings; r++, p += 3) store_vec(p, sw_strand_middle(web, x, r));
   *p++ = SW_FRAME_VALUES;
-  sw_scene_node_values(s, (size_t)(b - s->system.bodies), web->rings, p);
+  sw_scene_node_values(s, (size_t)(b - system->bodies), web->rings, p);
   p += SW_FRAME_VALUES * web->rings;
   *p++ = (float)around;
   for (size_t r = 0; r < web->rings; r++) {
@@ -136,22 +144,22 @@ static sw_status fill_bodies(sw_scene *s, float **to, sw_error *err) {
   sw_motion_state at;
   sw_vec force, moment;
   sw_error unknown;
-  for (size_t k = 0; k < s->obstacle_count; k++, p += HOLD) {
-    SW_TRY(sw_drive_eval(s, &s->obstacles[k].drive, s->time, &at, err));
-    sw_obstacle_mean(&s->obstacles[k], at.pose.p, &force, &moment);
+  for (size_t k = 0; k < sw_scene_obstacle_slots(s); k++, p += HOLD) {
+    SW_TRY(sw_drive_eval(s, &sw_scene_obstacle_in(s, k)->drive, sw_scene_time(s), &at, err));
+    sw_obstacle_mean(sw_scene_obstacle_in(s, k), at.pose.p, &force, &moment);
     store_body(p, at.pose, force);
-    p[SW_FRAME_BODY] = (float)s->obstacles[k].alive;
+    p[SW_FRAME_BODY] = (float)sw_scene_obstacle_in(s, k)->alive;
   }
-  for (size_t k = 0; k < s->hold_count; k++, p += HOLD) {
-    const sw_hold *h = &s->holds[k];
+  for (size_t k = 0; k < sw_scene_hold_slots(s); k++, p += HOLD) {
+    const sw_hold *h = sw_scene_hold_in(s, k);
     at.pose = h->last_pose;
-    if (h->alive) SW_TRY(sw_drive_eval(s, &h->drive, s->time, &at, err));
+    if (h->alive) SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &at, err));
     store_body(p, at.pose, h->alive ? h->force : sw_v(0, 0, 0));
     p[SW_FRAME_BODY] = (float)h->alive;
   }
-  for (size_t k = 0; k < s->tool_count; k++, p += TOOL) {
-    const sw_handle tool = {(uint32_t)k, s->tools[k].generation};
-    SW_TRY(sw_drive_eval(s, &s->tools[k].drive, s->time, &at, err));
+  for (size_t k = 0; k < sw_scene_tool_slots(s); k++, p += TOOL) {
+    const sw_handle tool = {(uint32_t)k, sw_scene_tool_in(s, k)->generation};
+    SW_TRY(sw_drive_eval(s, &sw_scene_tool_in(s, k)->drive, sw_scene_time(s), &at, err));
     if (sw_scene_tool_force(s, tool, NULL, &force, &moment, &unknown) != SW_OK)
       force = sw_v(0, 0, 0);
     store_body(p, at.pose, force);
@@ -161,11 +169,12 @@ static sw_status fill_bodies(sw_scene *s, float **to, sw_error *err) {
 }
 
 static sw_status fill_body(sw_scene *s, size_t w, float **to, sw_error *err) {
-  const sw_body *b = &s->system.bodies[w];
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
   const sw_web *web = b->plan->web;
   float *p = *to;
   if (web && web->per_ring) return fill_strand(s, b, to, err);
-  const double *x = s->system.x + 3 * b->first_node;
+  const double *x = system->x + 3 * b->first_node;
   *p++ = (float)b->plan->nodes;
   for (size_t i = 0; i < 3 * b->plan->nodes; i++) *p++ = (float)x[i];
   *p++ = web ? 0 : SW_FRAME_VALUES;
@@ -180,7 +189,7 @@ static sw_status fill(sw_scene *s, float *p, sw_error *err) {
   size_t w = 0;
   SW_TRY(fill_bodies(s, &p, err));
   for (size_t k = 0; k < sw_scene_bodies_made(s); k++) {
-    if (w == s->wire_count || s->wires[w].number != k) { /* it is gone */
+    if (w == sw_scene_wire_slots(s) || sw_scene_wire_in(s, w)->number != k) { /* it is gone */
       *p++ = 0, *p++ = 0, *p++ = 0;
       continue;
     }
@@ -190,16 +199,18 @@ static sw_status fill(sw_scene *s, float *p, sw_error *err) {
 }
 
 static sw_status add_frame(sw_scene *s, sw_error *err) {
-  sw_frame f = {.time = s->time,
-                .size = TOOL * s->tool_count + HOLD * (s->obstacle_count + s->hold_count) +
-                        NONE * s->gone_count,
+  sw_frames *all = sw_scene_frames_of(s);
+  sw_frame f = {.time = sw_scene_time(s),
+                .size = TOOL * sw_scene_tool_slots(s) +
+                        HOLD * (sw_scene_obstacle_slots(s) + sw_scene_hold_slots(s)) +
+                        NONE * (sw_scene_bodies_made(s) - sw_scene_wire_slots(s)),
                 .wires = sw_scene_bodies_made(s),
-                .obstacles = s->obstacle_count,
-                .holds = s->hold_count,
-                .tools = s->tool_count};
-  for (size_t w = 0; w < s->wire_count; w++) f.size += size_of(s->system.bodies[w].plan);
-  if (sw_grow((void **)&s->frames, &s->frame_capacity, s->frame_count + 1, sizeof *s->frames) !=
-      SW_OK)
+                .obstacles = sw_scene_obstacle_slots(s),
+                .holds = sw_scene_hold_slots(s),
+                .tools = sw_scene_tool_slots(s)};
+  for (size_t w = 0; w < sw_scene_wire_slots(s); w++)
+    f.size += size_of(sw_scene_system(s)->bodies[w].plan);
+  if (sw_grow((void **)&all->list, &all->capacity, all->count + 1, sizeof *all->list) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   f.data = sw_alloc(f.size, sizeof *f.data);
   if (!f.data) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
@@ -209,24 +220,24 @@ static sw_status add_frame(sw_scene *s, sw_error *err) {
     sw_free(f.data);
     return status;
   }
-  s->frames[s->frame_count++] = f;
-  s->frame_bytes += bytes_of(&f);
+  all->list[all->count++] = f;
+  all->bytes += bytes_of(&f);
   return SW_OK;
 }
 
 sw_status sw_scene_frame_now(sw_scene *s, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_still(s, err));
   SW_TRY(sw_scene_build(s, err));
-  SW_TRY(sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, err));
-  sw_system_refresh(&s->system);
+  SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));
+  sw_system_refresh(system);
   return add_frame(s, err);
 }
 
 sw_status sw_scene_store_frame(sw_scene *s, sw_error *err) {
+  sw_frames *all = sw_scene_frames_of(s);
   SW_TRY(add_frame(s, err));
-  const sw_frame f = s->frames[s->frame_count - 1];
-  if (s->frame_count % 2 && s->frame_count > LEAST &&
-      s->frame_bytes + 2 * bytes_of(&f) > s->frame_memory)
-    thin(s);
+  const sw_frame f = all->list[all->count - 1];
+  if (all->count % 2 && all->count > LEAST && all->bytes + 2 * bytes_of(&f) > all->memory) thin(s);
   return SW_OK;
 }

@@ -4,9 +4,10 @@
 
 #include <math.h>
 
+#include "scene/lists.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 
 enum { TOOL = SW_FRAME_TOOL, HOLD = SW_FRAME_HOLD };
 
@@ -33,14 +34,16 @@ int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
   return at <= room;
 }
 
-size_t sw_scene_frames(const sw_scene *s) { return s->frame_count; }
-double sw_scene_frame_time(const sw_scene *s, size_t frame) { return s->frames[frame].time; }
+size_t sw_scene_frames(const sw_scene *s) { return sw_scene_frames_of(s)->count; }
+double sw_scene_frame_time(const sw_scene *s, size_t frame) {
+  return sw_scene_frames_of(s)->list[frame].time;
+}
 const double *sw_scene_frame_energy(const sw_scene *s, size_t frame) {
-  return s->frames[frame].energy;
+  return sw_scene_frames_of(s)->list[frame].energy;
 }
 
 const float *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, int *there) {
-  const sw_frame *f = &s->frames[frame];
+  const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
   if (o >= f->obstacles) return NULL;
   const float *p = f->data + HOLD * o;
   *there = p[SW_FRAME_BODY] > 0;
@@ -48,7 +51,7 @@ const float *sw_scene_frame_obstacle(const sw_scene *s, size_t frame, size_t o, 
 }
 
 const float *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int *held) {
-  const sw_frame *f = &s->frames[frame];
+  const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
   if (h >= f->holds) return NULL;
   const float *p = f->data + HOLD * (f->obstacles + h);
   *held = p[SW_FRAME_BODY] > 0;
@@ -56,7 +59,7 @@ const float *sw_scene_frame_hold(const sw_scene *s, size_t frame, size_t h, int 
 }
 
 const float *sw_scene_frame_tool(const sw_scene *s, size_t frame, size_t k) {
-  const sw_frame *f = &s->frames[frame];
+  const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
   return k < f->tools ? f->data + before_wires(f) - TOOL * (f->tools - k) : NULL;
 }
 
@@ -75,7 +78,7 @@ int sw_scene_frame_is_loose(const sw_scene *s, size_t w) {
 }
 
 const float *sw_scene_frame_wire(const sw_scene *s, size_t frame, size_t w, size_t *count) {
-  const sw_frame *f = &s->frames[frame];
+  const sw_frame *f = &sw_scene_frames_of(s)->list[frame];
   if (w >= f->wires) return NULL;
   const float *p = f->data + before_wires(f);
   for (size_t k = 0; k < w; k++) {

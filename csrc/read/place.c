@@ -28,7 +28,7 @@ static sw_status tension(sw_scene *s, sw_handle h, double place, double *out, sw
   return SW_OK;
 }
 
-/* Strings bear no twist, nor do lines between the meshed parts of a wire. */
+/* Strings bear no twist; lines between the meshed parts of a wire bear none either. */
 static const char *without_twist(const sw_scene *s, const sw_scene_wire *w, sw_handle h,
                                  double place) {
   const sw_plan *p = sw_scene_system(s)->bodies[h.slot].plan;
@@ -58,7 +58,7 @@ static sw_status spin(sw_scene *s, sw_handle h, double place, double *out, sw_er
   sw_point_state p;
   SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   if (!w->beam.rolls)
-    return sw_fail(err, SW_EINVAL, "wire '%s': spin is known of wires made with rolls = true only",
+    return sw_fail(err, SW_EINVAL, "wire '%s': spin needs a wire made with rolls = true",
                    w->name);
   SW_TRY(sw_scene_wire_at(s, h, place, &p, err));
   *out = p.spin;

@@ -99,7 +99,7 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
   sw_scene_wire next = {.cls = sw_wire_find("rod")};
   sw_status status = sw_line_mesh(sw_scene_wire_in(s, wire.slot), line, &next.mesh);
   if (status == SW_OK) status = sw_line_twist(line, &next);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status == SW_OK) return sw_scene_replace_wire(s, wire.slot, &next, err);
   sw_mesh_free(&next.mesh);
   sw_free(next.twisted);
@@ -128,7 +128,8 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 
-/* How the rod lies at the mesh's rings; directions across are those of the mesh, carried there. */
+/* The rod at the places of the mesh's rings; the directions across it are carried over from the
+ * mesh. */
 static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
   sw_line rod = {0};
   const sw_status status = sw_line_read(s, f->wire, f->stations.n, f->stations.s, &rod, err);

@@ -95,7 +95,7 @@ static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double mo
   }
 }
 
-/* out = b / a; 0: there is none. Row by row: a' out' = b'. */
+/* out = b / a; returns 0 when a is singular. Row by row: a' out' = b'. */
 static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][WAYS]) {
   for (int row = 0; row < WAYS; row++) {
     double turned[WAYS * WAYS];

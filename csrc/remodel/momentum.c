@@ -25,12 +25,12 @@ static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec 
   sw_store(out + 3, L);
 }
 
-/* Rigid motions that have less of what the most massive one has are none: of a straight wire about
- * itself [-]. */
+/* A rigid motion with a smaller share of the largest inertia is left out: a straight wire's turn
+ * about itself [-]. */
 static const double LEAST = 1e-10;
 
-/* A rigid motion of what is free: number k < 3 shifts, else turns about a point; the turn's
- * speed is that at a distance. */
+/* A rigid motion of the free nodes: number k < 3 shifts, else turns about a point; a turn's speed
+ * is the speed at a given distance. */
 static void rigid(const sw_plan *p, const double *x, sw_vec about, double distance, size_t k,
                   double *v) {
   const sw_vec unit = sw_v(k % 3 == 0, k % 3 == 1, k % 3 == 2);

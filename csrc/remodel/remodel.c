@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Another model for a wire in mid-run: shape, stretch, twist and velocity go over through the
- * wire's middle line. Mass and arc lengths are the same; momentum and angular momentum are made
- * the same by the smallest rigid motion that does it. Sections of a new mesh give way to stretch,
- * bend and twist as those of an endless one do. What else deformed them, as squeezing does, is
- * lost; the energy tells how much. */
+/* Another model for a wire during a run. Shape, stretch, twist and velocity are carried over by the
+ * wire's middle line. Mass and arc lengths stay the same; momentum and angular momentum are made
+ * the same by the smallest rigid motion that does it. Sections of a new mesh deform under stretch,
+ * bend and twist as in an endless mesh. Other deformation of sections, such as squeezing, is lost;
+ * the change of energy tells how much. */
 #include "remodel/remodel.h"
 
 #include <math.h>
@@ -46,7 +46,7 @@ static sw_status becomes_mesh(const sw_strand_plan *plan, const sw_scene_wire *w
 
 /* --- holds ---------------------------------------------------------------------------------- */
 
-/* The wire's living holds take hold of what it has become, each where its pose is now. */
+/* The wire's living holds take hold of its new model, each at its present pose. */
 static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
   unsigned char *waits SW_LOCAL = sw_alloc(sw_scene_hold_slots(s), 1);
   if (!waits) return SW_ENOMEM;
@@ -179,7 +179,7 @@ static sw_status change(sw_scene *s, sw_handle h, const sw_strand_plan *plan, co
   out->about = about;
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(make(s, h.slot, plan, l, next, err));
-  const sw_status thawed = sw_scene_thaw(s);
+  const sw_status thawed = sw_scene_unbuild(s);
   if (thawed != SW_OK) {
     sw_mesh_free(&next->mesh);
     sw_strand_free(&next->strand);

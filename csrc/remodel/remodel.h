@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Another model for a wire in mid-run, and a rigid grip in place of a gripper's pads. */
+/* Another model for a wire during a run, and a rigid grip in place of a gripper's pads. */
 #ifndef SW_REMODEL_REMODEL_H
 #define SW_REMODEL_REMODEL_H
 

@@ -61,7 +61,7 @@ static void place_pressed(const sw_frozen *f, const sw_motion_state *tool, const
   }
 }
 
-/* Particles of the strand, whose places are those of then, to where they are now. */
+/* Move the particles of the strand from their places at the freeze to their present places. */
 static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                   sw_strand *strand) {
   const sw_web *web = strand->web;
@@ -98,7 +98,7 @@ static sw_status become_mesh(sw_scene *s, const sw_frozen *f, const sw_motion_st
   sw_scene_wire next = {.cls = f->cls};
   sw_status status = sw_mesh_copy(&f->mesh, &next.mesh);
   if (status == SW_OK) status = sw_strand_copy(&f->strand, &next.strand);
-  if (status == SW_OK) status = sw_scene_thaw(s);
+  if (status == SW_OK) status = sw_scene_unbuild(s);
   if (status != SW_OK) {
     sw_mesh_free(&next.mesh);
     sw_strand_free(&next.strand);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene that came from a file: objects name each other by numbers, and nothing may lead to what
- * is not there, whatever the file says. */
+/* Checks of a scene that came from a file. Objects name each other by numbers; whatever the file
+ * says, no number may lead to an object that is not there. */
 #include <stdint.h>
 #include <string.h>
 
@@ -27,7 +27,7 @@ static void check_strand(sw_tape *t, const sw_scene_wire *w) {
   sw_tape_expect(t, !w->mesh.rest && loose == !web->per_ring, "a mesh");
   sw_tape_expect(t, loose ? w->mesh.n == 3 : w->mesh.n == web->rings, "the rings of a mesh");
   sw_tape_expect(t, !w->beam.rolls, "a mesh that rolls as rods do");
-  sw_tape_expect(t, loose || w->strand.kit, "a mesh without calibration");
+  sw_tape_expect(t, loose || w->strand.calibrated, "a mesh without calibration");
   sw_tape_expect(t, web->around_count <= SW_OUTLINE && web->skin > 0, "the surface of a mesh");
 }
 
@@ -181,7 +181,7 @@ static void check_kept(sw_tape *t, const sw_scene *s) {
 
 void sw_tape_check_scene(sw_tape *t, sw_scene *s) {
   sw_tape_check_numbers(t, s);
-  for (size_t k = 0; k < s->rule_count; k++) check_rule(t, s, &s->rules[k]);
+  for (size_t k = 0; k < s->rules.count; k++) check_rule(t, s, &s->rules.list[k]);
   SW_EACH(force, f, s) check_force(t, s, f);
   for (size_t w = 0; w < s->wire_count && sw_tape_good(t); w++) check_wire(t, s, w);
   for (size_t k = 0; k < s->hold_count && sw_tape_good(t); k++) check_hold(t, s, &s->holds[k]);

@@ -249,13 +249,13 @@ static void sum_object(sw_tape *t, sw_scene *s, size_t k, sw_scene_item *out) {
     k -= s->join_count;
     snprintf(name, sizeof name, "%zu", k + 1);
     item(out, "wire_contact", name);
-    sw_tape_rule(t, &s->rules[k]);
+    sw_tape_rule(t, &s->rules.list[k]);
   }
 }
 
 size_t sw_scene_items(const sw_scene *s) {
   return s->wire_count + s->obstacle_count + s->hold_count + s->force_count + s->tool_count +
-         s->join_count + s->rule_count;
+         s->join_count + s->rules.count;
 }
 
 sw_scene_item sw_scene_item_at(sw_scene *s, size_t k) {

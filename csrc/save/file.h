@@ -16,12 +16,9 @@ sw_status sw_saved_note(const void *bytes, size_t size, const void **note, size_
                         sw_error *err);
 /* A new scene of them; on the same kind of machine it goes on with the same bits. */
 sw_status sw_scene_load(const void *bytes, size_t size, sw_scene **out, sw_error *err);
-/* The same in place of what the scene is now: objects that are in both keep their handles.
- * Its snapshots are good for nothing from then on. On failure nothing changes. */
+/* Load it into an existing scene: objects that are in both keep their handles. The scene's
+ * snapshots cannot be restored any more. On failure nothing changes. */
 sw_status sw_scene_resume(sw_scene *scene, const void *bytes, size_t size, sw_error *err);
-
-/* The fields of its objects as they lie in memory, for specs; freed with sw_free. SW_ENOMEM. */
-sw_status sw_scene_fields(const sw_scene *scene, unsigned char **out, size_t *size);
 
 /* What the scene is made of, object by object: two that were made alike have the same sum,
  * wherever they are by now. */

@@ -36,7 +36,7 @@ sw_status sw_scene_new(const sw_scene_args *args, sw_scene **out, sw_error *err)
   memcpy(s->name, args->name[0] ? args->name : "scene", args->name[0] ? sizeof s->name : 6);
   s->gravity = isnan(args->gravity.x) ? sw_v(0, 0, -STANDARD_GRAVITY) : args->gravity;
   s->course.window = SW_WINDOW;
-  s->frame_stride = 1, s->frame_memory = SW_FRAME_MEMORY;
+  s->frames.stride = 1, s->frames.memory = SW_FRAME_MEMORY;
   *out = s;
   return SW_OK;
 }
@@ -48,7 +48,7 @@ void sw_scene_free(sw_scene *s) {
   SW_EACH(hold, h, s) sw_hold_clear(h);
   SW_EACH(obstacle, o, s) sw_scene_clear_obstacle(o);
   SW_EACH(tool, t, s) sw_scene_clear_tool(t);
-  for (size_t i = 0; i < s->zone_count; i++) sw_scene_clear_zone(&s->zones[i]);
+  for (size_t i = 0; i < s->zones.count; i++) sw_scene_clear_zone(&s->zones.list[i]);
   sw_scene_orphan_snapshots(s);
   sw_stepper_free(&s->course.stepper);
   sw_contact_free(s->contact);
@@ -57,12 +57,12 @@ void sw_scene_free(sw_scene *s) {
   sw_mutual_free(s->grains);
   sw_crowd_free(s->crowd);
   sw_scene_drop_rules(s, 0);
-  sw_free(s->rules);
+  sw_free(s->rules.list);
   sw_system_free(&s->system);
   sw_scene_forget_contact(s);
   sw_scene_forget_histories(s);
   sw_scene_drop_frames(s);
-  sw_free(s->frames);
+  sw_free(s->frames.list);
   sw_events_clear(&s->events);
   sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);
@@ -74,7 +74,7 @@ void sw_scene_free(sw_scene *s) {
   sw_free(s->obstacles);
   sw_free(s->tools);
   sw_free(s->forces);
-  sw_free(s->zones);
+  sw_free(s->zones.list);
   sw_free(s->joins);
   sw_free(s);
 }

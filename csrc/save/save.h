@@ -12,8 +12,9 @@
 #include "scene/values.h"
 #include "system/system.h"
 
-/* The whole scene. Reading fills an empty one, or, from a tape at home, one whose system is that of
- * the tape, which stays then. live: of a scene that is built (then or now): its state. */
+/* The whole scene. Reading fills an empty scene. From a tape at home it fills a scene that has the
+ * system of the tape; the system then stays. live: the state of a scene that is built (then or
+ * now). */
 void sw_tape_scene(sw_tape *tape, sw_scene *scene, int *built, sw_live *live);
 
 /* Each puts one object on the tape, or fills a slot from it, which the caller frees also after a

@@ -89,10 +89,10 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
     return sw_fail(err, SW_ENOMEM, "snapshot: out of memory");
   }
   *p = (sw_snapshot){.force = force, .time = s->time, .build = s->build};
-  p->zones = s->zone_count;
+  p->zones = s->zones.count;
   p->holds = s->hold_count, p->obstacles = s->obstacle_count, p->tools = s->tool_count;
-  p->forces = s->force_count, p->joins = s->join_count, p->rules = s->rule_count;
-  p->frames = s->frame_count, p->frame_stride = s->frame_stride;
+  p->forces = s->force_count, p->joins = s->join_count, p->rules = s->rules.count;
+  p->frames = s->frames.count, p->frame_stride = s->frames.stride;
   for (size_t k = 0; k < s->force_count; k++)
     if (s->forces[k].alive) force[k] = s->forces[k].generation;
   p->tape = sw_tape_at_home(size_of(s), NULL);
@@ -114,8 +114,8 @@ static int same_system(const sw_scene *s, const sw_snapshot *p) {
   SW_EACH(hold, h, s)
     if (h->alive && sw_hold_passes(h)) return 0;
   return s->obstacle_count == p->obstacles && s->tool_count == p->tools &&
-         s->force_count == p->forces && s->join_count == p->joins && s->rule_count == p->rules &&
-         s->zone_count == p->zones;
+         s->force_count == p->forces && s->join_count == p->joins && s->rules.count == p->rules &&
+         s->zones.count == p->zones;
 }
 
 /* The system stays, all else goes where it is. */
@@ -150,10 +150,10 @@ static sw_status make_anew(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   if (status == SW_OK) {
     s->builds = other->builds > s->builds ? other->builds : s->builds;
     s->build = p->build, s->serial = other->serial;
-    s->frames = other->frames, s->frame_count = other->frame_count;
-    s->frame_capacity = other->frame_capacity;
-    s->frame_stride = other->frame_stride, s->frame_bytes = other->frame_bytes;
-    other->frames = NULL, other->frame_count = other->frame_capacity = 0;
+    sw_frames *f = &other->frames;
+    f->next = s->frames.next, f->memory = s->frames.memory;
+    s->frames = *f;
+    f->list = NULL, f->count = f->capacity = 0;
   }
   sw_scene_free(other);
   return status;

@@ -48,7 +48,7 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
   sw_tape_double(t, &s->time), sw_tape_double(t, &s->course.span),
       sw_tape_double(t, &s->course.window), sw_tape_double(t, &s->course.blow_part),
       sw_tape_double(t, &s->course.blow_since), sw_tape_double(t, &s->course.blow_until),
-      sw_tape_double(t, &s->course.next_dt), sw_tape_double(t, &s->next_frame);
+      sw_tape_double(t, &s->course.next_dt), sw_tape_double(t, &s->frames.next);
   sw_tape_expect(t, s->course.span >= 0 && s->course.span <= 1e9, "the length of a step");
   sw_tape_expect(t, s->course.window >= 0 && s->course.window <= 1e9, "a window");
   sw_tape_expect(t,
@@ -63,34 +63,34 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
 /* What a scene that is not built remembers of its last system. */
 static void tape_kept(sw_tape *t, sw_scene *s) {
   sw_tape_kept_contact(t, s);
-  size_t unused = s->kept_history_count;
+  size_t unused = s->histories.count;
   const size_t n =
-      tape_list(t, &s->kept_histories, &s->kept_history_count, &unused, sizeof *s->kept_histories);
+      tape_list(t, &s->histories.list, &s->histories.count, &unused, sizeof *s->histories.list);
   for (size_t k = 0; k < n && sw_tape_good(t); k++) {
-    if (sw_tape_reads(t)) s->kept_history_count = k + 1;
-    sw_tape_kept_history(t, s, &s->kept_histories[k]);
+    if (sw_tape_reads(t)) s->histories.count = k + 1;
+    sw_tape_kept_history(t, s, &s->histories.list[k]);
   }
 }
 
 /* These stay with a scene whose tape stays at home: they are only cut off. */
 static void tape_frames(sw_tape *t, sw_scene *s) {
-  LIST(frames, frame_count, frame_capacity, sw_tape_frame(t, s, &s->frames[k]));
-  sw_tape_size(t, &s->frame_stride), sw_tape_double(t, &s->frame_bytes);
-  sw_tape_expect(t, s->frame_stride >= 1 && s->frame_stride < 1u << 30 && s->frame_bytes >= 0,
+  LIST(frames.list, frames.count, frames.capacity, sw_tape_frame(t, s, &s->frames.list[k]));
+  sw_tape_size(t, &s->frames.stride), sw_tape_double(t, &s->frames.bytes);
+  sw_tape_expect(t, s->frames.stride >= 1 && s->frames.stride < 1u << 30 && s->frames.bytes >= 0,
                  "frames");
 }
 
 static void tape_objects(sw_tape *t, sw_scene *s, int built) {
   if (sw_tape_reads(t)) s->contact_steps.count = 0; /* series on tapes are complete */
   tape_numbers(t, s);
-  LIST(rules, rule_count, rule_capacity, sw_tape_rule(t, &s->rules[k]));
+  LIST(rules.list, rules.count, rules.capacity, sw_tape_rule(t, &s->rules.list[k]));
   LIST(wires, wire_count, wire_capacity, sw_tape_wire(t, &s->wires[k], !built));
   LIST(gone, gone_count, gone_capacity, sw_tape_gone(t, &s->gone[k]));
   LIST(holds, hold_count, hold_capacity, sw_tape_hold(t, s, &s->holds[k]));
   LIST(obstacles, obstacle_count, obstacle_capacity, sw_tape_obstacle(t, s, &s->obstacles[k]));
   LIST(tools, tool_count, tool_capacity, sw_tape_tool(t, s, &s->tools[k]));
   LIST(forces, force_count, force_capacity, sw_tape_force(t, &s->forces[k]));
-  LIST(zones, zone_count, zone_capacity, sw_tape_zone(t, &s->zones[k]));
+  LIST(zones.list, zones.count, zones.capacity, sw_tape_zone(t, &s->zones.list[k]));
   LIST(joins, join_count, join_capacity, sw_tape_join(t, &s->joins[k]));
   if (!t->home) tape_frames(t, s);
   if (sw_tape_reads(t)) s->events.count = 0; /* they own nothing */
@@ -129,7 +129,7 @@ sw_status sw_scene_take_place(sw_scene *s, sw_scene *other, const sw_live *live,
                               const sw_snapshot *restoring, sw_error *err) {
   sw_scene old = *s;
   *s = *other;
-  s->frame_memory = old.frame_memory; /* of the run that may be under way */
+  s->frames.memory = old.frames.memory; /* of the run that may be under way */
   s->restoring =
       restoring; /* placing the holds may call a user's function, which may close others */
   if (restoring) s->snapshots = old.snapshots;

@@ -33,7 +33,7 @@ typedef struct sw_ledger {
                           at least the wires' weight times their radius [J] */
   sw_retries redone;   /* steps redone with implicit Euler */
   sw_retries halved;   /* and then halved */
-  sw_retries accepted; /* and taken all the same, for they could not be smaller */
+  sw_retries accepted; /* and accepted, because they could not be smaller */
   size_t steps;        /* accepted ones [-] */
 } sw_ledger;
 

@@ -6,9 +6,9 @@
 
 #include "integrate/integrate.h"
 
-/* How the next step begins: with the state's accelerations; anew, for the scene was changed and
- * they are stale; likewise, from an equilibrium that was found and not changed since; or with them
- * although the system is a new one, for they are those of its forces. */
+/* How the next step begins: with the state's accelerations; anew, because the scene was changed and
+ * they are stale; anew from an equilibrium that was found and not changed since; or with them
+ * although the system is new, because they fit its forces. */
 enum { SW_GOES_ON = -1, SW_AS_BEFORE = 0, SW_ANEW = 1, SW_FROM_REST = 2 };
 
 typedef struct sw_course {

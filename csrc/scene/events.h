@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What happened in a run, in one list: slips, crashes, jumps of equilibrium, energy out of nowhere.
- * Bounded; repeats are merged. */
+/* The events of a run in one list: slips, crashes, jumps of equilibrium, energy from nowhere. The
+ * list is bounded; repeats are merged. */
 #ifndef SW_SCENE_EVENTS_H
 #define SW_SCENE_EVENTS_H
 

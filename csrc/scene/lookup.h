@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is found in a scene by its handle: NULL with err set where there is none. */
+/* Objects of a scene by their handles: NULL with err set if there is none. */
 #ifndef SW_SCENE_LOOKUP_H
 #define SW_SCENE_LOOKUP_H
 

@@ -38,10 +38,18 @@ sw_system *sw_scene_system(const sw_scene *s) { return (sw_system *)&s->system; 
 sw_course *sw_scene_course(const sw_scene *s) { return (sw_course *)&s->course; }
 sw_books *sw_scene_books(const sw_scene *s) { return (sw_books *)&s->books; }
 sw_events *sw_scene_events_of(const sw_scene *s) { return (sw_events *)&s->events; }
+sw_zones *sw_scene_zones_of(const sw_scene *s) { return (sw_zones *)&s->zones; }
+sw_watches *sw_scene_watches_of(const sw_scene *s) { return (sw_watches *)&s->watches; }
+sw_frames *sw_scene_frames_of(const sw_scene *s) { return (sw_frames *)&s->frames; }
+sw_rules *sw_scene_rules_of(const sw_scene *s) { return (sw_rules *)&s->rules; }
+sw_histories *sw_scene_histories_of(const sw_scene *s) { return (sw_histories *)&s->histories; }
+sw_kept_contact *sw_scene_kept(const sw_scene *s) { return (sw_kept_contact *)&s->kept; }
 sw_hold_load *sw_scene_hold_loads(const sw_scene *s) { return s->hold_loads; }
 sw_log *sw_scene_contact_steps(const sw_scene *s) { return (sw_log *)&s->contact_steps; }
 sw_extreme *sw_scene_penetrated(const sw_scene *s) { return (sw_extreme *)&s->deepest; }
 
+void sw_scene_diverge(sw_scene *s, const sw_error *why) { s->diverged = 1, s->why = *why; }
+void sw_scene_set_wears(sw_scene *s, int wears) { s->wears = wears; }
 void sw_scene_set_time(sw_scene *s, double time) { s->time = time; }
 int sw_scene_begin_look(sw_scene *s) {
   const int running = s->running;

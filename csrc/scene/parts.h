@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene has inside, one by one, for those that need not know it all (world.h). Of the
- * scene's inside. */
+/* The parts of a scene, one by one, for files that need not see all of it (world.h). For the rooms
+ * of the scene only. */
 #ifndef SW_SCENE_PARTS_H
 #define SW_SCENE_PARTS_H
 
@@ -15,12 +15,18 @@ typedef struct sw_tool sw_tool;                     /* gripper.h */
 typedef struct sw_gone sw_gone;                     /* wire.h */
 typedef struct sw_scene_force sw_scene_force;       /* forces.h */
 typedef struct sw_joint sw_joint;                   /* link/joint.h */
-typedef struct sw_frame sw_frame;                   /* read/kept_frames.h */
 typedef struct sw_kept_history sw_kept_history;     /* body/history.h */
-typedef struct sw_scene_rule sw_scene_rule;         /* body/touching.h */
 typedef struct sw_course sw_course;                 /* course.h */
 typedef struct sw_books sw_books;                   /* ledger.h */
 typedef struct sw_events sw_events;                 /* events.h */
+typedef struct sw_zones sw_zones;                   /* lists.h, as are the next five */
+typedef struct sw_watches sw_watches;
+typedef struct sw_frames sw_frames;
+typedef struct sw_rules sw_rules;
+typedef struct sw_kept_contact sw_kept_contact;
+typedef struct sw_histories sw_histories;
+typedef struct sw_scene_rule sw_scene_rule; /* body/touching.h */
+typedef struct sw_frame sw_frame;           /* read/kept_frames.h */
 typedef struct sw_system sw_system;
 typedef struct sw_contact sw_contact;
 typedef struct sw_mutual sw_mutual;
@@ -51,7 +57,7 @@ sw_hold *sw_scene_held_by(const sw_scene *scene, size_t k);
 /* How many bodies were made so far, those that are gone too: frames have a number for each. */
 size_t sw_scene_bodies_made(const sw_scene *scene);
 
-/* What they are made into; each kind of contact may be NULL. */
+/* The system that they are built into; each kind of contact may be NULL. */
 sw_system *sw_scene_system(const sw_scene *scene);
 sw_contact *sw_scene_contact(const sw_scene *scene);
 sw_mutual *sw_scene_pairs(const sw_scene *scene);
@@ -59,18 +65,27 @@ sw_mutual *sw_scene_grains(const sw_scene *scene);
 sw_crowd *sw_scene_crowd(const sw_scene *scene);
 int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and holds the state */
 
-/* What it remembers of its steps, of their energy, and of what happened. */
+/* Its steps, their energy, its events, and the lists of lists.h. */
 sw_course *sw_scene_course(const sw_scene *scene);
 sw_books *sw_scene_books(const sw_scene *scene);
 sw_events *sw_scene_events_of(const sw_scene *scene);
+sw_zones *sw_scene_zones_of(const sw_scene *scene);
+sw_watches *sw_scene_watches_of(const sw_scene *scene);
+sw_frames *sw_scene_frames_of(const sw_scene *scene);
+sw_rules *sw_scene_rules_of(const sw_scene *scene);
+sw_kept_contact *sw_scene_kept(const sw_scene *scene);
+sw_histories *sw_scene_histories_of(const sw_scene *scene);
 sw_hold_load *sw_scene_hold_loads(const sw_scene *scene); /* (holds) of the stage solved last */
 sw_log *sw_scene_contact_steps(const sw_scene *scene);    /* time and span of those observed [s] */
 sw_extreme *sw_scene_penetrated(const sw_scene *scene);   /* the deepest penetration of the run */
-int sw_scene_wears(const sw_scene *scene);                /* 1: what wears wires is kept */
+int sw_scene_wears(const sw_scene *scene);                /* 1: wear of wires is recorded */
 
 /* The given name, or kind and a number. */
 void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
 
+/* Nothing may be read until another state is restored, and why. */
+void sw_scene_diverge(sw_scene *scene, const sw_error *why);
+void sw_scene_set_wears(sw_scene *scene, int wears);
 void sw_scene_set_time(sw_scene *scene, double time); /* [s] */
 /* An observer looks: what runs stands still, and nothing may be changed. Returns what is to be
  * given back when it has. */
@@ -83,7 +98,7 @@ const sw_pose *sw_scene_part(const sw_scene *scene, double *share); /* both */
 void sw_scene_renumber(sw_scene *scene);
 /* The wire has other nodes: contact remembers nothing of it, and its velocities jump. */
 void sw_scene_forget_mesh(sw_scene *scene, size_t wire);
-/* The body made last is none; nothing of it is freed. */
+/* Drop the body made last from the list; nothing of it is freed. */
 void sw_scene_unmake_body(sw_scene *scene);
 /* Another number than any that was given before: a generation, a shape of a hold. */
 uint32_t sw_scene_number(sw_scene *scene);

@@ -8,20 +8,9 @@
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
+#include "scene/lists.h"
 #include "scene/parts.h"
 #include "system/system.h"
-
-/* The series of wires and forces. */
-typedef struct sw_watch sw_watch; /* the rows of one object */
-
-typedef struct sw_watches {
-  sw_watch *list;
-  size_t count, capacity;
-  size_t next; /* where the object that is noted next is likely to be [-] */
-} sw_watches;
-
-typedef struct sw_crowd sw_crowd;
-typedef struct sw_zone sw_zone; /* watch/zone.h */
 
 struct sw_scene {
   char name[SW_NAME_SIZE];
@@ -61,39 +50,18 @@ struct sw_scene {
   sw_mutual *pairs;         /* between wires, or NULL */
   sw_mutual *grains;        /* between objects of particles and what else touches them, or NULL */
   sw_crowd *crowd;          /* between particles that repel each other, or NULL */
-  sw_scene_rule *rules;     /* that pairs are made by */
-  size_t rule_count, rule_capacity;
-  struct {        /* contact memory of the last built system, for the next one */
-    void *memory; /* copy, or NULL */
-    size_t bytes;
-    void *pairs; /* the same of contact between wires */
-    size_t pair_bytes;
-    void *grains; /* the same of objects of particles */
-    size_t grain_bytes;
-    double *s;     /* (nodes) arc lengths then [m] */
-    size_t *first; /* (wires + 1) first node of each wire then */
-    size_t *now;   /* (wires) its slot now; SIZE_MAX: it is gone */
-    size_t wires;
-    int fresh;
-    size_t changed; /* a wire that has other nodes since, from 1; 0: none */
-  } kept;
-  sw_kept_history *kept_histories; /* of the last built system, for the next one */
-  size_t kept_history_count;
+  sw_rules rules;
+  sw_kept_contact kept;
+  sw_histories histories;
   sw_course course; /* of its steps */
 
   int diverged;
   sw_error why;
   sw_extreme deepest; /* penetration */
   int wears;          /* 1: what wears wires in the run is kept */
-  sw_zone *zones;
-  size_t zone_count, zone_capacity;
-  sw_frame *frames;
-  size_t frame_count, frame_capacity;
-  double next_frame;   /* [s] */
-  size_t frame_stride; /* one of so many is kept: 1, 2, 4 ... [-] */
-  double frame_bytes;  /* that they take [B] */
-  double frame_memory; /* that they may take [B] */
-  sw_events events;    /* of the last run */
+  sw_zones zones;
+  sw_frames frames;
+  sw_events events; /* of the last run */
   sw_watches watches;
   sw_books books; /* of the energy in it */
 };

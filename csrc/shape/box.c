@@ -80,8 +80,8 @@ static void name_feature(sw_vec half, sw_closest *c) {
                Z_DIGIT * side(n.z, p.z, half.z);
 }
 
-/* Where a segment has its nearest place on an edge along axis k, which is over j and i: nearest in
- * their plane. 0: it has none there. */
+/* The place on a segment that is nearest to an edge along axis k: nearest in the plane of j and i.
+ * Returns 0 if it is not on this edge. */
 static int over_edge(const double half[3], const double a[3], const double d[3], int k,
                      double *at) {
   const int i = (k + 1) % 3, j = (k + 2) % 3;

@@ -35,7 +35,7 @@ static inline int sw_words_are(sw_words word, const char *text) {
   return (size_t)(word.end - word.at) == n && memcmp(word.at, text, n) == 0;
 }
 
-/* A count in decimal digits; 0 when it is none, or beyond 1e18. */
+/* A count in decimal digits; 0 when the word is no count, or beyond 1e18. */
 static inline int sw_words_count(sw_words *from, size_t *count) {
   sw_words word;
   *count = 0;

@@ -31,8 +31,8 @@ typedef struct sw_bounds {
   sw_vec min, max; /* corners; +-INFINITY for unbounded shapes [m] */
 } sw_bounds;
 
-/* What a shape is built from besides its rows: a hull's points, a mesh's file.
- * Only read while the shape is made. */
+/* Input of a shape besides its rows: a hull's points, a mesh's file. Only read while the shape is
+ * made. */
 typedef struct sw_shape_source {
   const double *points; /* n x 3 [m] */
   size_t point_count;   /* n [-] */
@@ -170,8 +170,8 @@ int sw_shape_is(const sw_shape *shape, unsigned trait);
  * least 8). Triangles of a mesh or hull are its own. None of a half space. */
 sw_status sw_shape_triangles(const sw_shape *shape, int around, sw_triangles *out);
 
-/* What sticks out of a shape, for looking whether two overlap: its corners and edges, or the
- * middle line of what is round. A half space has none. */
+/* The bones of a shape, by which overlaps are found: its corners and edges, or the middle line of a
+ * round shape. A half space has none. */
 void sw_shape_bones(const sw_shape *shape, sw_bone_visit visit, void *user);
 
 /* A shape; reading makes it anew from what it was made from, which gives the same bits. */

@@ -42,7 +42,7 @@ struct sw_shape_class {
   sw_vec (*support)(const sw_shape *shape, sw_vec n);
   /* As sw_shape_segment. */
   int (*segment)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out);
-  /* As sw_shape_sweep; NULL = sw_convex_sweep of what is convex, else sw_any_sweep. */
+  /* As sw_shape_sweep; NULL = sw_convex_sweep for a convex shape, else sw_any_sweep. */
   int (*sweep)(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when);
   /* As sw_shape_triangles and sw_shape_bones; NULL = none. */
   sw_status (*triangles)(const sw_shape *shape, int around, sw_triangles *out);
@@ -53,7 +53,7 @@ struct sw_shape_class {
   sw_sharp (*sharp)(const sw_shape *shape, int feature, sw_vec *along);
   /* Are some of its edges there for what is round? NULL = none. */
   int (*faceted)(const sw_shape *shape);
-  /* As sw_shape_ridges and sw_shape_points_out, of what has edges. */
+  /* As sw_shape_ridges and sw_shape_points_out, for shapes with edges. */
   void (*ridges)(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_ridge_visit visit,
                  void *user);
   int (*points_out)(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, double share);

@@ -73,9 +73,9 @@ typedef struct sw_web {
   double *yield, *hardening; /* (links) strain at which they yield, and gain of that force
                                 over their stiffness, NAN: never [-]; or NULL */
   size_t shape_count;
-  void *shapes;                     /* (shape_count) prepared by the force of the solids, or NULL */
-  size_t clamped_shapes;            /* so many shapes further on is that of an element of which one
-                                       ring is held; 0: the same one */
+  void *shapes;          /* (shape_count) prepared by the force of the solids, or NULL */
+  size_t clamped_shapes; /* number of shapes from here to the shape of an element with one held
+                            ring; 0: the same shape */
   size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
   double *mass;                     /* (particles) [kg] */
   double *s;                        /* (particles) arc length; place along the size [m] */
@@ -90,7 +90,7 @@ typedef struct sw_web {
   uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
   double solid_rate2; /* the same of the solid elements [1/s2] */
   double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
-  double *behind;     /* (particles) bound on the stiffness of what holds each to others [N/m] */
+  double *behind;     /* (particles) bound on the stiffness that ties each to others [N/m] */
   double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
                                              stiffness 0: they do not [m], [N/m] */
   double wall;          /* bending stiffness of a ring's wall per length, 0: none [N m] */

@@ -4,13 +4,17 @@
 #include <math.h>
 
 #include "body/touching.h"
+#include "scene/events.h"
+#include "scene/ledger.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "step/energy.h"
 #include "step/step.h"
+#include "system/system.h"
 #include "watch/observe.h"
 
-/* Share of what was in play that steps gained; above it a remark, and a failure [-]. */
+/* Energy that steps gained, as a share of the energy in play: above the first an event, above the
+ * second a failure [-]. */
 static const double REMARK = 0.02, FAILURE = 0.05;
 
 /* A held point is off its hold by more than rounding [m]. */
@@ -20,7 +24,7 @@ static const double LEAST_BENDING = 1e-6;
 static const double LEAST = 1e-12; /* and this [J] */
 
 void sw_ledger_begin_run(sw_scene *s) {
-  sw_books *b = &s->books;
+  sw_books *b = sw_scene_books(s);
   sw_log log = b->log;
   log.count = 0;
   *b = (sw_books){.holds = b->holds,
@@ -30,14 +34,15 @@ void sw_ledger_begin_run(sw_scene *s) {
                   .obstacle_room = b->obstacle_room};
 }
 
-void sw_ledger_forget(sw_scene *s) { s->books.known = 0; }
+void sw_ledger_forget(sw_scene *s) { sw_scene_books(s)->known = 0; }
 
 static void weigh(sw_scene *s) {
-  sw_books *b = &s->books;
+  sw_system *system = sw_scene_system(s);
+  sw_books *b = sw_scene_books(s);
   b->weight = b->bending = b->mass = b->longest = 0;
-  for (size_t k = 0; k < s->system.body_count; k++) {
-    const sw_plan *p = s->system.bodies[k].plan;
-    const double mg = p->beam.mass * p->length * sw_norm(s->gravity);
+  for (size_t k = 0; k < system->body_count; k++) {
+    const sw_plan *p = system->bodies[k].plan;
+    const double mg = p->beam.mass * p->length * sw_norm(sw_scene_gravity(s));
     b->longest = fmax(b->longest, p->length);
     if (isfinite(p->beam.mass * p->length)) b->mass += p->beam.mass * p->length;
     if (isfinite(mg * p->beam.radius)) b->weight += mg * p->beam.radius;
@@ -60,9 +65,9 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
 
 /* 1: a hold was put elsewhere between two steps, away from the wire's held point. */
 static int was_put(sw_scene *s, sw_error *err) {
-  sw_system *y = &s->system;
+  sw_system *y = sw_scene_system(s);
   for (size_t i = 3 * y->nodes; i < y->freedoms; i++) y->delta[i] = y->x[i];
-  if (sw_system_place_holds(y, s->time, y->delta, NULL, NULL, err) != SW_OK) return 0;
+  if (sw_system_place_holds(y, sw_scene_time(s), y->delta, NULL, NULL, err) != SW_OK) return 0;
   for (size_t k = 0; k < y->held_count; k++) {
     const size_t at = 3 * y->held[k].node;
     if (sw_dist(sw_load(y->delta + at), sw_load(y->x + at)) > JUMP) return 1;
@@ -71,14 +76,15 @@ static int was_put(sw_scene *s, sw_error *err) {
 }
 
 sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
-  sw_books *b = &s->books;
+  sw_system *system = sw_scene_system(s);
+  sw_books *b = sw_scene_books(s);
   int any;
   if (b->known) return SW_OK;
   sw_energies e;
   weigh(s);
-  sw_system_energies(&s->system, sw_ledger_lumped(s), &e);
-  b->has_powers = sw_system_has_powers(&s->system);
-  if (b->has_powers) SW_TRY(sw_system_powers(&s->system, s->time, &b->powers, err));
+  sw_system_energies(system, sw_ledger_lumped(s), &e);
+  b->has_powers = sw_system_has_powers(system);
+  if (b->has_powers) SW_TRY(sw_system_powers(system, sw_scene_time(s), &b->powers, err));
   const double contact = sw_ledger_contact(s), now = e.kinetic + sw_ledger_potential(&e, contact);
   const double last = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
   if (!b->begun) b->sums.at_start = now, b->highest = sw_ledger_potential(&e, contact);
@@ -86,10 +92,10 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   b->begun = 1;
   take_as_now(b, &e, contact);
   b->put = was_put(s, err);
-  b->dissipated = sw_system_dissipated(&s->system, &any);
-  b->rubbed_off = sw_system_rubbed(&s->system);
+  b->dissipated = sw_system_dissipated(system, &any);
+  b->rubbed_off = sw_system_rubbed(system);
   if (sw_ledger_note_workers(s, 1) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   b->known = 1;
   return SW_OK;
 }
@@ -97,18 +103,20 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
 /* --- booking ------------------------------------------------------------------- */
 
 static sw_status log_row(sw_scene *s) {
-  const sw_ledger *l = &s->books.sums;
+  sw_books *books = sw_scene_books(s);
+  const sw_ledger *l = &books->sums;
   const double lost =
       l->damping + l->friction + l->plasticity + l->impact + l->contact + l->integrator + l->jumps;
-  const double row[SW_LOG_ENERGY_SIZE] = {s->time, l->kinetic, l->stored, l->gravity, l->gap, lost};
-  return sw_log_add(&s->books.log, row, SW_LOG_ENERGY_SIZE);
+  const double row[SW_LOG_ENERGY_SIZE] = {sw_scene_time(s), l->kinetic, l->stored,
+                                          l->gravity,       l->gap,     lost};
+  return sw_log_add(&books->log, row, SW_LOG_ENERGY_SIZE);
 }
 
 /* The energy that a method makes by itself goes to and fro, also where energy oscillates
  * between kinds. So it counts by its rise above its least value. Energy made by touches stays.
  * Gives what the step adds to what was gained [J]. */
 static double book_gain(sw_scene *s, double gain) {
-  sw_books *b = &s->books;
+  sw_books *b = sw_scene_books(s);
   const double before = b->sums.gained;
   if (!isfinite(gain)) return 0.0; /* not judged */
   if (sw_ledger_referees(s) && b->step.touching) {
@@ -168,10 +176,11 @@ static void book_left_at_rest(sw_ledger *l, double left) {
 
 /* Losses that histories count, since the last step. */
 static double book_histories(sw_scene *s) {
-  sw_books *b = &s->books;
+  sw_system *system = sw_scene_system(s);
+  sw_books *b = sw_scene_books(s);
   int any;
-  const double all = sw_system_dissipated(&s->system, &any), before = b->dissipated;
-  const double rubbed = sw_system_rubbed(&s->system);
+  const double all = sw_system_dissipated(system, &any), before = b->dissipated;
+  const double rubbed = sw_system_rubbed(system);
   b->sums.friction += rubbed - b->rubbed_off;
   b->sums.plasticity += all - before - (rubbed - b->rubbed_off);
   b->dissipated = all, b->rubbed_off = rubbed;
@@ -179,7 +188,7 @@ static double book_histories(sw_scene *s) {
 }
 
 static void book_step(sw_scene *s, int at_rest) {
-  sw_books *b = &s->books;
+  sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   sw_ledger *l = &b->sums;
   const double work = step->holds + step->obstacles + step->feeds + step->forces;
@@ -202,7 +211,7 @@ static void book_step(sw_scene *s, int at_rest) {
     book_left_at_rest(l, left);
   else
     book_left(l, step, left, gained);
-  if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = s->time;
+  if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = sw_scene_time(s);
   take_as_now(b, &step->to, step->contact);
   b->powers = step->powers;
 }
@@ -214,14 +223,14 @@ sw_status sw_ledger_close(sw_scene *s) {
 }
 
 sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
-  sw_books *b = &s->books;
+  sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   *step = (sw_step_energy){.steady = 1};
-  sw_system_energies(&s->system, 0, &step->to);
+  sw_system_energies(sw_scene_system(s), 0, &step->to);
   step->to.kinetic = 0;
   step->contact = sw_ledger_contact(s);
   step->friction += sw_scene_rubbed(s);
-  sw_ledger_work(s, s->time, 0);
+  sw_ledger_work(s, sw_scene_time(s), 0);
   step->forces = b->now.loads - step->to.loads;
   step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
   const double before = b->sums.integrator;
@@ -229,7 +238,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   book_step(s, 1);
   if (jumped) b->sums.jumps += b->sums.integrator - before, b->sums.integrator = before;
   if (sw_ledger_note_workers(s, 0) != SW_OK || log_row(s) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   return SW_OK;
 }
 
@@ -242,12 +251,12 @@ static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
 enum { FEW = 2 }; /* steps redone that are not worth a word */
 
 sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
-  const sw_ledger *l = &s->books.sums;
+  const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gained / l->play : 0.0;
   sw_scene_end_breaking(s);
-  tell_retries(s, "taken though they made energy, for smaller ones did too", &l->accepted);
+  tell_retries(s, "accepted although they made energy, because smaller ones did too", &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
-    tell_retries(s, "redone, more than 1 % of all, for they made energy", &l->redone);
+    tell_retries(s, "redone, more than 1 % of all, because they made energy", &l->redone);
   if (!(share > REMARK)) return SW_OK;
   if (!(share > FAILURE)) {
     sw_scene_tell(s, "energy", "", NAN, share,
@@ -257,14 +266,13 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
     return SW_OK;
   }
   char pressed[2 * SW_NAME_SIZE + 100]; /* what is wedged makes energy with steps of any size */
-  s->diverged = 1;
   sw_scene_tell_pressed(s, pressed, sizeof pressed);
   sw_fail(
-      &s->why, SW_EDIVERGED,
+      why, SW_EDIVERGED,
       "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play, most of it at t = %.6g s%s; "
       "take smaller steps%s",
       l->gained, 100.0 * share, l->play, l->most_time, pressed,
       sw_ledger_lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
-  *why = s->why;
+  sw_scene_diverge(s, why);
   return SW_EDIVERGED;
 }

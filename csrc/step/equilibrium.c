@@ -169,8 +169,8 @@ static void nudge(sw_statics *p, int number) {
   }
 }
 
-/* Of the pseudo step, by what the last one took: where wires touch, one that fails costs more
- * than is gained by a long one [-]. */
+/* Factor on the pseudo step, by the iterations of the last one. Where wires touch, a failed step
+ * costs more than a long step gains [-]. */
 static double growth(const sw_scene *s, size_t iterations) {
   if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
   return iterations <= 14 ? 1.1 : 0.7;
@@ -208,9 +208,10 @@ static sw_status transient(sw_statics *p, sw_error *err) {
     if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
     tau = fmin(tau * growth(s, p->report->iterations - before), LARGEST_GROWTH * first);
   }
-  return sw_fail(err, SW_ENOCONV,
-                 "not at rest after %zu iterations: the last step still moved %.3g m",
-                 p->report->iterations, p->report->residual);
+  return sw_fail(
+      err, SW_ENOCONV,
+      "not at rest after %zu iterations: the last iteration still moved the wires by %.3g m",
+      p->report->iterations, p->report->residual);
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the

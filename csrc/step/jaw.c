@@ -210,7 +210,7 @@ int sw_jaw_again(sw_scene *s) {
   return again;
 }
 
-/* What has become of what they were told. */
+/* Have the jaws reached what they were told? */
 static void judge(sw_jaw *j) {
   const int reached = j->now >= (1.0 - REACHED) * j->force;
   if (j->mode == SW_JAW_FORCE) {

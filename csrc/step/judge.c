@@ -24,8 +24,8 @@ static int next_redo(sw_ladder *p) {
   return p->redo < SW_DULLY ? SW_DULLY : SW_GIVE_UP;
 }
 
-/* The referee: a step that makes energy is redone. SW_ENOCONV: it makes
- * some all the same. p->smallest: it is then taken as it is, and counted. */
+/* The referee: a step that makes energy is computed again. SW_ENOCONV: it still makes energy.
+ * p->smallest: it is then accepted as it is, and counted. */
 sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_ledger *l = &sw_scene_books(s)->sums;

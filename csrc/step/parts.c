@@ -42,8 +42,8 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
-/* The trial went well, but it only tells of a blow, or went past a force. over: how far, of what
- * forces allow [-]. */
+/* The trial converged, but it contains a blow, or went past a force. over: its way as a share of
+ * the way that forces allow [-]. */
 static int is_too_long(const sw_ladder *p, parts *k, double *over) {
   if (sw_blow_begins(p->s, k->part)) return 1;
   *over = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);

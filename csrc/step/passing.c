@@ -6,7 +6,7 @@
 #include "scene/parts.h"
 #include "system/system.h"
 
-/* A part that goes too far by less than this is taken all the same: parts are halves [-]. */
+/* A part that goes too far by less than this is accepted, because parts are halves [-]. */
 static const double WELL_ENOUGH = 1.25;
 /* No part is made shorter than this for what is passed: it is passed at tens of m/s [s]. */
 static const double SHORTEST = 1e-5;

@@ -8,8 +8,8 @@
 
 /* Is there a force that wires may pass in the coming step? */
 int sw_passing_any(const sw_scene *scene);
-/* How far a step from places to others goes over what forces on the way allow, with what they knew
- * at its start: 1 and less is well [-]; one from where the scene is. */
+/* The way of a step as a share of the way that forces allow, judged by their state at its start: up
+ * to 1 is allowed [-]. The second function is for a step from the scene's present state. */
 double sw_passing_between(const sw_scene *scene, const double *from, const double *to);
 double sw_passing_of(const sw_scene *scene, const double *x);
 int sw_passing_too_far(const sw_scene *scene, const double *x);

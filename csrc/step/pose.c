@@ -6,15 +6,16 @@
 #include "base/alloc.h"
 #include "body/live.h"
 #include "contact/contact.h"
-#include "edit/edit.h"
 #include "scene/course.h"
 #include "scene/drive.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 #include "step/energy.h"
 #include "step/jaw.h"
 #include "step/passing.h"
 #include "step/rest.h"
+#include "watch/observe.h"
 
 enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 
@@ -149,8 +150,8 @@ static double reach_of(const sw_scene *s, const sw_tool *t) {
 
 enum { MOST_CUTS = 60 }; /* of a step, by motions that start slowly and end fast [-] */
 
-/* The largest step up to h in which the tool carries the wires that it presses no further than
- * that. */
+/* The largest step up to h in which the tool carries the wires between its pads no further than
+ * this limit. */
 static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
                               sw_error *err) {
   sw_motion_state from, to;

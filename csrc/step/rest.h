@@ -20,7 +20,7 @@ sw_status sw_scene_cut_pose(sw_scene *scene, double *t1, int *cut, sw_error *err
 typedef struct sw_pose_args {
   int (*interrupted)(void);
   double shortest; /* poses are not made shorter to find where a tie breaks [s] */
-  double passing;  /* nor than this to follow a wire past a clip's lips [s] */
+  double passing;  /* and not shorter than this to follow a wire past a clip's lips [s] */
 } sw_pose_args;
 /* Equilibrium at time t1, which becomes the scene's, in smaller parts where needed; or earlier, to
  * be observed there, where a tie may break. Nothing is observed. On failure the scene is at the

@@ -10,53 +10,60 @@
 #include "grip/jaws.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
+#include "scene/course.h"
+#include "scene/events.h"
 #include "scene/gripper.h"
+#include "scene/lists.h"
 #include "scene/obstacle.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
 #include "step/energy.h"
 #include "step/ladder.h"
 #include "step/rest.h"
 #include "step/run_check.h"
+#include "system/system.h"
 #include "watch/observe.h"
 
 /* The next frame is due after t; frames that steps have passed are left out. */
 static void next_frame(sw_scene *s, double every, double t) {
-  every *= (double)s->frame_stride;
-  if (s->next_frame <= t) s->next_frame += every;
-  if (s->next_frame <= t) s->next_frame += every * ceil((t - s->next_frame) / every);
-  if (!(s->next_frame > t)) s->next_frame = nextafter(t, HUGE_VAL);
+  sw_frames *all = sw_scene_frames_of(s);
+  every *= (double)all->stride;
+  if (all->next <= t) all->next += every;
+  if (all->next <= t) all->next += every * ceil((t - all->next) / every);
+  if (!(all->next > t)) all->next = nextafter(t, HUGE_VAL);
 }
 
 /* A step towards t1, or as long as its error allows, by the run's kind of steps. */
 static sw_status one_step(sw_ladder *p, double t1, double until, sw_error *err) {
   const sw_scene *s = p->s;
-  if (!s->wire_count) return sw_step_empty(p, t1, err);
+  if (!sw_scene_wire_slots(s)) return sw_step_empty(p, t1, err);
   if (p->args->quasistatic) return sw_step_poses(p, t1, err);
-  if (isfinite(p->args->tolerance)) return sw_step_adaptive(p, until - s->time, until, err);
-  return sw_step_fixed(p, t1 - s->time, t1, err);
+  if (isfinite(p->args->tolerance))
+    return sw_step_adaptive(p, until - sw_scene_time(s), until, err);
+  return sw_step_fixed(p, t1 - sw_scene_time(s), t1, err);
 }
 
 static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), sw_error *err) {
   sw_scene *s = p->s;
-  const double t0 = s->time, span = until - t0;
+  const double t0 = sw_scene_time(s), span = until - t0;
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
-  if (span > 0 && span < SW_SHORTEST_STEP) s->time = until;
-  s->course.stepper.wants_error = isfinite(p->args->tolerance);
+  if (span > 0 && span < SW_SHORTEST_STEP) sw_scene_set_time(s, until);
+  sw_scene_course(s)->stepper.wants_error = isfinite(p->args->tolerance);
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
-  for (size_t k = 1; s->time < until - slack;) {
+  for (size_t k = 1; sw_scene_time(s) < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
     if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
     double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     int cut = 0;
-    if (p->args->quasistatic && s->wire_count) SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
+    if (p->args->quasistatic && sw_scene_wire_slots(s))
+      SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
     if (!cut) k++;
     SW_TRY(one_step(p, t1, until, err));
-    if (isfinite(p->args->frame) && s->time >= s->next_frame - slack)
+    if (isfinite(p->args->frame) && sw_scene_time(s) >= sw_scene_frames_of(s)->next - slack)
       SW_TRY(sw_scene_store_frame(s, err));
-    if (isfinite(p->args->frame)) next_frame(s, p->args->frame, s->time + slack);
+    if (isfinite(p->args->frame)) next_frame(s, p->args->frame, sw_scene_time(s) + slack);
     if (p->observer) {
       SW_TRY(sw_scene_look(s, p->observer, slack, err));
       if (p->observer->stop) return SW_OK;
@@ -68,28 +75,28 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
 static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const sw_error *why) {
   char broken[SW_NAME_SIZE + 100], pressed[2 * SW_NAME_SIZE + 100];
   report->status = status;
-  report->time = s->time;
+  report->time = sw_scene_time(s);
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
   if (status == SW_EEMPTY) report->reason = *why; /* all is well up to here */
   if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_scene_tell_broken(s, broken, sizeof broken);
   sw_scene_tell_pressed(s, pressed, sizeof pressed);
-  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s", s->time,
+  sw_fail(&report->reason, status, "at t = %.6g s: %.400s%s%s", sw_scene_time(s),
           why->text[0] ? why->text : sw_status_text(status), pressed, broken);
   if (report->status != SW_EDIVERGED) return;
-  s->diverged = 1;
-  s->why = report->reason;
+  sw_scene_diverge(s, &report->reason);
 }
 
 sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
+  sw_course *course = sw_scene_course(s);
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_readable(s, err)); /* a run without steps would not notice */
   sw_scene_reset_extremes(s);
-  s->wears = wear;
-  sw_events_clear(&s->events);
+  sw_scene_set_wears(s, wear);
+  sw_events_clear(sw_scene_events_of(s));
   sw_ledger_begin_run(s);
-  s->course.parts = 0, s->course.covered = 0;
+  course->parts = 0, course->covered = 0;
   return SW_OK;
 }
 
@@ -102,7 +109,7 @@ static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_scene_check_step(s, args, until, err));
   SW_TRY(sw_ladder_method(s, args, err));
-  s->course.window = args->window;
+  sw_scene_course(s)->window = args->window;
   return SW_OK;
 }
 
@@ -110,42 +117,44 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
                            int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
                            sw_error *err) {
   sw_error why = {""}, ignored;
-  *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = s->time};
+  *report = (sw_run_report){.smallest_dt = HUGE_VAL, .time = sw_scene_time(s)};
   SW_TRY(prepare(s, args, until, err));
-  const sw_counters before = s->system.counters;
+  const sw_counters before = sw_scene_system(s)->counters;
   sw_ladder p = {
       .s = s, .args = args, .report = report, .interrupted = interrupted, .observer = observer};
-  p.v_start = sw_alloc(sw_scene_has_contact(s) ? s->system.freedoms : 1, sizeof(double));
-  if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  s->running++;
+  p.v_start = sw_alloc(sw_scene_has_contact(s) ? sw_scene_system(s)->freedoms : 1, sizeof(double));
+  if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
+  sw_scene_enter(s, 1);
   sw_ledger_forget(s);
   sw_status status = /* energies need it */
-      sw_system_place_holds(&s->system, s->time, NULL, NULL, NULL, &why);
-  if (status == SW_OK && isfinite(args->frame) && s->frame_count == 0) {
+      sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, &why);
+  if (status == SW_OK && isfinite(args->frame) && sw_scene_frames_of(s)->count == 0) {
     status = sw_scene_store_frame(s, &why);
-    s->next_frame = s->time + args->frame * (double)s->frame_stride;
+    sw_scene_frames_of(s)->next =
+        sw_scene_time(s) + args->frame * (double)sw_scene_frames_of(s)->stride;
   }
-  if (status == SW_OK && (s->wears || s->zone_count)) status = sw_scene_begin_watching(s, &why);
+  if (status == SW_OK && (sw_scene_wears(s) || sw_scene_zones_of(s)->count))
+    status = sw_scene_begin_watching(s, &why);
   if (status == SW_OK) status = run_loop(&p, until, interrupted, &why);
-  s->running--;
-  s->system.judged = NULL;
+  sw_scene_enter(s, -1);
+  sw_scene_system(s)->judged = NULL;
   if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
   sw_free(p.v_start);
   /* the last good state, for pictures of what went wrong */
-  if (status == SW_ENOCONV && isfinite(args->frame) && s->frame_count &&
-      s->time > s->frames[s->frame_count - 1].time)
+  if (status == SW_ENOCONV && isfinite(args->frame) && sw_scene_frames_of(s)->count &&
+      sw_scene_time(s) > sw_scene_frames_of(s)->list[sw_scene_frames_of(s)->count - 1].time)
     (void)sw_scene_store_frame(s, &ignored);
-  report->evaluations = s->system.counters.evaluations - before.evaluations;
-  report->solves = s->system.counters.solves - before.solves;
-  report->looks = s->system.counters.looks - before.looks;
+  report->evaluations = sw_scene_system(s)->counters.evaluations - before.evaluations;
+  report->solves = sw_scene_system(s)->counters.solves - before.solves;
+  report->looks = sw_scene_system(s)->counters.looks - before.looks;
   conclude(s, status, report, &why);
-  if (status == SW_ECALLBACK) sw_course_jump(&s->course);
+  if (status == SW_ECALLBACK) sw_course_jump(sw_scene_course(s));
   return SW_OK;
 }
 
 sw_status sw_scene_stable_dt(sw_scene *s, double *dt, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
   SW_TRY(sw_scene_build(s, err));
-  *dt = sw_system_stable_dt(&s->system);
+  *dt = sw_system_stable_dt(sw_scene_system(s));
   return SW_OK;
 }

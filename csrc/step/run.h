@@ -7,7 +7,7 @@
 
 /* Let the observer look, if it is due; times within slack are the same [s]. */
 sw_status sw_scene_look(sw_scene *scene, sw_observer *observer, double slack, sw_error *err);
-/* The scene has an accepted state: what follows it, and what is kept of it. */
+/* The scene has an accepted state: objects follow it, and records are made of it. */
 sw_status sw_step_observe(sw_scene *scene, sw_error *err);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "step/step.h"
 
-/* Less than that is no time: steps of it would underflow [s]. */
+/* A shorter time counts as zero: its steps would underflow [s]. */
 static const double SW_SHORTEST_STEP = 1e-20;
 
 /* SW_EINVAL: the scene has what the run's method or way cannot do. */

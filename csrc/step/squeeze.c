@@ -49,8 +49,8 @@ static sw_status fall_back(poser *p, double since, sw_error *err) {
   return try(p, since, NULL, err);
 }
 
-/* One equilibrium after another, all from one start, until the jaws' forces are as wanted or known
- * not to be. On failure the scene is as at that start. */
+/* One equilibrium after another, all from one start, until the jaws have the wanted forces or it is
+ * known that they cannot. On failure the scene is as at that start. */
 static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   sw_error why;
   p->nearest = HUGE_VAL;

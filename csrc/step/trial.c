@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One trial by the run's method, whose stages the system solves: is it one to believe? */
-#include "edit/edit.h"
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/believe.h"
 #include "step/restart.h"
 #include "system/rail.h"
+#include "watch/observe.h"
 
 sw_status sw_rung_solve(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;

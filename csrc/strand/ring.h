@@ -8,8 +8,8 @@
 #include "state/mesh.h"
 #include "state/web.h"
 
-/* Rings between the arc lengths s1 and s2, at least the nearest one to their middle, as those
- * of its first and last [m]. */
+/* Rings between the arc lengths s1 and s2, at least the one nearest to their middle; sets s1 and s2
+ * to the first and the last of them [m]. */
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
 /* Middle of ring number r of particles at x, and the direction across the area that its surface
  * encloses [m], [-]. */

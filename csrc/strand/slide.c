@@ -34,7 +34,7 @@ static size_t core_of(const sw_composite *c, uint32_t particle) {
   return particle < c->ring ? c->cores : (particle - c->ring) / c->each;
 }
 
-/* A pair's share of what presses one core or holds it: of its pairs, each the same; of two
+/* A pair's share of the pressure and grip of one core: the same for each of its pairs; between two
  * cores the mean [-]. */
 static double share_of(const sw_composite *c, const sw_slide *pair) {
   const size_t core[2] = {core_of(c, pair->from), core_of(c, pair->to)};
@@ -53,7 +53,7 @@ static double share_of(const sw_composite *c, const sw_slide *pair) {
 /* Across as a bar of the shell's modulus. */
 static void set_element(const sw_strand_maker *m, const sw_slide *pair, size_t r,
                         sw_web_slide *out) {
-  const sw_composite *c = &m->strand->kit->calibration.composite;
+  const sw_composite *c = &m->strand->calibrated->calibration.composite;
   const double shell = c->shell.S[0], core = c->core.S[0], h = m->lattice->spacing;
   const double share = share_of(c, pair);
   const sw_slide_place rest = at_rest(m, pair, r);
@@ -66,7 +66,7 @@ static void set_element(const sw_strand_maker *m, const sw_slide *pair, size_t r
 }
 
 void sw_strand_add_slides(sw_strand_maker *m, size_t r) {
-  const sw_composite *c = &m->strand->kit->calibration.composite;
+  const sw_composite *c = &m->strand->calibrated->calibration.composite;
   if (!sw_strand_is_ring(m, r + 1)) return;
   for (size_t i = 0; i < c->slides; i++, m->slides++)
     if (m->web) set_element(m, &c->slide[i], r, &m->web->slide[m->slides]);

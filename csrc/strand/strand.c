@@ -242,10 +242,10 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   const double spacing = lie && lie->ring ? lie->spacing : even;
   memset(out, 0, sizeof *out);
   SW_TRY(sw_strand_check_count(plan, mesh->n, 1, err));
-  out->kit = sw_alloc(1, sizeof *out->kit);
-  if (!out->kit) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
-  out->kit->references = 1;
-  sw_calibration *c = &out->kit->calibration;
+  out->calibrated = sw_alloc(1, sizeof *out->calibrated);
+  if (!out->calibrated) return sw_fail(err, SW_ENOMEM, "wire '%s': out of memory", plan->name);
+  out->calibrated->references = 1;
+  sw_calibration *c = &out->calibrated->calibration;
   SW_TRY(calibrate(plan, beam, spacing, 1e-6, c, err));
   SW_TRY(sw_strand_check_count(plan, mesh->n, c->lattice.particles, err));
   SW_TRY(check_rest(plan, &c->lattice, err));
@@ -271,10 +271,12 @@ sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const s
   return SW_OK;
 }
 
-void sw_strand_kit_retain(void *kit) { ((sw_strand_kit *)kit)->references++; }
+void sw_strand_calibrated_retain(void *calibrated) {
+  ((sw_strand_calibrated *)calibrated)->references++;
+}
 
-void sw_strand_kit_release(void *kit) {
-  sw_strand_kit *k = kit;
+void sw_strand_calibrated_release(void *calibrated) {
+  sw_strand_calibrated *k = calibrated;
   if (!k || --k->references > 0) return;
   sw_calibration_free(&k->calibration);
   sw_free(k);
@@ -282,7 +284,7 @@ void sw_strand_kit_release(void *kit) {
 
 void sw_strand_free(sw_strand *s) {
   sw_web_release(s->web);
-  sw_strand_kit_release(s->kit);
+  sw_strand_calibrated_release(s->calibrated);
   sw_free(s->x);
   sw_free(s->v);
   sw_free(s->a);
@@ -302,8 +304,8 @@ sw_status sw_strand_copy(const sw_strand *from, sw_strand *to) {
   if (!from->web) return SW_OK;
   const size_t n = 3 * from->web->particles;
   to->web = sw_web_retain(from->web);
-  to->kit = from->kit;
-  if (to->kit) to->kit->references++;
+  to->calibrated = from->calibrated;
+  if (to->calibrated) to->calibrated->references++;
   to->x = copy_of(from->x, n);
   to->v = copy_of(from->v, n);
   to->a = copy_of(from->a, n);

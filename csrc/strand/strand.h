@@ -9,15 +9,15 @@
 #include "state/web.h"
 
 /* The calibration of a mesh, shared by all strands that have its web. */
-typedef struct sw_strand_kit {
+typedef struct sw_strand_calibrated {
   int references;
   sw_calibration calibration;
-} sw_strand_kit;
+} sw_strand_calibrated;
 
 /* Particles of a wire; authoritative while the scene is not built. */
 typedef struct sw_strand {
   sw_web *web;
-  sw_strand_kit *kit;
+  sw_strand_calibrated *calibrated;
   double *x, *v, *a; /* (particles x 3) [m], [m/s], [m/s2] */
   double *axial;     /* (links) of springs [N] */
   double *rate;      /* (links) of their strains, where dashpots know it; or NULL [1/s] */
@@ -57,8 +57,8 @@ typedef struct sw_strand_lie {
 sw_status sw_strand_new(const sw_strand_plan *plan, const sw_beam *beam, const sw_mesh *mesh,
                         const sw_strand_lie *lie, sw_strand *out, sw_error *err);
 void sw_strand_free(sw_strand *strand);
-void sw_strand_kit_retain(void *kit);
-void sw_strand_kit_release(void *kit); /* NULL is allowed */
+void sw_strand_calibrated_retain(void *calibrated);
+void sw_strand_calibrated_release(void *calibrated); /* NULL is allowed */
 /* A copy that shares what never changes; of a strand without a web nothing. SW_ENOMEM. */
 sw_status sw_strand_copy(const sw_strand *from, sw_strand *to);
 

@@ -7,22 +7,22 @@
 #include "state/state_tape.h"
 #include "strand/strand.h"
 
-static void tape_kit(sw_tape *t, sw_strand_kit **kit) {
-  static const sw_sharing sharing = {sw_strand_kit_retain, sw_strand_kit_release};
-  if (sw_tape_share(t, kit, &sharing)) return;
-  int there = !sw_tape_reads(t) && *kit != NULL;
-  SW_TAPE_STRUCT(t, sw_strand_kit, 1296);
+static void tape_calibrated(sw_tape *t, sw_strand_calibrated **calibrated) {
+  static const sw_sharing sharing = {sw_strand_calibrated_retain, sw_strand_calibrated_release};
+  if (sw_tape_share(t, calibrated, &sharing)) return;
+  int there = !sw_tape_reads(t) && *calibrated != NULL;
+  SW_TAPE_STRUCT(t, sw_strand_calibrated, 1296);
   sw_tape_int(t, &there);
   if (!there) return;
   if (sw_tape_reads(t)) {
-    *kit = sw_tape_good(t) ? sw_alloc(1, sizeof **kit) : NULL;
-    if (!*kit) {
+    *calibrated = sw_tape_good(t) ? sw_alloc(1, sizeof **calibrated) : NULL;
+    if (!*calibrated) {
       sw_tape_fail(t, SW_ENOMEM);
       return;
     }
-    (*kit)->references = 1;
+    (*calibrated)->references = 1;
   }
-  sw_tape_calibration(t, &(*kit)->calibration);
+  sw_tape_calibration(t, &(*calibrated)->calibration);
 }
 
 void sw_tape_strand(sw_tape *t, sw_strand *x, int placed) {
@@ -32,7 +32,7 @@ void sw_tape_strand(sw_tape *t, sw_strand *x, int placed) {
   sw_tape_int(t, &there);
   if (!there) return;
   sw_tape_web(t, &x->web, sizeof(sw_solid));
-  tape_kit(t, &x->kit);
+  tape_calibrated(t, &x->calibrated);
   if (!sw_tape_good(t)) return;
   const size_t n = placed ? x->web->particles : 0;
   if (placed) {

@@ -58,7 +58,7 @@ static sw_vec at_rest(const sw_strand_maker *m, size_t i, size_t r, size_t from)
  * none, for these would hold it there. */
 static void add_end_hinge(sw_strand_maker *m, const sw_cell_link *link, size_t r, double k) {
   const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
-  if (before == after || m->strand->kit->calibration.composite.slides > 0) return;
+  if (before == after || m->strand->calibrated->calibration.composite.slides > 0) return;
   const size_t next = after ? r + 1 : r - 1, from = link->from;
   size_t count = 0;
   for (size_t i = 0; i < m->around_count; i++) count += m->around[i] != from;

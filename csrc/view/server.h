@@ -40,8 +40,8 @@ sw_status sw_server_put(sw_server *server, int slot, const void *bytes, size_t s
 
 /* Pages that are open; those of them that wait for a frame. */
 size_t sw_server_pages(sw_server *server, size_t *waiting);
-/* The oldest message that was not taken yet: its size, and up to room bytes of it; the number of
- * its page. 0: there is none. */
+/* Takes the oldest message: returns its size, or 0 if there is none; copies up to room bytes of it,
+ * and sets the number of its page. */
 size_t sw_server_take(sw_server *server, char *out, size_t room, int *page);
 /* Wait until there is a message, or a page came, went or can take a frame, for so long at most
  * [s]. */

@@ -16,218 +16,7 @@
 
 #include "base/alloc.h"
 #include "base/each.h"
-#include "view/server.h"
-
-enum { INBOX = 1 << 19, HEAD = 2 * sizeof(unsigned), ADDRESS = 40, POLICY = 512 };
-
-/* Bytes on their way; freed by the thread of sw_server_put, which alone allocates. */
-typedef struct parcel {
-  struct parcel *next; /* of those that are out of date */
-  size_t size;
-  int readers; /* threads that send it */
-  char bytes[];
-} parcel;
-
-typedef struct page {
-  sw_server *server;
-  struct mg_connection *connection; /* NULL: this place is free */
-  pthread_t writer;
-  int number, ready, closing, broken;
-  unsigned long sent[SW_SERVER_SLOTS]; /* number of the bytes that it has got */
-} page;
-
-struct sw_server {
-  struct mg_context *context;
-  int port;
-  char token[SW_SERVER_TOKEN], path[ADDRESS], socket[ADDRESS];
-  char policy[POLICY];
-  pthread_mutex_t lock; /* of all below */
-  pthread_cond_t news;  /* for writers, and for who waits */
-  page pages[SW_SERVER_PAGES];
-  parcel *html, *slots[SW_SERVER_SLOTS], *old;
-  unsigned long numbers[SW_SERVER_SLOTS];
-  int stopping, stopped, count, stirred;
-  size_t filled; /* of the inbox: page, size, bytes; again and again [B] */
-  char inbox[INBOX];
-};
-
-/* --- who may come ------------------------------------------------------------- */
-
-/* In a time that does not depend on where they differ. */
-static int same_text(const char *a, const char *b) {
-  const size_t n = strlen(b);
-  unsigned char differs = strlen(a) != n;
-  for (size_t i = 0; i < n && a[i]; i++) differs |= (unsigned char)(a[i] ^ b[i]);
-  return !differs;
-}
-
-/* Is it this machine's name, with our port, after a scheme? */
-static int is_ours(const sw_server *s, const char *given, const char *scheme) {
-  static const char *const names[] = {"127.0.0.1", "localhost"};
-  char own[64];
-  for (size_t i = 0; given && i < 2; i++) {
-    snprintf(own, sizeof own, "%s%s:%d", scheme, names[i], s->port);
-    if (strcmp(given, own) == 0) return 1;
-  }
-  return 0;
-}
-
-static int may_come(const struct mg_connection *c, const sw_server *s, const char *path) {
-  const struct mg_request_info *r = mg_get_request_info(c);
-  return r->local_uri && is_ours(s, mg_get_header(c, "Host"), "") && same_text(r->local_uri, path);
-}
-
-/* --- the page itself ------------------------------------------------------------ */
-
-static int refuse(struct mg_connection *c, int status, const char *words) {
-  mg_printf(c,
-            "HTTP/1.1 %d %s\r\nContent-Type: text/plain\r\nContent-Length: %zu\r\n"
-            "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n%s\n",
-            status, words, strlen(words) + 1, words);
-  return status;
-}
-
-static int give_page(struct mg_connection *c, void *user) {
-  sw_server *s = user;
-  if (!may_come(c, s, s->path)) return refuse(c, 403, "Forbidden");
-  if (strcmp(mg_get_request_info(c)->request_method, "GET") != 0)
-    return refuse(c, 405, "Method Not Allowed");
-  pthread_mutex_lock(&s->lock);
-  parcel *html = s->html;
-  if (html) html->readers++;
-  pthread_mutex_unlock(&s->lock);
-  if (!html) return refuse(c, 503, "Service Unavailable");
-  mg_printf(
-      c,
-      "HTTP/1.1 200 OK\r\nContent-Type: text/html; charset=utf-8\r\nContent-Length: %zu\r\n"
-      "Content-Security-Policy: %s\r\nX-Content-Type-Options: nosniff\r\n"
-      "X-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\nCache-Control: no-store\r\n"
-      "Cross-Origin-Opener-Policy: same-origin\r\nCross-Origin-Resource-Policy: same-origin\r\n"
-      "Connection: close\r\n\r\n",
-      html->size, s->policy);
-  mg_write(c, html->bytes, html->size);
-  pthread_mutex_lock(&s->lock);
-  html->readers--;
-  pthread_mutex_unlock(&s->lock);
-  return 200;
-}
-
-/* --- writing to a page ------------------------------------------------------------ */
-
-/* What the page has not got yet, and may get now; texts come first. */
-static int next_slot(const sw_server *s, const page *p) {
-  for (int k = SW_SERVER_TEXT; k < SW_SERVER_SLOTS; k++)
-    if (s->slots[k] && p->sent[k] != s->numbers[k]) return k;
-  const int frame = s->slots[SW_SERVER_FRAME] && p->ready &&
-                    p->sent[SW_SERVER_FRAME] != s->numbers[SW_SERVER_FRAME];
-  return frame ? SW_SERVER_FRAME : -1;
-}
-
-static void *write_to(void *user) {
-  page *p = user;
-  sw_server *s = p->server;
-  pthread_mutex_lock(&s->lock);
-  while (!p->closing && !s->stopping) {
-    const int k = p->broken ? -1 : next_slot(s, p);
-    if (k < 0) {
-      pthread_cond_wait(&s->news, &s->lock);
-      continue;
-    }
-    parcel *bytes = s->slots[k];
-    bytes->readers++;
-    p->sent[k] = s->numbers[k];
-    if (k == SW_SERVER_FRAME) p->ready = 0;
-    pthread_mutex_unlock(&s->lock);
-    const int type = k == SW_SERVER_FRAME ? MG_WEBSOCKET_OPCODE_BINARY : MG_WEBSOCKET_OPCODE_TEXT;
-    const int written = mg_websocket_write(p->connection, type, bytes->bytes, bytes->size);
-    pthread_mutex_lock(&s->lock);
-    bytes->readers--;
-    if (written <= 0 || (size_t)written < bytes->size) p->broken = 1; /* it stopped reading */
-  }
-  pthread_mutex_unlock(&s->lock);
-  return NULL;
-}
-
-/* --- reading from it ---------------------------------------------------------------- */
-
-static int open_pages(const sw_server *s) {
-  int count = 0;
-  for (int k = 0; k < SW_SERVER_PAGES; k++) count += s->pages[k].connection != NULL;
-  return count;
-}
-
-static void stir(sw_server *s) {
-  s->stirred = 1;
-  pthread_cond_broadcast(&s->news);
-}
-
-static int knock(const struct mg_connection *c, void *user) {
-  sw_server *s = user;
-  if (!may_come(c, s, s->socket) || !is_ours(s, mg_get_header(c, "Origin"), "http://")) return 1;
-  pthread_mutex_lock(&s->lock);
-  const int full = s->stopping || open_pages(s) >= SW_SERVER_PAGES;
-  pthread_mutex_unlock(&s->lock);
-  return full;
-}
-
-static void enter(struct mg_connection *c, void *user) {
-  sw_server *s = user;
-  page *p = NULL;
-  pthread_mutex_lock(&s->lock);
-  for (int k = 0; k < SW_SERVER_PAGES && !p; k++)
-    if (!s->pages[k].connection) p = &s->pages[k];
-  if (p) {
-    *p = (page){.server = s, .connection = c, .number = ++s->count, .ready = 1};
-    if (pthread_create(&p->writer, NULL, write_to, p) != 0) p->connection = NULL, p = NULL;
-  }
-  mg_set_user_connection_data(c, p);
-  stir(s);
-  pthread_mutex_unlock(&s->lock);
-}
-
-/* 0: there is no room, the page says more than anybody can do. */
-static int keep_message(sw_server *s, const page *p, const char *data, size_t size) {
-  const unsigned head[2] = {(unsigned)p->number, (unsigned)size};
-  if (s->filled + HEAD + size > INBOX) return 0;
-  memcpy(s->inbox + s->filled, head, HEAD);
-  memcpy(s->inbox + s->filled + HEAD, data, size);
-  s->filled += HEAD + size;
-  return 1;
-}
-
-/* 0 closes the connection. */
-static int hear(struct mg_connection *c, int bits, char *data, size_t size, void *user) {
-  sw_server *s = user;
-  page *p = mg_get_user_connection_data(c);
-  const int type = bits & 15, whole = bits & 128;
-  if (!p) return 0;
-  if (type == MG_WEBSOCKET_OPCODE_PING || type == MG_WEBSOCKET_OPCODE_PONG) return 1;
-  if (type != MG_WEBSOCKET_OPCODE_TEXT || !whole || size >= SW_SERVER_MESSAGE) return 0;
-  pthread_mutex_lock(&s->lock);
-  int stays = !p->broken;
-  if (size == 1 && data[0] == 'a')
-    p->ready = 1;
-  else
-    stays = stays && keep_message(s, p, data, size);
-  stir(s);
-  pthread_mutex_unlock(&s->lock);
-  return stays;
-}
-
-static void leave(const struct mg_connection *c, void *user) {
-  sw_server *s = user;
-  page *p = mg_get_user_connection_data(c);
-  if (!p) return;
-  pthread_mutex_lock(&s->lock);
-  p->closing = 1;
-  stir(s);
-  pthread_mutex_unlock(&s->lock);
-  pthread_join(p->writer, NULL); /* a write ends by its time-out */
-  pthread_mutex_lock(&s->lock);
-  p->connection = NULL;
-  stir(s);
-  pthread_mutex_unlock(&s->lock);
-}
+#include "view/server_inner.h"
 
 static int say_nothing(const struct mg_connection *c, const char *message) {
   (void)c, (void)message;
@@ -282,6 +71,16 @@ static struct mg_context *start_quietly(sw_server *s, const char **options) {
   return context;
 }
 
+/* Waits use the monotonic clock. */
+static void init_lock(sw_server *s) {
+  pthread_mutex_init(&s->lock, NULL);
+  pthread_condattr_t clock;
+  pthread_condattr_init(&clock);
+  pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+  pthread_cond_init(&s->news, &clock);
+  pthread_condattr_destroy(&clock);
+}
+
 sw_status sw_server_start(int port, sw_server **out, sw_error *err) {
   static int libraries;
   char address[32];
@@ -299,7 +98,7 @@ sw_status sw_server_start(int port, sw_server **out, sw_error *err) {
                            "no",
                            "tcp_nodelay",
                            "1",
-                           NULL};
+                           NULL}; /* names and values */
   SW_TRY(find_port(&port, err));
   sw_server *s = sw_alloc(1, sizeof *s);
   if (!s) return sw_fail(err, SW_ENOMEM, "out of memory for the server of pages");
@@ -310,28 +109,22 @@ sw_status sw_server_start(int port, sw_server **out, sw_error *err) {
     return status;
   }
   snprintf(address, sizeof address, "127.0.0.1:%d", port);
-  pthread_mutex_init(&s->lock, NULL);
-  pthread_condattr_t clock;
-  pthread_condattr_init(&clock);
-  pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
-  pthread_cond_init(&s->news, &clock);
-  pthread_condattr_destroy(&clock);
+  init_lock(s);
   if (!libraries++) mg_init_library(MG_FEATURES_DEFAULT);
   s->context = start_quietly(s, options);
   if (!s->context) {
     sw_server_stop(s);
     return sw_fail(err, SW_EINVAL, "the server of pages does not start on port %d", port);
   }
-  mg_set_request_handler(s->context, "**", give_page, s);
-  mg_set_websocket_handler(s->context, "**", knock, enter, hear, leave, s);
+  sw_server_receive(s);
   *out = s;
   return SW_OK;
 }
 
 static void free_old(sw_server *s) {
-  parcel **at = &s->old;
+  sw_parcel **at = &s->old;
   while (*at) {
-    parcel *p = *at;
+    sw_parcel *p = *at;
     if (p->readers) {
       at = &p->next;
       continue;
@@ -341,7 +134,7 @@ static void free_old(sw_server *s) {
   }
 }
 
-static void retire(sw_server *s, parcel *p) {
+static void retire(sw_server *s, sw_parcel *p) {
   if (p) p->next = s->old, s->old = p;
 }
 
@@ -381,7 +174,7 @@ void sw_server_stop(sw_server *s) {
   if (!s) return;
   pthread_mutex_lock(&s->lock);
   s->stopping = 1;
-  stir(s);
+  sw_server_stir(s);
   pthread_mutex_unlock(&s->lock);
   if (s->context) stop_context(s);
   for (int k = 0; k < SW_SERVER_SLOTS; k++) retire(s, s->slots[k]);
@@ -398,10 +191,10 @@ const char *sw_server_token(const sw_server *s) { return s->token; }
 /* --- the side of Lua's thread ---------------------------------------------------------- */
 
 /* Put a copy of the bytes in the place of others. */
-static sw_status replace(sw_server *s, parcel **place, const void *bytes, size_t size) {
-  parcel *p = sw_alloc_bytes(sizeof *p + size);
+static sw_status replace(sw_server *s, sw_parcel **place, const void *bytes, size_t size) {
+  sw_parcel *p = sw_alloc_bytes(sizeof *p + size);
   if (!p) return SW_ENOMEM;
-  *p = (parcel){.size = size};
+  *p = (sw_parcel){.size = size};
   memcpy(p->bytes, bytes, size);
   retire(s, *place);
   *place = p;
@@ -430,7 +223,7 @@ size_t sw_server_pages(sw_server *s, size_t *waiting) {
   size_t count = 0;
   *waiting = 0;
   pthread_mutex_lock(&s->lock);
-  SW_ITEMS(const page, p, s->pages, SW_SERVER_PAGES) {
+  SW_ITEMS(const sw_page, p, s->pages, SW_SERVER_PAGES) {
     if (!p->connection || p->broken || p->closing) continue;
     count++;
     *waiting += (size_t)p->ready;

@@ -14,7 +14,8 @@
 #include "watch/observe.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
-/* A fold is far beyond both, where the tube has nowhere that width any more [-]. */
+/* A fold has a curvature above the first, over the limit, and an ovalisation above the second [-].
+ */
 static const double BEYOND = 1.5, FLAT = 0.35;
 
 static double radius2(const sw_beam *beam) { return 2.0 * beam->EI_axis[0] / beam->EA; }

@@ -23,6 +23,13 @@ void sw_scene_tell_broken(const sw_scene *scene, char *out, size_t size);
 /* Tells of a tube that is folded at one place. */
 void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *now);
 
+/* 1: there is a tie that has a strength, and is not broken. */
+int sw_scene_may_break(const sw_scene *scene);
+/* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
+sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
+/* After a step, before histories follow: ties that were pulled too hard break. */
+void sw_scene_watch_ties(sw_scene *scene);
+
 /* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
 sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
 /* 1: one was driven into an obstacle in the last step. */
@@ -35,7 +42,6 @@ void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
  */
 sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 
-typedef struct sw_watches sw_watches; /* world.h */
 /* Add a row of the accepted state. */
 sw_status sw_watch_wire(sw_scene *scene, size_t wire, const sw_wire_extremes *now, sw_error *err);
 /* The same of all forces that tell what they do to wires (clips, ties). */

@@ -14,11 +14,13 @@
 #include "link/joint.h"
 #include "scene/forces.h"
 #include "scene/gripper.h"
+#include "scene/lists.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/values.h"
 #include "scene/wire.h"
-#include "scene/world.h"
+#include "system/system.h"
 #include "watch/observe.h"
 
 enum { OF_WIRE, OF_FORCE, OF_TIE };
@@ -44,7 +46,7 @@ static sw_watch *find(sw_watches *w, int kind, sw_handle of) {
 
 static sw_status add(sw_scene *s, int kind, sw_handle of, const double *row, const char *name,
                      sw_error *err) {
-  sw_watches *w = &s->watches;
+  sw_watches *w = sw_scene_watches_of(s);
   sw_watch *one = find(w, kind, of);
   sw_status status = SW_OK;
   if (!one) {
@@ -60,13 +62,13 @@ static sw_status add(sw_scene *s, int kind, sw_handle of, const double *row, con
 }
 
 sw_status sw_watch_wire(sw_scene *s, size_t slot, const sw_wire_extremes *now, sw_error *err) {
-  const sw_scene_wire *w = &s->wires[slot];
-  const double row[SW_LOG_WIRE_SIZE] = {s->time, now->tension.value, now->curvature.value};
+  const sw_scene_wire *w = sw_scene_wire_in(s, slot);
+  const double row[SW_LOG_WIRE_SIZE] = {sw_scene_time(s), now->tension.value, now->curvature.value};
   if (sw_scene_is_loose(w)) return SW_OK; /* an object of particles */
   return add(s, OF_WIRE, (sw_handle){(uint32_t)slot, w->generation}, row, w->name, err);
 }
 
-/* Where force_x stands among the values that the force has to read; -1: nowhere. */
+/* Number of force_x among the read-outs of the force; -1: it has none. */
 static int place_of_force(const sw_force_class *cls) {
   for (int k = 0; cls->read && cls->outputs[k]; k++)
     if (strcmp(cls->outputs[k], "force_x") == 0) return k;
@@ -74,22 +76,23 @@ static int place_of_force(const sw_force_class *cls) {
 }
 
 static sw_vec force_of(const sw_scene *s, size_t slot, int place) {
+  sw_system *system = sw_scene_system(s);
   double values[SW_FORCE_OUTPUTS_MAX];
   sw_vec sum = sw_v(0, 0, 0);
-  for (size_t b = 0; b < s->system.body_count; b++)
-    SW_ITEMS(const sw_term, term, s->system.bodies[b].terms, s->system.bodies[b].term_count) {
+  for (size_t b = 0; b < system->body_count; b++)
+    SW_ITEMS(const sw_term, term, system->bodies[b].terms, system->bodies[b].term_count) {
       if (term->id != (long)slot) continue;
-      term->cls->read(term->args, &s->system.bodies[b].field, term->history, values);
+      term->cls->read(term->args, &system->bodies[b].field, term->history, values);
       sum = sw_add(sum, sw_load(values + place));
     }
   return sum;
 }
 
 sw_status sw_watch_forces(sw_scene *s, sw_error *err) {
-  for (size_t k = 0; k < s->force_count; k++) {
-    const sw_scene_force *f = &s->forces[k];
+  for (size_t k = 0; k < sw_scene_force_slots(s); k++) {
+    const sw_scene_force *f = sw_scene_force_in(s, k);
     const int place = f->alive ? place_of_force(f->cls) : -1;
-    double row[SW_LOG_FORCE_SIZE] = {s->time};
+    double row[SW_LOG_FORCE_SIZE] = {sw_scene_time(s)};
     if (place < 0) continue;
     sw_store(row + 1, force_of(s, k, place));
     SW_TRY(add(s, OF_FORCE, (sw_handle){(uint32_t)k, f->generation}, row, f->cls->name, err));
@@ -98,10 +101,10 @@ sw_status sw_watch_forces(sw_scene *s, sw_error *err) {
 }
 
 sw_status sw_watch_ties(sw_scene *s, sw_error *err) {
-  for (size_t k = 0; k < s->join_count; k++) {
-    const sw_joint *j = &s->joins[k];
-    double row[SW_LOG_FORCE_SIZE] = {s->time};
-    if (!j->alive || !j->cls->joint->pull || !s->system.joins) continue;
+  for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
+    const sw_joint *j = sw_scene_join_in(s, k);
+    double row[SW_LOG_FORCE_SIZE] = {sw_scene_time(s)};
+    if (!j->alive || !j->cls->joint->pull || !sw_scene_system(s)->joins) continue;
     sw_vec force, moment;
     const sw_link_wire w = sw_scene_link_wire(s, j->ends[0].wire);
     j->cls->joint->force(j, &w, 0, &force, &moment);
@@ -127,7 +130,7 @@ static const sw_log *watched(sw_scene *s, sw_kind kind, sw_handle of, sw_error *
                     : what == OF_TIE ? sw_scene_find_join(s, of, err) != NULL
                                      : sw_scene_gone_name(s, of, &gone) != NULL ||
                                            sw_scene_find_body(s, of, err) != NULL;
-  const sw_watch *one = find(&s->watches, what, of);
+  const sw_watch *one = find(sw_scene_watches_of(s), what, of);
   return !known ? NULL : one ? &one->log : &empty;
 }
 

@@ -12,11 +12,11 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* Tangents that differ by less than this are those of a straight wire [-]. */
+/* A wire whose tangents differ by less than this is straight [-]. */
 static const double STRAIGHT = 1e-9;
 /* Push over EI/L^2 below which no wire that is held somewhere buckles: pi^2/4 [-]. */
 static const double LEAST_PUSH = 2.467;
-/* Growth slower than this is none, over sqrt(g/L) [-]. */
+/* A slower growth does not count, over sqrt(g/L) [-]. */
 static const double SLOWEST = 1.0 / 30.0;
 /* A push is looked at again when it has grown by this factor [-]. */
 static const double GROWN = 1.2;

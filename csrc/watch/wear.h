@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run does to each place of its wires that only adds up over all steps: cycles of tension
- * and of bending, work of friction. Kept where a run asks for it, of wires that are lines.
+/* Wear of each place of a wire, added up over all steps of a run: cycles of tension and of bending,
+ * work of friction. Recorded if the run asks for it, for wires that are lines.
  *
  * Bending is counted as the fibres feel it, in SW_WEAR_WAYS directions that turn with the wire, so
  * that to and fro is one cycle of the whole range. They are those of its material frames where it

@@ -6,9 +6,12 @@
 
 #include "base/alloc.h"
 #include "record/zone.h"
+#include "scene/course.h"
+#include "scene/lists.h"
 #include "scene/lookup.h"
+#include "scene/parts.h"
 #include "scene/wire.h"
-#include "scene/world.h"
+#include "system/system.h"
 
 static const sw_param rows[] = {
     {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_zone_args, name),
@@ -19,29 +22,32 @@ static const sw_param rows[] = {
      "turn of the shape: { axis = {x, y, z}, angle = } or quaternion {w, x, y, z}"},
     {"temperature", SW_PARAM_NUMBER, "degC", NAN, -273.15, 5000, 0, NULL,
      offsetof(sw_zone_args, temperature),
-     "that wires are exposed to in it; without one they are to keep out of it"},
+     "of wires in the zone; a zone without a temperature is forbidden"},
 };
 const sw_params sw_zone_params = SW_PARAMS("zone", rows);
 
 void sw_scene_clear_zone(sw_zone *z) { sw_shape_release(z->shape); }
 
 sw_status sw_scene_add_zone(sw_scene *s, sw_shape *shape, const sw_zone_args *args, sw_error *err) {
+  sw_zones *zones = sw_scene_zones_of(s);
   SW_TRY(sw_scene_editable(s, err));
-  if (sw_grow((void **)&s->zones, &s->zone_capacity, s->zone_count + 1, sizeof *s->zones) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", s->name);
-  sw_zone *z = &s->zones[s->zone_count];
+  if (sw_grow((void **)&zones->list, &zones->capacity, zones->count + 1, sizeof *zones->list) !=
+      SW_OK)
+    return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
+  sw_zone *z = &zones->list[zones->count];
   *z = (sw_zone){.pose = {args->at, args->rotation}, .temperature = args->temperature};
-  sw_scene_give_name(z->name, args->name, "zone", s->zone_count);
-  for (size_t k = 0; k < s->zone_count; k++)
-    if (strcmp(s->zones[k].name, z->name) == 0)
-      return sw_fail(err, SW_EINVAL, "scene '%s': there is another zone '%s'", s->name, z->name);
+  sw_scene_give_name(z->name, args->name, "zone", zones->count);
+  for (size_t k = 0; k < zones->count; k++)
+    if (strcmp(zones->list[k].name, z->name) == 0)
+      return sw_fail(err, SW_EINVAL, "scene '%s': there is another zone '%s'", sw_scene_name(s),
+                     z->name);
   z->shape = sw_shape_retain(shape);
-  s->zone_count++;
+  zones->count++;
   return SW_OK;
 }
 
-size_t sw_scene_zones(const sw_scene *s) { return s->zone_count; }
-const sw_zone *sw_scene_zone(const sw_scene *s, size_t k) { return &s->zones[k]; }
+size_t sw_scene_zones(const sw_scene *s) { return sw_scene_zones_of(s)->count; }
+const sw_zone *sw_scene_zone(const sw_scene *s, size_t k) { return &sw_scene_zones_of(s)->list[k]; }
 
 const sw_zone_past *sw_scene_zone_past(const sw_scene *s, sw_handle h, size_t k) {
   const sw_scene_wire *w = sw_scene_find_body(s, h, NULL);
@@ -89,16 +95,17 @@ static double moved(const sw_zone_watch *w, size_t e, sw_vec from, sw_vec to) {
 /* The farthest that any node may have gone since a time. */
 static double farthest(const sw_scene *s, const sw_body *b, double since) {
   double most = 0;
-  if (!(s->time > since)) return 0;
-  if (!(s->course.span > 0)) return HUGE_VAL; /* poses have no speeds */
+  if (!(sw_scene_time(s) > since)) return 0;
+  if (!(sw_scene_course(s)->span > 0)) return HUGE_VAL; /* poses have no speeds */
   for (size_t i = 0; i < b->plan->nodes; i++)
-    most = fmax(most, sw_norm(sw_vec_at(s->system.v, b->first_node + i)));
-  return most * (s->time - since);
+    most = fmax(most, sw_norm(sw_vec_at(sw_scene_system(s)->v, b->first_node + i)));
+  return most * (sw_scene_time(s) - since);
 }
 
 static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
-  const sw_body *b = &s->system.bodies[w];
-  sw_zone_watch *watch = &s->wires[w].zones;
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
+  sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
   sw_zone_past *past = &watch->past[k];
   const int seen = past->until > -HUGE_VAL;
   const double before = past->last, far = seen && !same ? farthest(s, b, past->until) : 0;
@@ -107,25 +114,26 @@ static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
   for (size_t e = 0; e < watch->edges; e++) {
     sw_vec from, to;
     double along;
-    piece(&s->system, b, e, &from, &to);
-    const double gap = gap_of(&s->zones[k], from, to, &along) - sw_plan_skin(b->plan, e);
+    piece(system, b, e, &from, &to);
+    const double gap =
+        gap_of(&sw_scene_zones_of(s)->list[k], from, to, &along) - sw_plan_skin(b->plan, e);
     /* a place that was `old` away and is `gap` away now was never nearer than this */
     const double way = same ? moved(watch, e, from, to) : far, old = same ? gaps[e] : before;
     past->between = fmin(past->between, seen ? fmin(gap, 0.5 * (old + gap - way)) : gap);
     gaps[e] = gap, past->last = fmin(past->last, gap);
     if (gap < past->gap)
-      past->gap = gap, past->s = place_of(b->plan, e, along), past->time = s->time;
+      past->gap = gap, past->s = place_of(b->plan, e, along), past->time = sw_scene_time(s);
   }
-  if (past->last < 0 && seen) past->inside += s->time - past->until;
-  past->until = s->time;
+  if (past->last < 0 && seen) past->inside += sw_scene_time(s) - past->until;
+  past->until = sw_scene_time(s);
 }
 
 static sw_status fit(sw_scene *s, size_t w, int *same) {
-  sw_zone_watch *watch = &s->wires[w].zones;
-  const size_t pieces = pieces_of(s->system.bodies[w].plan);
-  *same = watch->edges == pieces && watch->zones == s->zone_count;
+  sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
+  const size_t pieces = pieces_of(sw_scene_system(s)->bodies[w].plan);
+  *same = watch->edges == pieces && watch->zones == sw_scene_zones_of(s)->count;
   if (*same) return SW_OK;
-  sw_zone_watch new = {.zones = s->zone_count, .edges = pieces};
+  sw_zone_watch new = {.zones = sw_scene_zones_of(s)->count, .edges = pieces};
   new.past = sw_alloc(new.zones, sizeof *new.past);
   new.gaps = sw_alloc(new.zones *pieces, sizeof *new.gaps);
   new.x = sw_alloc(6 * pieces, sizeof *new.x);
@@ -143,15 +151,17 @@ static sw_status fit(sw_scene *s, size_t w, int *same) {
 }
 
 sw_status sw_zones_note(sw_scene *s, size_t w, sw_error *err) {
+  sw_system *system = sw_scene_system(s);
   int same;
-  if (!s->zone_count) return SW_OK;
+  if (!sw_scene_zones_of(s)->count) return SW_OK;
   if (fit(s, w, &same) != SW_OK)
-    return sw_fail(err, SW_ENOMEM, "out of memory for zones near '%s'", s->wires[w].name);
-  sw_zone_watch *watch = &s->wires[w].zones;
+    return sw_fail(err, SW_ENOMEM, "out of memory for zones near '%s'",
+                   sw_scene_wire_in(s, w)->name);
+  sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
   for (size_t k = 0; k < watch->zones; k++) note_zone(s, w, k, same);
   for (size_t e = 0; e < watch->edges; e++) {
     sw_vec from, to;
-    piece(&s->system, &s->system.bodies[w], e, &from, &to);
+    piece(system, &system->bodies[w], e, &from, &to);
     sw_store(watch->x + 6 * e, from), sw_store(watch->x + 6 * e + 3, to);
   }
   return SW_OK;

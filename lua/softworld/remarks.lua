@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Remarks on values that are allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
--- begins inside of an obstacle. Each is told once per line of the script, on stderr, in the host program;
+-- begins inside an obstacle. Each is told once per line of the script, on stderr, in the host program;
 -- sw.remarks = false silences them.
 -- @module softworld.remarks
 local core = require "softworld.core"
@@ -196,9 +196,9 @@ local function look(wire, obstacle)
       clear = shape:kind() == "mesh" and -1 or gap - DEEP * wire.radius
     end
     if gap and gap < DEEP * wire.radius then
-      return tell("inside", ("wire '%s' begins inside of '%s': it reaches %.4g mm into it at "
+      return tell("inside", ("wire '%s' begins inside '%s': it reaches %.4g mm into it at "
         .. "(%.4g, %.4g, %.4g) m, %s"):format(wire.name, obstacle.name,
-        1e3 * (wire.radius - gap), here[1], here[2], here[3], i == 1 and "where it starts" or "on its way"))
+        1e3 * (wire.radius - gap), here[1], here[2], here[3], i == 1 and "at its start" or "along its path"))
     end
   end
 end
@@ -210,8 +210,8 @@ local round = { cylinder = true, capsule = true }
 local function look_round(wire, obstacle)
   local radius = round[obstacle.shape] and obstacle.radius
   if type(radius) ~= "number" or not wire.edge or wire.edge <= radius + wire.radius then return end
-  tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm: round that "
-    .. "it is a polygon, and the pull that draws it may be 5 %% off and more; segments = %d makes "
+  tell("round", ("wire '%s': its edges of %.3g mm are longer than the radius of '%s', %.3g mm: there "
+    .. "the wire is a polygon, and its pull may be wrong by 5 %% or more; segments = %d makes "
     .. "edges half as long as the radius"):format(wire.name, 1e3 * wire.edge, obstacle.name, 1e3 * radius,
     math.min(1e6, math.ceil(2 * wire.length / radius))))
 end

@@ -23,9 +23,9 @@ describe("remarks", function()
       "length = 500 m is above 300 m; did you mean sw.units.mm(500)?" },
     { "s:obstacle{ shape = 'plane', friction = 30 }", "friction = 30 is above 3" },
     { "s:obstacle{ shape = 'plane' } " .. wire("E = 50e6, density = 1500, radius = 0.0025, "
-      .. "from = {0,0,0.1}, to = {1,0,-0.1}"), "wire 'wire1' begins inside of 'plane1': it reaches" },
+      .. "from = {0,0,0.1}, to = {1,0,-0.1}"), "wire 'wire1' begins inside 'plane1': it reaches" },
     { wire(good) .. " s:obstacle{ name = 'ball', shape = 'sphere', radius = 0.1, at = {0.5, 0, 0.1} }",
-      "wire 'wire1' begins inside of 'ball'" },
+      "wire 'wire1' begins inside 'ball'" },
     { "sw.scene{ gravity = {0, 0, -9810} }", "did you mean sw.units.mm_per_s2(9810)?" },
     { "s:gripper{ pads = { width = 20 } }", "did you mean sw.units.mm(20)?" },
     { "local g = s:gripper{ at = {0, 0, 0} } g:move{ by = {0, 0, 1}, speed = 200 }",
@@ -37,7 +37,7 @@ describe("remarks", function()
       "wire 'wire1' as radial has 15130 particles" },
     { wire(good .. ", segments = 20") .. " s:obstacle{ name = 'peg', shape = 'cylinder', radius = 0.01, "
       .. "length = 1, at = {0.5, 0, -1} }", "wire 'wire1': its edges of 50 mm are longer than the radius of "
-      .. "'peg', 10 mm: round that it is a polygon" },
+      .. "'peg', 10 mm: there the wire is a polygon" },
     { "s:obstacle{ name = 'peg', shape = 'capsule', radius = 0.01, length = 1, at = {0.5, 0, -3} } "
       .. wire(good .. ", segments = 20"), "segments = 200 makes edges half as long as the radius" },
   }

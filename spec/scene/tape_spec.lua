@@ -8,6 +8,7 @@ local saving = require "spec.scene.saving"
 local states = require "spec.scene.states"
 local samples = require "contract.samples"
 local core = sw.core
+local probe = require "softworld.probe" -- of the program that runs specs
 
 local cases = {}
 for _, list in ipairs{ saving.cases, states.cases } do table.move(list, 1, #list, #cases + 1, cases) end
@@ -90,12 +91,12 @@ describe("one tape:", function()
       local here, tape = saving.all(scene), not case.functions and tape_of(scene)
       meet(scene)
       scene:restore(snapshot)
-      local fields = core.fields(scene)
+      local fields = probe.fields(scene)
       case.after(scene)
       same(wanted, saving.all(scene), "a snapshot disturbs")
 
       scene:restore(snapshot)
-      same_fields(fields, core.fields(scene))
+      same_fields(fields, probe.fields(scene))
       same(here, saving.all(scene), "restored")
       if tape then same_bytes(tape, tape_of(scene), "restored") end
       local later

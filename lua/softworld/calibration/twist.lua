@@ -15,7 +15,7 @@ twist.rows = rows.list{
     required = true },
   { "ends", "choice", "-", "clamped in line, or hinged", choices = { "clamped", "hinged" },
     default = "clamped" },
-  { "angle", "number", "rad", "by which one end is turned when it buckles", min = 0, max = MOST,
+  { "angle", "number", "rad", "turn of one end at which it buckles", min = 0, max = MOST,
     above = true },
   { "tension", "number", "N", "that pulls it meanwhile", default = 0 },
   { "file", "text", "-", "CSV with columns tension [N], angle [deg], instead of angle" },

@@ -23,15 +23,17 @@ local check = {}
 local call = rows.call("run:check", "{...}", "does the process pass? see help 'check'", {
   gives = "a check: verdict, rows, csv, json, junit",
   example = 'print(run:check { use = "movement", limits = { max_tension = 80 } })',
-  { "use", "choice", "-", "what bends are judged by", choices = bendrule.uses, usual = "that of the wire" },
+  { "use", "choice", "-", "use of the cable, which sets the allowed bend", choices = bendrule.uses,
+    usual = "that of the wire" },
   { "limits", "limits", "-", "by name: a number, false or { max =, min =, source =, sure = }",
     usual = "of the catalogue, standards and definitions" },
   { "checks", "list", "-", "of your own: { name =, unit =, of = function(run), max =, min = }" },
   { "landing", "table", "-", "the path on which the wire is to lie at the end", rows = wanted.landing },
   { "fatigue", "table", "-", "the curves by which cycles of tension and bending wear the wire",
     rows = wanted.fatigue },
-  { "abrasion", "table", "-", "by what sliding wears the wire's surface", rows = wanted.abrasion },
-  { "vibration", "table", "-", "what shakes the holds once wires lie there", rows = wanted.vibration },
+  { "abrasion", "table", "-", "wear of the wire's surface by sliding", rows = wanted.abrasion },
+  { "vibration", "table", "-", "vibration of the holds, with the wires as they lie at the end",
+    rows = wanted.vibration },
   { "trial", "boolean", "-", "true: softworld --check does not count it", usual = "false" },
 })
 

@@ -18,7 +18,7 @@ local TEXTS = { "name", "object", "what", "unit", "side", "step", "note" }
 local VERDICTS = checks.set "PASS FAIL OPEN"
 
 local call = rows.call("sw.compare", "a, b, {...}",
-  "what is different between two checks, runs or files of check:json", {
+  "differences between two checks, runs or files of check:json", {
   gives = "a comparison: same, rows, csv, json",
   example = 'print(sw.compare("before.json", run:check {}))',
   { "tolerance", "number", "-", "change of a value that counts as none, as a share of it", min = 0, max = 1,

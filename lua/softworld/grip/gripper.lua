@@ -19,6 +19,8 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local grasp = require "softworld.grip.grasp"
+local reactions = require "softworld.grip.reactions"
+local stand = require "softworld.grip.stand"
 local gripmoves = require "softworld.grip.moves"
 local keep = require "softworld.scene.keep"
 local measures = require "softworld.grip.measures"
@@ -48,7 +50,7 @@ end
 
 local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them, lets go", {
   gives = "a gripper", example = 'scene:gripper { name = "left", pads = { friction = 0.6 } }',
-  { "name", "text", "-", "what messages and series call it", usual = "gripper1, ..." },
+  { "name", "text", "-", "name in messages and series", usual = "gripper1, ..." },
   { "pads", "table", "-", "its fingers", rows = pads.rows },
   { "at", "vector", "m", "the tool's centre while it holds nothing" },
   { "rotation", "rotation", "-", "of the tool there: x along the wire, fingers close along y, z up" },
@@ -56,7 +58,7 @@ local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them
   { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true, default = 1e-4 },
   { "on_crash", "reaction", "-",
     "to pads or arm that run into an obstacle: one of these, or a function(gripper, event)",
-    choices = grasp.reactions, usual = "record" },
+    choices = reactions.words, usual = "record" },
 })
 
 -- What a gripper keeps that a snapshot does not know.
@@ -104,7 +106,7 @@ local function check_place(self, verb)
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
   process.guard("gripper:" .. verb)
-  grasp.check_scene(self, 4)
+  stand.check_scene(self, 4)
   if self.hold or self.tool or self.carrier or self.at or self.rotation then return end
   error(("gripper '%s' holds nothing; grasp a wire before you %s, or give the place where it is when "
     .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
@@ -119,7 +121,7 @@ end
 -- The thing that moves; a new tool at the gripper's place when there is none yet.
 local function make_moved(self)
   if moved(self) then return moved(self) end
-  if self.solid then grasp.make_tool(self, 4) else build.call(4, grasp.make_carrier, self) end
+  if self.solid then stand.make_tool(self, 4) else build.call(4, stand.make_carrier, self) end
   return moved(self)
 end
 
@@ -183,7 +185,7 @@ local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it
   { "scale", "number", "m", "unit of the file's lengths that name none", min = 0, above = true },
   { "turn", "table", "-", "turn about the tool's centre, on the way or in place", rows = rows.list{
     { "axis", "vector", "-", "of the turn" }, { "angle", "number", "rad", "of the turn" } } },
-  grasp.on_slip_row,
+  reactions.on_slip_row,
 })
 
 --- Move the tool, see help "gripper:move".
@@ -199,7 +201,7 @@ function Gripper:move(args)
   local motion = build.call(3, motion_of, move_table(self, args))
   remarks.on("move", ("gripper '%s': move"):format(self.name), args)
   local held = make_moved(self)
-  if args.on_slip ~= nil then grasp.set_on_slip(self, args.on_slip, 3) end
+  if args.on_slip ~= nil then reactions.set_on_slip(self, args.on_slip, 3) end
   local duration = build.call(3, held.follow, held, motion)
   self.busy_until = self.scene.time + duration
   local p = process.current()
@@ -219,7 +221,7 @@ local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its ce
   { "law", "text", "-", "as of gripper:move" },
   { "blend", "number", "m", "as of gripper:move" },
   { "stop", "boolean", "-", "as of gripper:move" },
-  { "on_slip", "reaction", "-", "as of gripper:move", choices = grasp.reactions },
+  { "on_slip", "reaction", "-", "as of gripper:move", choices = reactions.words },
 })
 
 --- Turn the tool, see help "gripper:rotate".
@@ -279,7 +281,7 @@ function Gripper:release(args)
   if getmetatable(self) ~= Gripper then
     error("gripper:release is a method: call it with a colon", 2)
   end
-  grasp.check_scene(self, 3)
+  stand.check_scene(self, 3)
   if not self.wire and self.bereft then -- it was taken away
     self.bereft = nil
     return self.tool and self:open_jaws(args or {}) or self
@@ -331,8 +333,8 @@ end
 -- Fields that scripts may set, each with its check.
 local settable = {
   slip_tolerance = function(value) checks.number("gripper.slip_tolerance", value, 0, " m", 4, nil, true) end,
-  on_slip = function(value) grasp.check_reaction("gripper.on_slip", value, 4) end,
-  on_crash = function(value) grasp.check_reaction("gripper.on_crash", value, 4) end,
+  on_slip = function(value) reactions.check("gripper.on_slip", value, 4) end,
+  on_crash = function(value) reactions.check("gripper.on_crash", value, 4) end,
   events = function(value)
     if type(value) == "table" then return end
     error("gripper.events: a table is wanted, as {} to forget them, got " .. type(value), 4)
@@ -354,7 +356,7 @@ end
 
 rows.calls{
   { "gripper:stop", "", "stays where it is now", "the gripper" },
-  { "gripper.name", nil, "by which messages and series call it" },
+  { "gripper.name", nil, "name in messages and series" },
   { "gripper.width", nil, "of the pads along the wire", "m" },
   { "gripper.wire", nil, "that it holds, the first of several", "a wire, or nil" },
   { "gripper.wires", nil, "all that it holds", "a list" },

@@ -146,7 +146,7 @@ local function moment_about(r, at)
 end
 
 local over = rows.call("gripper:over", "t1, t2, {...}",
-  "what it bore between two times [s], which may be left out", {
+  "its loads between two times [s], which may be left out", {
   gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
     .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; of pads peak_squeeze [N], "
     .. "peak_margin, slip [m]",

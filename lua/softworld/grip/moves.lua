@@ -4,7 +4,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
-local grasp = require "softworld.grip.grasp"
+local stand = require "softworld.grip.stand"
 local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
@@ -19,7 +19,7 @@ local function this_process(self, verb)
   if type(self) ~= "table" or not rawget(sealed.fields(self), "pads") then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
   end
-  grasp.check_scene(self, 4)
+  stand.check_scene(self, 4)
   local p = process.current()
   if not p then error(("gripper:%s takes its time; call it in a process"):format(verb), 3) end
   return p
@@ -59,7 +59,7 @@ local function target(self, what, args, level)
     if not at then
       error(("gripper '%s': give s [m], the place of the wire to approach"):format(self.name), level)
     end
-    s = grasp.nearest_place(what, at)
+    s = stand.nearest_place(what, at)
   end
   return what:position(checks.number("gripper:approach: s", s, 0, " m", level + 1, what.length))
 end

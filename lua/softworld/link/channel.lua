@@ -26,7 +26,7 @@ local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it co
 local new = rows.call("scene:channel", "{...}", "a trough along points, with mitred corners and a lid", {
   gives = "a channel",
   example = "scene:channel { points = { { 0, 0, 0 }, { 0.3, 0, 0 } }, width = 0.015, depth = 0.012 }",
-  { "name", "text", "-", "what messages call it", usual = "channel1, ..." },
+  { "name", "text", "-", "name in messages", usual = "channel1, ..." },
   { "points", "points", "m", "of the middle of its floor, two or more" },
   { "width", "number", "m", "inside", min = 0, above = true, required = true },
   { "depth", "number", "m", "inside", min = 0, above = true, required = true },
@@ -43,8 +43,8 @@ rows.calls{
   { "channel:open", "", "takes the lid off", "the channel" },
   { "channel:force", "", "of all wires on it", "{x, y, z} [N]" },
   { "channel:release", "", "takes the channel away" },
-  { "channel.name", nil, "by which messages call it" },
-  { "channel:exists", "", "is it there still", "true or false" },
+  { "channel.name", nil, "name in messages" },
+  { "channel:exists", "", "is it still in the scene", "true or false" },
   { "channel.closed", nil, "is the lid on", "true or false" },
   { "channel.parts", nil, "what it is made of", "a list of obstacles" },
 }

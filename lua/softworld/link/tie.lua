@@ -23,9 +23,9 @@ local STIFFNESS = 1e5 -- of a nylon tie round a few millimetres [N/m]
 
 local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a point or at another wire", {
   gives = "a tie", example = "scene:tie(wire, { s = 0.5, to = { 0, 0, 0.1 }, strength = 80 })",
-  { "name", "text", "-", "what messages call it", usual = "tie1, ..." },
+  { "name", "text", "-", "name in messages", usual = "tie1, ..." },
   { "s", "number", "m", "place along the wire", min = 0, required = true },
-  { "to", "point or { wire, s = }", "m", "what it is tied to, another one a rod or string",
+  { "to", "point or { wire, s = }", "m", "the other end: a point, or a place of another wire (rod or string)",
     usual = "where it is now" },
   { "slack", "number", "m", "distance up to which it does not pull", min = 0, usual = "the present one" },
   { "stiffness", "number", "N/m", "beyond the slack", min = 0, above = true, default = STIFFNESS },
@@ -41,8 +41,8 @@ rows.calls{
   { "tie:distance", "", "of the tied places", "m" },
   { "tie:force", "", "on the wire that was tied", "{x, y, z} [N]" },
   { "tie:release", "", "cuts it" },
-  { "tie.name", nil, "by which messages call it" },
-  { "tie:exists", "", "is it there still", "true or false" },
+  { "tie.name", nil, "name in messages" },
+  { "tie:exists", "", "is it still in the scene", "true or false" },
   { "tie.peak_force", nil, "largest pull so far", "N" },
   { "tie.broken", nil, "how it broke", "nil, or time [s], force [N]" },
 }

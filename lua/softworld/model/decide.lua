@@ -162,6 +162,30 @@ local function bar_rung(context, failed)
   return false
 end
 
+-- Does the next rung give another answer? True when the choice is settled.
+local function climb(context, state, rungs, here)
+  local choice, rung = state.choice, state.rung
+  local name, f = choice.name, here.facts[choice.name]
+  local up = with(rungs, name, rung + 1)
+  local above = probe.of(context, up, 1)
+  local next_as = choice.rungs[rung + 1].as
+  if not above.ok then
+    return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
+  end
+  local c, blind = compare(context, state, rungs, up)
+  if blind then
+    return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
+  end
+  local costly = choice.costly and choice.costly(rung, here, above)
+  if costly then decide.raise(context, state, costly)
+  elseif c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
+  else
+    state.change = c.all
+    return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
+  end
+  return false
+end
+
 --- One look at a choice; true when it is settled.
 function decide.look(context, state)
   local choice, rungs = state.choice, decide.rungs(context)
@@ -199,24 +223,7 @@ function decide.look(context, state)
     return stay(state, "skipped")
   end
   if state.barred then return unknown(context, state, f, here, state.barred) end
-  local up = with(rungs, name, rung + 1)
-  local above = probe.of(context, up, 1)
-  local next_as = choice.rungs[rung + 1].as
-  if not above.ok then
-    return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
-  end
-  local c, blind = compare(context, state, rungs, up)
-  if blind then
-    return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
-  end
-  local costly = choice.costly and choice.costly(rung, here, above)
-  if costly then decide.raise(context, state, costly)
-  elseif c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
-  else
-    state.change = c.all
-    return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
-  end
-  return false
+  return climb(context, state, rungs, here)
 end
 
 -- What the others leave out counts in what one may, as far as it is known.

@@ -16,7 +16,7 @@ local new = rows.call("scene:observe", "{...}",
   "calls a function while the scene runs, between two steps; without every and wall at each", {
     gives = "an observer",
     example = "scene:observe { every = 0.01, call = function() print(scene.time) end }",
-    { "call", "function", "-", "what is called, with the observer", required = true },
+    { "call", "function", "-", "function that is called, with the observer", required = true },
     { "every", "number", "s", "between two calls, of simulated time", min = 0, above = true },
     { "wall", "number", "s", "between two calls, on the clock on the wall", min = 0, above = true },
   })

@@ -6,7 +6,7 @@ local advice = require "softworld.run.advice"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local choose = require "softworld.model.choose"
-local grasp = require "softworld.grip.grasp"
+local reactions = require "softworld.grip.reactions"
 local leave = require "softworld.scene.leave"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
@@ -96,7 +96,7 @@ local function drive(scene, args, total, bar)
     bar:update(scene.time - start, total.steps)
     if not part.ok then return part.reason end
     local asked = observe.settle(scene)
-    local stopped = grasp.look(scene) or asked
+    local stopped = reactions.look(scene) or asked
     if stopped then return stopped, "stopped" end
     if left <= 0 then
       waiting.at_end(scene)
@@ -269,13 +269,8 @@ local told = {
   crash = function(e) return ("%s RUNS INTO %s at"):format(e.part, e.obstacle) end,
 }
 
-function summary_of(self)
-  local data, rows = build.data(self.scene), {}
-  local function add(label, value, unit, s, t, note)
-    local where = s and ("s = %.4g m"):format(s) or nil
-    if note then where = ("%s(%s)"):format(where and where .. " " or "", note) end
-    rows[#rows + 1] = { label = label, value = value, unit = unit, where = where, when = t }
-  end
+-- Rows of the summary; add(label, value, unit, s, t, note) puts one.
+local function sum_up_grippers(self, data, add)
   for _, g in ipairs(data.grippers) do
     local m = g:over(self.start, self.time)
     add(g.name .. ": peak force", m.peak_force, "N", nil, m.peak_force_time, m.peak_force_note)
@@ -289,6 +284,9 @@ function summary_of(self)
       end
     end
   end
+end
+
+local function sum_up_wires(self, data, add)
   for _, w in ipairs(data.wires) do
     local radius, s, t = w.object:min_bend_radius()
     local label = w.name .. ": smallest bend radius"
@@ -306,6 +304,24 @@ function summary_of(self)
       add(w.name .. ": section FOLDED through itself, its forces are wrong since", t, "s", s, t)
     end
   end
+end
+
+local function bar_of(q)
+  local is_number = type(q.value) == "number"
+  return { label = q:label(), value = is_number and q.value or q:text(), unit = is_number and q.unit or "",
+    where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)")
+      .. (q.note and (" (%s)"):format(q.note) or "") }
+end
+
+function summary_of(self)
+  local data, rows = build.data(self.scene), {}
+  local function add(label, value, unit, s, t, note)
+    local where = s and ("s = %.4g m"):format(s) or nil
+    if note then where = ("%s(%s)"):format(where and where .. " " or "", note) end
+    rows[#rows + 1] = { label = label, value = value, unit = unit, where = where, when = t }
+  end
+  sum_up_grippers(self, data, add)
+  sum_up_wires(self, data, add)
   if #data.obstacles > 0 then
     local depth, s, t = self.scene:penetration()
     add("deepest penetration", depth, "m", s, t)
@@ -317,12 +333,7 @@ function summary_of(self)
     add("frames: one of so many is kept, for want of memory", thinned, "-", nil, nil,
       "see frames = { memory = }")
   end
-  for _, q in ipairs(self.quantities and self:error_bars() or {}) do
-    rows[#rows + 1] = { label = q:label(), value = type(q.value) == "number" and q.value or q:text(),
-      unit = type(q.value) == "number" and q.unit or "",
-      where = ("+- %s%s"):format(number.text(q.error, q.unit), q.met and "" or " (NOT as asked)")
-        .. (q.note and (" (%s)"):format(q.note) or "") }
-  end
+  for _, q in ipairs(self.quantities and self:error_bars() or {}) do rows[#rows + 1] = bar_of(q) end
   return rows
 end
 

@@ -5,7 +5,8 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
-local grasp = require "softworld.grip.grasp"
+local reactions = require "softworld.grip.reactions"
+local stand = require "softworld.grip.stand"
 local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local Gripper = require "softworld.grip.gripper"
@@ -78,9 +79,9 @@ local of_gripper = rows.call("gripper:set", "{...}", "changes the gripper from n
   example = "hand:set { force = 12 }",
   { "force", "number", "N", "that jaws closed by a force keep on the wire", min = 0, above = true },
   { "slip_tolerance", "number", "m", "slides below this are none", min = 0, above = true },
-  grasp.on_slip_row,
+  reactions.on_slip_row,
   { "on_crash", "reaction", "-", "to pads or arm that run into an obstacle: one of these, or a function",
-    choices = grasp.reactions },
+    choices = reactions.words },
 })
 rows.calls{ { "gripper:get", "", "what it was made of, as it is now",
   "name, pads, at [m], rotation, arm, slip_tolerance [m], on_slip, on_crash, force [N]" } }
@@ -97,14 +98,14 @@ local function kept_force(self)
 end
 
 function Gripper:get()
-  grasp.check_there(self, 3)
+  stand.check_there(self, 3)
   return { name = self.name, pads = copied(self.pads), at = self:position(), rotation = copied(self.rotation),
     arm = copied(self.arm), slip_tolerance = self.slip_tolerance, on_slip = self.on_slip,
     on_crash = self.on_crash, force = kept_force(self) }
 end
 
 function Gripper:set(args)
-  grasp.check_scene(self, 3)
+  stand.check_scene(self, 3)
   local given = of_gripper:read(args)
   if given.force and (not self.tool or self.frozen or not kept_force(self)) then
     error(("gripper:set: force: gripper '%s' has no jaws that keep a force on a wire; grasp with force [N]")
@@ -113,7 +114,7 @@ function Gripper:set(args)
   self.slip_tolerance = given.slip_tolerance or self.slip_tolerance
   if given.on_crash ~= nil then self.on_crash = given.on_crash end
   if given.on_slip ~= nil then self.on_slip = given.on_slip end
-  if given.slip_tolerance or given.on_slip ~= nil then grasp.watch(self) end
+  if given.slip_tolerance or given.on_slip ~= nil then reactions.watch(self) end
   if given.force then
     self.order = { mode = "force", speed = self.order.speed, force = given.force }
     self.tool:jaws(self.order)

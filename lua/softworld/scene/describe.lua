@@ -11,7 +11,7 @@ local sealed = require "softworld.sealed"
 local describe = {}
 
 rows.calls{
-  { "scene:describe", "", "what the scene is made of, as a plain table: no objects, no functions",
+  { "scene:describe", "", "the parts of the scene, as a plain table without objects and functions",
     "name, time [s], gravity [m/s2], and lists: wires, particles, obstacles, holds, forces, joins, fixings, "
       .. "grippers; each item has name or kind, given (as the script gave it), now (as it is)",
     example = "for _, w in ipairs(scene:describe().wires) do print(w.name, w.now.length) end" },

@@ -6,7 +6,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
-local grasp = require "softworld.grip.grasp"
+local stand = require "softworld.grip.stand"
 local losing = require "softworld.grip.losing"
 local process = require "softworld.run.process"
 local rows = require "softworld.rows"
@@ -63,7 +63,7 @@ local function remove_body(scene, kind, body)
 end
 
 local function remove_gripper(scene, gripper)
-  grasp.check_there(gripper, 0)
+  stand.check_there(gripper, 0)
   losing.begin(gripper)
   for _, tool in ipairs{ gripper.tool or false, gripper.carrier or false } do
     if tool and core.exists(tool) then core.remove_tool(tool) end

@@ -16,7 +16,7 @@ local again = {}
 rows.calls{
   { "study:again", "number, part", "computes an evaluation again in this process, with the same bits; a row "
     .. "of the table does for both, and the part is needed where several have the number",
-    "what evaluate returns, and the last run of a scene in it",
+    "results of evaluate, and the last run of a scene in it",
     example = 'local _, run = study:again(12)' },
 }
 

@@ -1,20 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
-
 #include <math.h>
-#include <stdint.h>
 
-#include "body/build.h"
-#include "body/hold.h"
-#include "edit/edit.h"
-#include "edit/links.h"
-#include "link/hold.h"
 #include "link/joint.h"
 #include "scene/course.h"
 #include "scene/events.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
 #include "system/system.h"
+#include "watch/observe.h"
 
 /* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
  * field may still name the places of a trial that is gone [N]. */
@@ -108,28 +102,4 @@ void sw_scene_watch_ties(sw_scene *s) {
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
                   j->name, pull, j->strength);
   }
-}
-
-sw_status sw_scene_tie_state(sw_scene *s, sw_handle h, sw_tie_state *out, sw_error *err) {
-  sw_system *system = sw_scene_system(s);
-  SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_editable(s, err));
-  SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
-  if (!j->cls->joint->pull)
-    return sw_fail(err, SW_EINVAL, "join '%s' is no tie: it was made without slack", j->name);
-  *out = (sw_tie_state){.peak = j->fate[SW_TIE_PEAK],
-                        .broken = j->fate[SW_TIE_BROKEN] > 0,
-                        .broken_time = j->fate[SW_TIE_BROKEN_TIME],
-                        .broken_force = j->fate[SW_TIE_BROKEN_FORCE]};
-  out->distance = NAN;
-  if (j->ends[0].wire == SIZE_MAX || j->ends[1].wire == SIZE_MAX) return SW_OK;
-  SW_TRY(sw_scene_build(s, err));
-  const double *x = system->x;
-  const sw_link_wire one = sw_scene_link_wire(s, j->ends[0].wire);
-  const sw_link_wire two = sw_scene_link_wire(s, j->ends[1].wire);
-  double bears;
-  out->distance = sw_dist(sw_vec_at(x, sw_joint_node(&j->ends[0], &one)),
-                          sw_vec_at(x, sw_joint_node(&j->ends[1], &two)));
-  if (j->alive) out->tension = j->cls->joint->pull(j, system, x, &bears);
-  return SW_OK;
 }

@@ -1,0 +1,135 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- The jaws of a gripper: closed and opened, to a force, an opening, or until there is contact.
+-- @module softworld.grip.jaws
+local mixed = require "softworld.grip.mixed"
+local process = require "softworld.run.process"
+local rows = require "softworld.rows"
+local stand = require "softworld.grip.stand"
+
+local jaws = { methods = {} }
+local Methods = jaws.methods
+
+jaws.SPEED = 0.02 -- of the opening, unless told [m/s]
+local PATIENCE = 2 -- a force is waited for so long after jaws could have closed [s]
+local CRUSHED = 0.2 -- opening over the wire's diameter at which it is [-]
+
+local function note(self, kind, fields)
+  fields.kind, fields.time = kind, self.scene.time
+  self.events[#self.events + 1] = fields
+end
+
+jaws.force_row = { "force", "number", "N", "of each finger on the wire, kept from then on", min = 0,
+  above = true }
+jaws.distance_row = { "distance", "number", "m", "opening to go to, unless force stops them before",
+  min = 0 }
+jaws.speed_row = { "speed", "number", "m/s", "of the opening; alone: until there is contact", min = 0,
+  above = true, usual = jaws.SPEED }
+
+local close = rows.call("gripper:close_jaws", "{...}", "closes the jaws", {
+  gives = "the gripper; in a process once that is done", jaws.force_row, jaws.distance_row,
+  jaws.speed_row })
+local open = rows.call("gripper:open_jaws", "{...}", "opens the jaws", {
+  gives = "the gripper; in a process once that is done",
+  { "distance", "number", "m", "between the faces", min = 0, usual = "pads' opening" },
+  { "speed", "number", "m/s", "of the opening", min = 0, above = true, usual = jaws.SPEED },
+})
+
+--- The core's order for close_jaws' words, which are checked.
+function jaws.order(self, args, what)
+  local distance, force, speed = args.distance, args.force, args.speed or jaws.SPEED
+  if not (distance or force or args.speed) then
+    error(("%s: how far? give force [N], distance [m] or speed [m/s]"):format(what), 0)
+  end
+  if distance then return { mode = "to", opening = distance, speed = speed, force = force } end
+  if force then return { mode = "force", speed = speed, force = force } end
+  -- by speed: until there is contact, which is a force that counts against the wire's weight
+  local contact = 0.01
+  if self.wire then
+    contact = math.max(1e-3, 0.01 * self.wire.beam.mass_per_length * 9.81 * self.wire.length)
+  end
+  return { mode = "to", opening = 0, speed = speed, force = contact }
+end
+
+-- Wait until the jaws are done; raises when they cannot do it.
+local function wait_for_jaws(self, p, order)
+  local state, crushed
+  local wire = self.wire -- another process may let go of it meanwhile
+  local least = wire and CRUSHED * 2 * wire.radius or 0
+  local function done()
+    if not self.tool then -- a snapshot was restored
+      error(("gripper '%s': its pads went while it was waiting for them"):format(self.name), 0)
+    end
+    stand.check_there(self, 0)
+    state = self.tool:state()
+    crushed = order.force and state.squeeze > 0 and state.opening < least
+    return crushed or state.jaws ~= "moves"
+  end
+  local longest = self.tool:state().opening / order.speed + PATIENCE
+  local arrived = p:wait_until(done, { timeout = longest })
+  if arrived and not crushed and state.jaws ~= "empty" then
+    if state.squeeze > 0 and state.opening < least then -- as they were told to
+      note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
+    end
+    return state
+  end
+  self.tool:jaws{ mode = "still" }
+  local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
+  if crushed then
+    note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
+    error(("gripper '%s' crushes the wire: %.3g mm are left of its %.3g mm between the pads, at %.4g N "
+      .. "per finger; %s is not reached"):format(self.name, 1e3 * state.opening,
+      2e3 * wire.radius, state.squeeze, force), 0)
+  end
+  if state.jaws == "empty" then
+    note(self, "missed", {})
+    local far = ""
+    if wire then
+      local _, d = stand.nearest_place(wire, (self.tool:pose()))
+      far = (": wire '%s' is %.3g mm from the tool centre"):format(wire.name, 1e3 * d)
+    end
+    error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
+  end
+  note(self, "unreached", { opening = state.opening, squeeze = state.squeeze })
+  error(("gripper '%s': %s is not reached in %.3g s; it is %.4g N at an opening of %.4g mm"):format(
+    self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
+end
+
+--- Give an order; in a process wait until it is done: returns the state then.
+function jaws.move(self, order)
+  self.order = order
+  self.tool:jaws(order)
+  local p = process.current()
+  return p and wait_for_jaws(self, p, order)
+end
+
+--- Close the jaws, see help "gripper:close_jaws". Errors tell what is in the way.
+function Methods:close_jaws(args)
+  stand.check_scene(self, 3)
+  local order = jaws.order(self, close:read(args), "gripper:close_jaws")
+  if self.frozen then mixed.thaw(self) end
+  if self.hold and not self.tool then
+    error(("gripper '%s' holds its wire by imposed handling: there are no jaws to close"):format(
+      self.name), 2)
+  end
+  if not self.tool then stand.make_tool(self, 3, self.wire) end
+  jaws.move(self, order)
+  return self
+end
+
+--- Open the jaws, see help "gripper:open_jaws".
+function Methods:open_jaws(args)
+  stand.check_scene(self, 3)
+  args = open:read(args or {})
+  if not self.tool and not self.hold and self.at then stand.make_tool(self, 3) end
+  if not self.tool then
+    error(("gripper '%s' has no pads yet: grasp with approach = 'plates' or 'mixed'"):format(self.name),
+      2)
+  end
+  if self.frozen then mixed.thaw(self) end
+  self.held = false
+  jaws.move(self, jaws.order(self, { distance = args.distance or self.opening, speed = args.speed },
+    "gripper:open_jaws"))
+  return self
+end
+
+return jaws

@@ -1,0 +1,103 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Slips, losses and crashes of grippers: events, and what is to happen then.
+-- @module softworld.grip.reactions
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local grasped = require "softworld.grip.grasped"
+local mixed = require "softworld.grip.mixed"
+
+local reactions = {}
+
+reactions.words = { "record", "warn", "stop" }
+reactions.on_slip_row = { "on_slip", "reaction", "-",
+  "to a wire that slips or is lost: one of these, or a function(gripper, event)", choices = reactions.words,
+  usual = "as before" }
+
+function reactions.check(what, value, level)
+  local known = checks.set(table.concat(reactions.words, " "))
+  if type(value) ~= "function" then checks.word(what, value, known, level + 1) end
+end
+
+--- Reaction to a wire that slips, and to one that is lost: "record" (default), "warn", "stop" or a
+-- function, called with the gripper and the event.
+function reactions.set_on_slip(self, value, level)
+  reactions.check("gripper '" .. self.name .. "': on_slip", value, level + 1)
+  self.on_slip = value
+  reactions.watch(self)
+end
+
+--- Slip counts from now on.
+function reactions.watch(self)
+  self.slip_event = nil
+  if self.tool then
+    self.tool:watch(self.slip_tolerance, self.on_slip ~= nil and self.on_slip ~= "record")
+  end
+end
+
+local function slip_text(self, event)
+  return ("gripper '%s': the wire slips, %.3g mm by t = %.4g s at s = %.4g m"):format(self.name,
+    1e3 * event.distance, event.time, event.s)
+end
+
+local function crash_text(self, event)
+  return ("gripper '%s': '%s' runs into '%s' at t = %.4g s"):format(self.name, event.part,
+    event.obstacle, event.time)
+end
+
+local function lost_text(self, event)
+  return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
+end
+
+-- Keep the event and act on it; returns the text when the run is to stop.
+local function react(self, event, reaction, text)
+  self.events[#self.events + 1] = event
+  if reaction == "warn" then io.stderr:write("softworld: ", text(self, event), "\n")
+  elseif reaction == "stop" then return text(self, event)
+  elseif type(reaction) == "function" then reaction(self, event) end
+end
+
+-- A crash of an imposed grip, which drives the wire itself into an obstacle.
+local function look_at_hold(self)
+  local crash = self.hold:crash()
+  if not crash or crash.time == self.crash_time then return end
+  self.crash_time = crash.time
+  return react(self, { kind = "crash", time = crash.time, part = self.name, obstacle = crash.obstacle,
+    depth = crash.depth, s = self.s }, self.on_crash, crash_text)
+end
+
+-- Events of one gripper with pads; returns why the run is to stop, or nil.
+local function look_at(self)
+  local now, why = self.tool:state(), nil
+  if now.crash_time and now.crash_time ~= self.crash_time then
+    self.crash_time = now.crash_time
+    why = react(self, { kind = "crash", time = now.crash_time, part = now.crash_part,
+      obstacle = now.crash_obstacle, depth = now.crash_depth }, self.on_crash, crash_text)
+  end
+  if self.held and now.slip_time and not self.slip_event then
+    self.slip_event = { kind = "slip", time = now.slip_time, s = now.slip_place, distance = now.slip }
+    why = react(self, self.slip_event, self.on_slip, slip_text) or why
+  end
+  if self.unchecked and self.held and now.squeeze > 0 and now.jaws ~= "moves" then
+    self.unchecked = nil
+    grasped.check(self) -- outside of a process: it is told, and the run goes on
+  end
+  if self.held and now.normal == 0 and not now.frozen then
+    self.held = false
+    local event = { kind = "lost", time = self.scene.time, s = now.place }
+    why = react(self, event, self.on_slip, lost_text) or why
+  end
+  if self.frozen and now.lost_time then mixed.lose(self, now) end
+  return why
+end
+
+--- After steps of a run: events of the scene's grippers. Returns why the run is to stop, or nil.
+function reactions.look(scene)
+  local why
+  for _, self in ipairs(build.data(scene).grippers) do
+    if self.tool and not self.left then why = look_at(self) or why
+    elseif self.hold then why = look_at_hold(self) or why end
+  end
+  return why
+end
+
+return reactions

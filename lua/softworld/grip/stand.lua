@@ -1,0 +1,77 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Where a gripper stands: is it there, its pads and its carrier, and the place of a wire near it.
+-- @module softworld.grip.stand
+local build = require "softworld.scene.build"
+local pads = require "softworld.grip.pads"
+local remarks = require "softworld.remarks"
+local vec = require "softworld.vec"
+
+local stand = {}
+
+--- Raise when the gripper was taken back with a snapshot.
+function stand.check_there(self, level)
+  if self.gone then
+    error(("gripper '%s' was made after the snapshot that was restored; make it anew")
+      :format(self.name), level)
+  end
+  if self.left then
+    error(("gripper '%s' was taken away at t = %.6g s"):format(self.name, self.left), level)
+  end
+end
+
+--- The same, and when the scene may not be changed now.
+function stand.check_scene(self, level)
+  stand.check_there(self, level + 1)
+  build.check(self.scene, "gripper '" .. self.name .. "'", level + 1)
+end
+
+--- The arc length of the wire nearest to a point, and how far it is.
+function stand.nearest_place(wire, at)
+  local x, s = wire:positions()
+  local best, place = math.huge, 0
+  for i = 1, #s - 1 do
+    local a, b, t, e = 3 * i - 2, 3 * i + 1, 0, 0
+    for k = 0, 2 do
+      local d = x[b + k] - x[a + k]
+      t, e = t + d * (at[k + 1] - x[a + k]), e + d * d
+    end
+    t = e > 0 and math.max(0, math.min(1, t / e)) or 0
+    local d2 = 0
+    for k = 0, 2 do d2 = d2 + (at[k + 1] - x[a + k] - t * (x[b + k] - x[a + k])) ^ 2 end
+    if d2 < best then best, place = d2, s[i] + t * (s[i + 1] - s[i]) end
+  end
+  return place, best ^ 0.5
+end
+
+-- The orientation of a tool at arc length s: x along the wire, z as far up as may be.
+local function facing(scene, wire, s)
+  local up = vec.unit(vec.scale(scene:gravity(), -1)) or { 0, 0, 1 }
+  return vec.facing(vec.unit(wire:tangent(s)), up)
+end
+
+--- Give the gripper its pads, where it is (at, rotation) or around the wire at s.
+function stand.make_tool(self, level, wire, s)
+  local at = s and wire:position(s) or self.at or { 0, 0, 0 }
+  local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
+  build.call(level, function()
+    self.tool, self.obstacles, self.opening = remarks.without(pads.make, self.scene, self, at, rotation,
+      wire and wire.radius)
+  end)
+end
+
+--- Give it a place of its own that moves: while it holds nothing, and for several wires.
+function stand.make_carrier(self)
+  local at, q = self.at or { 0, 0, 0 }, self.rotation or self.facing or nil
+  if self.hold then at, q = self.hold:pose() end
+  self.carrier = self.scene:tool{ name = self.name, at = at, rotation = q }
+  return self.carrier
+end
+
+--- Pads open at the wire's arc length s.
+function stand.place_tool(self, wire, s, level)
+  if not self.tool and self.carrier then self.at = (self.carrier:pose()) end
+  if not self.tool then return stand.make_tool(self, level + 1, wire, s) end
+  if s then self.tool:pose(wire:position(s), self.rotation or facing(self.scene, wire, s)) end
+end
+
+return stand
