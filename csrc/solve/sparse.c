@@ -161,17 +161,28 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
 
 /* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
  * transposed. */
-static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
+                            const int32_t *order) {
   sw_blocks_pair *same SW_LOCAL = sw_alloc(count, sizeof *same);
   if (!same) return SW_ENOMEM;
   for (size_t k = 0; k < count; k++) same[k] = (sw_blocks_pair){pairs[k].i, pairs[k].j};
-  const sw_status status = sw_blocks_new_sparse(s->n, same, count, &s->fronts);
+  const sw_status status = sw_blocks_new_sparse(s->n, same, count, order, &s->fronts);
   for (size_t k = 0; k < count && status == SW_OK; k++) {
     const uint32_t i = pairs[k].i, j = pairs[k].j;
     const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);
     s->slot[k] = (uint32_t)(2 * at) + (i < j);
   }
   return status;
+}
+
+/* Blocks that the order of least fill changes. */
+static double work_of(const sw_sparse *s) {
+  double sum = 0;
+  for (size_t k = 0; k < s->n; k++) {
+    const double rows = s->start[k + 1] - s->start[k] + 1.0;
+    sum += rows * rows;
+  }
+  return sum;
 }
 
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
@@ -182,13 +193,19 @@ sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs,
   s->n = nodes, s->block = block, s->pairs = count;
   sw_status status =
       nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? analyse(s, pairs, count, &a) : SW_ENOMEM;
+  const size_t bb = block * block;
+  const int fronts = status == SW_OK && block == 3 && s->fill > DENSE * nodes;
+  if (fronts) {
+    double along;
+    status = sw_sparse_order_along(nodes, a.first, a.next, a.order, &along);
+    if (status == SW_OK)
+      status = use_fronts(s, pairs, count, along < work_of(s) ? a.order : NULL);
+  }
   sw_free(a.first);
   sw_free(a.next);
   sw_free(a.order);
   sw_free(a.seen);
-  const size_t bb = block * block;
-  if (status == SW_OK && block == 3 && s->fill > DENSE * nodes) {
-    status = use_fronts(s, pairs, count);
+  if (fronts || status != SW_OK) {
   } else if (status == SW_OK) {
     status = find_targets(s);
     s->x = sw_alloc(bb * (s->n + s->fill + s->widest) + 2 * block * s->n, sizeof *s->own);

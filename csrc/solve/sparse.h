@@ -51,5 +51,8 @@ size_t sw_sparse_fill(const sw_sparse *sparse);
  * next[first[i]] .. next[first[i + 1] - 1], with both directions listed. order[k] is
  * the node to eliminate as number k. SW_ENOMEM. */
 sw_status sw_sparse_order(size_t n, const int32_t *first, const int32_t *next, int32_t *order);
+/* Likewise, one from end to end of what is long; work: blocks that are changed [-]. */
+sw_status sw_sparse_order_along(size_t n, const int32_t *first, const int32_t *next, int32_t *order,
+                                double *work);
 
 #endif
