@@ -309,8 +309,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .held = all_held(s, n),
                  .reach = sum,
                  .usual = fmax(fmin(p->base_stiffness[n->body[0]], p->base_stiffness[n->body[1]]),
-                               p->rate2 * lighter_mass(s, n)),
-                 .stops = p->h > 0 ? lighter_mass(s, n) / (p->h * p->h) : HUGE_VAL};
+                               p->rate2 * lighter_mass(s, n))};
   k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->h * speed_between(s, n);
   return SW_OK;
 }

@@ -79,11 +79,12 @@ static int is_far(const sw_pairs *p, const sw_pair *k, const sw_pair_touch *t,
 }
 
 /* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
- * would be thousands of weights; then what stops the lighter wire there by itself [N]. */
-static double first_force(const sw_pair_touch *t, const sw_pair *k) {
-  const double depth = fmax(0.0, -t->press.gap), stiffness = t->press.k;
-  const int flown = sw_press_was_put(depth, 0) && !(t->forgiven > 0) && t->kind != SW_CROSSING;
-  return depth * (flown ? fmin(stiffness, k->stops) : stiffness);
+ * would be thousands of weights. Friction then begins with nothing: with what would stop the
+ * lighter wire there it pushes wires of a bundle about that only fall on each other [N]. */
+static double first_force(const sw_pairs *p, const sw_pair_touch *t) {
+  const int flown =
+      p->regime == SW_CONTACT_IMPLICIT && !(t->forgiven > 0) && t->kind != SW_CROSSING;
+  return flown ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -110,7 +111,7 @@ static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, co
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
-  press->lag = pressed ? m->normal_force : first_force(&t, k);
+  press->lag = pressed ? m->normal_force : first_force(p, &t);
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
