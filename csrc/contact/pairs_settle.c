@@ -29,7 +29,8 @@ static void find_scales(sw_pairs *p) {
   for (size_t i = 0; i < p->touch_count; i++)
     for (size_t k = 0; k < 2; k++) {
       double *largest = &p->largest[p->pairs[p->touches[i].pair].body[k]];
-      *largest = fmax(*largest, p->touches[i].press.lag);
+      const double lag = p->touches[i].press.lag;
+      if (lag > *largest) *largest = lag;
     }
 }
 
@@ -93,8 +94,10 @@ void sw_pairs_refine(sw_pairs *p, sw_contact *contact, sw_system *s) {
   p->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &p->spots);
   find_scales(p);
-  for (size_t i = 0; i < p->touch_count; i++)
-    sw_spots_add(&p->spots, s, spot_of(p, &p->touches[i]));
+  for (size_t i = 0; i < p->touch_count; i++) {
+    sw_pair_touch *t = &p->touches[i];
+    if (t->press.active && t->press.sliding) sw_spots_add(&p->spots, s, spot_of(p, t));
+  }
   sw_spots_follow(&p->spots, s);
 }
 

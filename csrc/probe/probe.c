@@ -90,7 +90,7 @@ static int mod_sparse(lua_State *L) {
                   "no such node");
     at[k] = (sw_sparse_pair){(uint32_t)i, (uint32_t)j};
   }
-  sw_status status = sw_sparse_new(n, b, at, pairs, &s);
+  sw_status status = sw_sparse_new(n, b, at, pairs, NULL, &s);
   if (status != SW_OK) return lsw_raise(L, status, &err);
   sw_sparse_clear(s);
   for (size_t i = 0; i < n; i++) memcpy(sw_sparse_own(s, i), own + bb * i, bb * sizeof *own);
