@@ -88,36 +88,36 @@ static double first_force(const sw_pairs *p, const sw_pair_touch *t) {
 }
 
 static sw_status add_touch(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
-                           sw_pair_touch t, double gap, sw_vec normal, const sw_pair_memory *m,
+                           sw_pair_touch *t, double gap, sw_vec normal, const sw_pair_memory *m,
                            const sw_pair_touch *last) {
   const double friction = sw_pair_rule_of(p, k->body)->friction;
-  t.pair = (uint32_t)(k - p->pairs);
-  t.stage = p->stage;
-  sw_press *press = &t.press;
+  t->pair = (uint32_t)(k - p->pairs);
+  t->stage = p->stage;
+  sw_press *press = &t->press;
   press->gap = gap, press->normal = normal;
-  if (!(sw_norm2(t.square) > 0)) t.square = normal;
-  press->k = t.stiffer = stiffness_of(p, k, m, last);
-  forgive(p, s, k, m, &t);
-  press->gap += t.forgiven;
+  if (!(sw_norm2(t->square) > 0)) t->square = normal;
+  press->k = t->stiffer = stiffness_of(p, k, m, last);
+  forgive(p, s, k, m, t);
+  press->gap += t->forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, last && p->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
   const int pressed = m && m->normal_force > 0;
-  t.far = is_far(p, k, &t, last, pressed);
-  if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t.kind != SW_CROSSING)
+  t->far = is_far(p, k, t, last, pressed);
+  if (pressed && !last && p->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING)
     press->active |= press->gap < STILL_NEAR * k->reach;
-  sw_vec u = sw_sub(sw_pair_apart(y, t.bow), sw_pair_apart(s->x, t.bow));
+  sw_vec u = sw_sub(sw_pair_apart(y, t->bow), sw_pair_apart(s->x, t->bow));
   if (pressed)
     u = sw_add(u, carry(m->elastic, m->normal, normal));
   else if (!press->active)
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == p->stage, p->first);
-  press->lag = pressed ? m->normal_force : first_force(p, &t);
+  press->lag = pressed ? m->normal_force : first_force(p, t);
   if (last) sw_press_take_lag(press, &last->press);
   const int known = (last && last->press.active) || pressed;
   if (known) press->sliding = last && last->press.active ? last->press.next_sliding : m->sliding;
   sw_press_begin(press, friction, known, HUGE_VAL);
   SW_TRY(sw_grow((void **)&p->touches, &p->touch_capacity, p->touch_count + 1, sizeof *p->touches));
-  p->touches[p->touch_count++] = t;
+  p->touches[p->touch_count++] = *t;
   return SW_OK;
 }
 
@@ -145,7 +145,7 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   sw_vec normal = sw_unit_or(d, m ? m->normal : sw_v(0, 0, 1));
   if (m && distance < PASSED * k->reach && sw_dot(normal, m->normal) < 0)
     normal = sw_neg(normal), distance = -distance;
-  return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
+  return add_touch(p, s, k, y, &t, distance - k->reach, normal, m, last);
 }
 
 static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
@@ -160,7 +160,7 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     const double gap = sw_dot(b->normal, d) - k->reach;
     *found = 1;
     t.aslant = sw_norm(d) - k->reach - gap;
-    SW_TRY(add_touch(p, s, k, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
+    SW_TRY(add_touch(p, s, k, y, &t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
                      sw_pair_last(p, k, b->at, SW_CROSSING)));
   }
   return SW_OK;
@@ -196,7 +196,7 @@ static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k,
   t.steady = m ? m->steady : 0;
   t.square = normal;
   normal = sw_pair_leaning(s, k, y, &t, normal, t.steady);
-  return add_touch(p, s, k, y, t, distance - k->reach, normal, m, last);
+  return add_touch(p, s, k, y, &t, distance - k->reach, normal, m, last);
 }
 
 static sw_vec edge(const double *y, uint32_t e) {
