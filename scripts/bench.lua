@@ -468,9 +468,9 @@ local function print_bundles()
     for _, cable in ipairs{ false, "GXL 1.5" } do
       local falling, lying, fell, lay = crowds.bundle(count, cable)
       local alone, still = crowds.bundle(count, cable, true)
-      print(("%6d wires%s in a bundle: %.2f s a simulated second falling, %.1f solves each; lying %.2f, %.1f;")
+      print(("%6d wires%s in a bundle: %.2f s a simulated second falling, %.1f solves each; lying %.2f, %.1f")
         :format(count, cable and " " .. cable or "", falling, fell, lying, lay))
-      print(("       that is %.0f and %.0f times wires that do not touch each other"):format(
+      print(("       over wires that do not touch each other: %.0f times falling, %.0f lying"):format(
         falling / alone, lying / still))
       io.stdout:flush()
     end
