@@ -139,7 +139,7 @@ static sw_status find(sw_grains *g, const sw_system *s, const double *y, const s
   if (!t) return SW_ENOMEM;
   t->barred = barred;
   if (barred) t->aslant = sw_norm(d) - distance;
-  sw_meet_add(m, s, y, t, distance - k->reach, normal, met, last, HUGE_VAL);
+  sw_meet_add(m, s, y, t, distance - k->reach, normal, met, last);
   return SW_OK;
 }
 

@@ -75,15 +75,16 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
 }
 
 /* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
- * would be thousands of weights; then what stops the lighter wire there by itself [N]. */
-static double first_force(const sw_meet *t, double stops) {
-  const double depth = fmax(0.0, -t->press.gap), stiffness = t->press.k;
-  const int flown = sw_press_was_put(depth, 0) && !(t->forgiven > 0) && t->kind != SW_CROSSING;
-  return depth * (flown ? fmin(stiffness, stops) : stiffness);
+ * would be thousands of weights. Friction then begins with nothing: with what would stop the
+ * lighter wire there it pushes wires of a bundle about that only fall on each other [N]. */
+static double first_force(const sw_mutual *m, const sw_meet *t) {
+  const int flown =
+      m->regime == SW_CONTACT_IMPLICIT && !(t->forgiven > 0) && t->kind != SW_CROSSING;
+  return flown ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
 }
 
 static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
-                           const sw_met *met, const sw_meet *last, double stops) {
+                           const sw_met *met, const sw_meet *last) {
   sw_press *press = &t->press;
   const int pressed = met && met->kept.normal_force > 0, went_on = last && last->press.active;
   sw_vec u = sw_sub(sw_bows_apart(y, t->bow), sw_bows_apart(s->x, t->bow));
@@ -93,7 +94,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
   sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
-                  first_force(t, stops));
+                  first_force(m, t));
   sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
 
@@ -105,7 +106,7 @@ sw_meet *sw_meet_new(sw_mutual *m) {
 }
 
 void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, double gap,
-                 sw_vec normal, const sw_met *met, const sw_meet *last, double stops) {
+                 sw_vec normal, const sw_met *met, const sw_meet *last) {
   sw_press *press = &t->press;
   const int pressed = met && met->kept.normal_force > 0;
   t->stage = m->stage;
@@ -119,7 +120,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   t->far = is_far(m, t, last, pressed);
   if (pressed && !last && m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING)
     press->active |= press->gap < STILL_NEAR * t->reach;
-  begin_friction(m, s, y, t, met, last, stops);
+  begin_friction(m, s, y, t, met, last);
   m->touch_count++;
 }
 
@@ -155,7 +156,8 @@ static void find_scales(sw_mutual *m) {
   for (size_t i = 0; i < m->touch_count; i++)
     for (size_t k = 0; k < 2; k++) {
       double *largest = &m->largest[m->touches[i].of.body[k]];
-      *largest = fmax(*largest, m->touches[i].press.lag);
+      const double lag = m->touches[i].press.lag;
+      if (lag > *largest) *largest = lag;
     }
 }
 

@@ -135,10 +135,9 @@ double sw_ends_speed(const sw_system *system, const sw_ends *e);
 /* A new touch, all zero, that is not in the list yet; or NULL: there is no room. */
 sw_meet *sw_meet_new(sw_mutual *mutual);
 /* It is in the list, with all that its place tells; gap and normal at positions y. met, last: what
- * it was at the step before and in the iterate before, or NULL. stops: stiffness that stops the
- * lighter thing within the step, by its mass alone [N/m]. */
+ * it was at the step before and in the iterate before, or NULL. */
 void sw_meet_add(sw_mutual *mutual, const sw_system *system, const double *y, sw_meet *t,
-                 double gap, sw_vec normal, const sw_met *met, const sw_meet *last, double stops);
+                 double gap, sw_vec normal, const sw_met *met, const sw_meet *last);
 /* Axes that have got through each other within the iteration are told by the remembered normal,
  * which turns theirs and the distance round. */
 void sw_meet_side(const sw_met *m, double reach, sw_vec *normal, double *distance);

@@ -33,7 +33,6 @@ typedef struct sw_pair {
   double reach;       /* sum of the radii [m] */
   double usual;       /* stiffness of a new touch [N/m] */
   size_t last, last_end; /* its touches of the iterate before */
-  double stops; /* stiffness that stops the lighter one within the step, by its mass alone [N/m] */
 } sw_pair;
 
 /* Two segments as what may touch. */

@@ -237,8 +237,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
                  .held = sw_ends_held(s, &ends),
                  .reach = sum,
                  .usual = fmax(fmin(p->m.base[n->body[0]], p->m.base[n->body[1]]),
-                               p->m.rate2 * lighter_mass(s, n)),
-                 .stops = p->m.h > 0 ? lighter_mass(s, n) / (p->m.h * p->m.h) : HUGE_VAL};
+                               p->m.rate2 * lighter_mass(s, n))};
   k->bridged = !k->held && n->distance - sum <= TO_BRIDGE * sum + p->m.h * sw_ends_speed(s, &ends);
   return SW_OK;
 }

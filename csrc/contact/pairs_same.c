@@ -4,28 +4,30 @@
  * two segments has the nearest place: the touch of a node is the same one on either. */
 #include <math.h>
 
-#include "base/halving.h"
 #include "contact/pair.h"
 #include "contact/same.h"
 
 /* --- of the step before ------------------------------------------------------------ */
 
-/* Memory is in the order of the segments: the first of these, or what comes after. */
-static uint32_t first_memory(const sw_pairs *p, uint32_t one, uint32_t two) {
+/* Memory is in the order of the segments: the first of these from number i on, or what comes after.
+ */
+static uint32_t first_memory(const sw_pairs *p, uint32_t i, uint32_t one, uint32_t two) {
   const sw_met *m = p->m.memory;
-  size_t i;
-  SW_FIRST_NOT(m[i].of.node[0] < one || (m[i].of.node[0] == one && m[i].of.node[1] < two), i, 0,
-               p->m.memory_count);
-  return (uint32_t)i;
+  while (i < p->m.memory_count &&
+         (m[i].of.node[0] < one || (m[i].of.node[0] == one && m[i].of.node[1] < two)))
+    i++;
+  return i;
 }
 
 void sw_pairs_match(sw_pairs *p) {
   size_t before = 0;
+  uint32_t from[3] = {0, 0, 0}; /* pairs are in that order too */
   for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
     for (uint32_t row = 0; row < 3; row++)
-      k->memory[row] = k->one + row > 0 ? first_memory(p, k->one + row - 1, k->two ? k->two - 1 : 0)
-                                        : (uint32_t)p->m.memory_count;
+      k->memory[row] = k->one + row > 0
+                           ? (from[row] = first_memory(p, from[row], k->one + row - 1, k->two - 1))
+                           : (uint32_t)p->m.memory_count;
     while (p->pairs[before].one + 1 < k->one ||
            (p->pairs[before].one + 1 == k->one && p->pairs[before].two < k->two))
       before++;

@@ -34,7 +34,7 @@ static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, con
   sw_meet_side(met, k->reach, &normal, &distance);
   sw_meet *t = new_touch(p, k, kind, at, bow, (int[2]){slides_one, slides_two});
   if (!t) return SW_ENOMEM;
-  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last, k->stops);
+  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last);
   return SW_OK;
 }
 
@@ -51,7 +51,7 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
     *found = t->barred = 1;
     t->aslant = sw_norm(d) - k->reach - gap;
     sw_meet_add(&p->m, s, y, t, gap, b->normal, sw_pair_recall(p, k, b->at, SW_CROSSING),
-                sw_pair_last(p, k, b->at, SW_CROSSING), k->stops);
+                sw_pair_last(p, k, b->at, SW_CROSSING));
   }
   return SW_OK;
 }
@@ -84,7 +84,7 @@ static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k,
   t->steady = met ? met->kept.steady : 0;
   t->square = normal;
   normal = sw_pair_leaning(s, k, y, t, normal, t->steady);
-  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last, k->stops);
+  sw_meet_add(&p->m, s, y, t, distance - k->reach, normal, met, last);
   return SW_OK;
 }
 

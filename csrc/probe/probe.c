@@ -92,7 +92,7 @@ static int mod_sparse(lua_State *L) {
                   "no such node");
     at[k] = (sw_sparse_pair){(uint32_t)i, (uint32_t)j};
   }
-  sw_status status = sw_sparse_new(n, b, at, pairs, &s);
+  sw_status status = sw_sparse_new(n, b, at, pairs, NULL, &s);
   if (status != SW_OK) return lsw_raise(L, status, &err);
   sw_sparse_clear(s);
   for (size_t i = 0; i < n; i++) memcpy(sw_sparse_own(s, i), own + bb * i, bb * sizeof *own);
@@ -128,7 +128,7 @@ static sw_status new_blocks(lua_State *L, sw_blocks **out) {
     luaL_argcheck(L, list[2 * k] >= 0 && list[2 * k + 1] >= 0, 1, "no such node");
     pairs[k] = (sw_blocks_pair){(uint32_t)list[2 * k], (uint32_t)list[2 * k + 1]};
   }
-  return sw_blocks_new_sparse(nodes, pairs, count, out);
+  return sw_blocks_new_sparse(nodes, pairs, count, NULL, out);
 }
 
 /* The blocks that exist, from a dense matrix row by row; returns how many. */

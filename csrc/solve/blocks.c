@@ -26,10 +26,10 @@ sw_status sw_blocks_new_rings(size_t rings, size_t per_ring, sw_blocks **out) {
 }
 
 sw_status sw_blocks_new_sparse(size_t nodes, const sw_blocks_pair *pairs, size_t count,
-                               sw_blocks **out) {
+                               const int32_t *order, sw_blocks **out) {
   sw_blocks *b = sw_alloc(1, sizeof *b);
   if (!b) return SW_ENOMEM;
-  return finish(sw_blocks_sparse_new(nodes, pairs, count, &b->sparse), b, out);
+  return finish(sw_blocks_sparse_new(nodes, pairs, count, order, &b->sparse), b, out);
 }
 
 void sw_blocks_free(sw_blocks *b) {

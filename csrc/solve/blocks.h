@@ -24,10 +24,11 @@ typedef struct sw_blocks_pair {
  * neighbouring rings. SW_EINVAL for no nodes, SW_ENOMEM. */
 sw_status sw_blocks_new_rings(size_t rings, size_t per_ring, sw_blocks **out);
 
-/* Blocks exist for the nodes themselves and for these pairs, which may repeat. SW_EINVAL for no
- * nodes or a pair that is none, SW_ELIMIT for too many, SW_ENOMEM. */
+/* Blocks exist for the nodes themselves and for these pairs, which may repeat. order (nodes): in
+ * which nodes are eliminated, NULL: one that is found. SW_EINVAL for no nodes or a pair that is
+ * none, SW_ELIMIT for too many, SW_ENOMEM. */
 sw_status sw_blocks_new_sparse(size_t nodes, const sw_blocks_pair *pairs, size_t count,
-                               sw_blocks **out);
+                               const int32_t *order, sw_blocks **out);
 void sw_blocks_free(sw_blocks *blocks); /* NULL is allowed */
 
 size_t sw_blocks_nodes(const sw_blocks *blocks);

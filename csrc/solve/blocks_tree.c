@@ -153,9 +153,10 @@ static sw_status build(sw_tree *t, const sw_cholmod_plan *plan) {
   return SW_OK;
 }
 
-sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column, sw_tree **out) {
+sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column,
+                      const int32_t *order, sw_tree **out) {
   sw_cholmod_plan plan = {0};
-  SW_TRY(sw_cholmod_analyse(nodes, first, column, &plan));
+  SW_TRY(sw_cholmod_analyse(nodes, first, column, order, &plan));
   sw_tree *t = sw_alloc(1, sizeof *t);
   sw_status status = SW_ENOMEM;
   if (t) {

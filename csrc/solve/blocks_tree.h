@@ -14,8 +14,10 @@
 typedef struct sw_tree sw_tree;
 
 /* Node i has the blocks first[i] .. first[i + 1] - 1, of columns column[..] ascending, the last
- * one its own. Both lists must outlive the tree. SW_ENOMEM, SW_ELIMIT. */
-sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column, sw_tree **out);
+ * one its own. Both lists must outlive the tree. order: of the elimination, or NULL. SW_ENOMEM,
+ * SW_ELIMIT. */
+sw_status sw_tree_new(size_t nodes, const uint32_t *first, const uint32_t *column,
+                      const int32_t *order, sw_tree **out);
 void sw_tree_free(sw_tree *tree); /* NULL is allowed */
 
 /* values: 9 a block, row by row. Otherwise as sw_blocks_factor. */

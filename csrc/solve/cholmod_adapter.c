@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/cholmod_adapter.h"
 
+#include <string.h>
 #include <suitesparse/cholmod.h>
 
 #include "base/alloc.h"
@@ -15,7 +16,7 @@ static sw_status status_of(const cholmod_common *common) {
 
 /* CHOLMOD tries minimum degree first and nested dissection where that fills a lot. */
 static sw_status analyse(size_t nodes, const uint32_t *first, const uint32_t *column,
-                         cholmod_common *common, cholmod_factor **out) {
+                         const int32_t *order, cholmod_common *common, cholmod_factor **out) {
   const size_t blocks = first[nodes];
   cholmod_sparse *graph =
       cholmod_allocate_sparse(nodes, nodes, blocks, 1, 1, 1, CHOLMOD_PATTERN, common);
@@ -23,7 +24,11 @@ static sw_status analyse(size_t nodes, const uint32_t *first, const uint32_t *co
   int *start = graph->p, *row = graph->i;
   for (size_t i = 0; i <= nodes; i++) start[i] = (int)first[i];
   for (size_t k = 0; k < blocks; k++) row[k] = (int)column[k];
-  *out = cholmod_analyze(graph, common);
+  int *given = order ? cholmod_malloc(nodes, sizeof *given, common) : NULL;
+  if (given) memcpy(given, order, nodes * sizeof *given);
+  if (order) common->nmethods = 1, common->method[0].ordering = CHOLMOD_GIVEN;
+  if (!order || given) *out = cholmod_analyze_p(graph, given, NULL, 0, common);
+  if (given) cholmod_free(nodes, sizeof *given, given, common);
   cholmod_free_sparse(&graph, common);
   const sw_status status = status_of(common);
   return status == SW_OK && !*out ? SW_ENOMEM : status;
@@ -44,14 +49,14 @@ void sw_cholmod_free_plan(sw_cholmod_plan *plan) {
 }
 
 sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t *column,
-                             sw_cholmod_plan *plan) {
+                             const int32_t *order, sw_cholmod_plan *plan) {
   cholmod_common common;
   cholmod_factor *factor = NULL;
   cholmod_start(&common);
   common.print = 0;
   common.metis_memory = 2.0; /* asked for on trial before METIS runs, which may end the process */
   common.supernodal = CHOLMOD_SUPERNODAL;
-  sw_status status = analyse(nodes, first, column, &common, &factor);
+  sw_status status = analyse(nodes, first, column, order, &common, &factor);
   if (status == SW_OK) {
     plan->fronts = factor->nsuper;
     plan->order = copy(factor->Perm, nodes);

@@ -19,9 +19,10 @@ typedef struct sw_cholmod_plan {
 } sw_cholmod_plan;
 
 /* Node i is coupled to nodes column[first[i]] .. column[first[i + 1] - 1], ascending, the last
- * one itself. SW_ENOMEM, SW_ELIMIT; then there is no plan to free. */
+ * one itself. order: in which they are to be eliminated, but for what makes no difference; NULL: to
+ * be found. SW_ENOMEM, SW_ELIMIT; then there is no plan to free. */
 sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t *column,
-                             sw_cholmod_plan *plan);
+                             const int32_t *order, sw_cholmod_plan *plan);
 void sw_cholmod_free_plan(sw_cholmod_plan *plan);
 
 #endif

@@ -3,7 +3,7 @@
  * only place that knows the AMD library. */
 #include <suitesparse/amd.h>
 
-#include "solve/sparse.h"
+#include "solve/order.h"
 
 sw_status sw_sparse_order(size_t n, const int32_t *first, const int32_t *next, int32_t *order) {
   const int status = amd_order((int)n, first, next, order, NULL, NULL);

@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/simd.h"
 #include "solve/blocks.h"
+#include "solve/order.h"
 
 /* Two right-hand sides go through together: the way through a chain is one of waiting. */
 typedef double two __attribute__((vector_size(16)));
@@ -22,6 +23,7 @@ static const size_t DENSE = 12;
 struct sw_sparse {
   size_t n, block, pairs;
   sw_blocks *fronts;     /* the matrix, where L is that dense; nothing but slot is used besides */
+  int along;             /* 1: these are in the order from end to end */
   uint32_t *place;       /* (n) node -> its number in the elimination */
   uint32_t *start, *row; /* (n + 1), (fill): rows of each column of L, ascending */
   uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
@@ -47,22 +49,6 @@ void sw_sparse_free(sw_sparse *s) {
 size_t sw_sparse_fill(const sw_sparse *s) { return s->fill; }
 
 /* --- analysis ------------------------------------------------------------------- */
-
-/* Lists of neighbours, both directions; repeated pairs stay repeated. */
-static sw_status neighbours(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t **first,
-                            int32_t **next) {
-  *first = sw_alloc(n + 2, sizeof **first);
-  *next = sw_alloc(2 * count + 1, sizeof **next);
-  if (!*first || !*next) return SW_ENOMEM;
-  int32_t *at = *first + 1; /* becomes first: filled one place further on */
-  for (size_t k = 0; k < count; k++) at[pairs[k].i + 1]++, at[pairs[k].j + 1]++;
-  for (size_t i = 1; i < n; i++) at[i] += at[i - 1];
-  for (size_t k = 0; k < count; k++) {
-    (*next)[at[pairs[k].i]++] = (int32_t)pairs[k].j;
-    (*next)[at[pairs[k].j]++] = (int32_t)pairs[k].i;
-  }
-  return SW_OK;
-}
 
 static void sort(uint32_t *a, size_t n) {
   for (size_t i = 1; i < n; i++) {
@@ -138,16 +124,16 @@ static sw_status find_targets(sw_sparse *s) {
   return SW_OK;
 }
 
-static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count, analysis *a) {
+static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
+                              analysis *a) {
   const size_t n = s->n;
   a->order = sw_alloc(n, sizeof *a->order);
   a->seen = sw_alloc(3 * (n + 1), sizeof *a->seen);
   s->place = sw_alloc(n, sizeof *s->place);
   s->start = sw_alloc(n + 1, sizeof *s->start);
-  s->slot = sw_alloc(count, sizeof *s->slot);
-  if (!a->order || !a->seen || !s->place || !s->start || !s->slot) return SW_ENOMEM;
+  if (!a->order || !a->seen || !s->place || !s->start) return SW_ENOMEM;
   a->child = a->seen + n + 1, a->sibling = a->child + n + 1;
-  SW_TRY(neighbours(n, pairs, count, &a->first, &a->next));
+  SW_TRY(sw_sparse_neighbours(n, pairs, count, &a->first, &a->next));
   SW_TRY(sw_sparse_order(n, a->first, a->next, a->order));
   for (size_t k = 0; k < n; k++) s->place[a->order[k]] = (uint32_t)k;
   for (size_t k = 0; k <= n; k++) a->seen[k] = a->child[k] = a->sibling[k] = (uint32_t)n;
@@ -159,13 +145,24 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
   return SW_OK;
 }
 
+static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+  analysis a = {0};
+  const sw_status status = find_pattern(s, pairs, count, &a);
+  sw_free(a.first);
+  sw_free(a.next);
+  sw_free(a.order);
+  sw_free(a.seen);
+  return status;
+}
+
 /* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
  * transposed. */
-static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
+                            const int32_t *order) {
   sw_blocks_pair *same SW_LOCAL = sw_alloc(count, sizeof *same);
   if (!same) return SW_ENOMEM;
   for (size_t k = 0; k < count; k++) same[k] = (sw_blocks_pair){pairs[k].i, pairs[k].j};
-  const sw_status status = sw_blocks_new_sparse(s->n, same, count, &s->fronts);
+  const sw_status status = sw_blocks_new_sparse(s->n, same, count, order, &s->fronts);
   for (size_t k = 0; k < count && status == SW_OK; k++) {
     const uint32_t i = pairs[k].i, j = pairs[k].j;
     const size_t at = i > j ? sw_blocks_slot(s->fronts, i, j) : sw_blocks_slot(s->fronts, j, i);
@@ -174,36 +171,55 @@ static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t co
   return status;
 }
 
-sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
-                        sw_sparse **out) {
-  analysis a = {0};
-  sw_sparse *s = sw_alloc(1, sizeof *s);
-  if (!s) return SW_ENOMEM;
-  s->n = nodes, s->block = block, s->pairs = count;
-  sw_status status =
-      nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? analyse(s, pairs, count, &a) : SW_ENOMEM;
-  sw_free(a.first);
-  sw_free(a.next);
-  sw_free(a.order);
-  sw_free(a.seen);
-  const size_t bb = block * block;
-  if (status == SW_OK && block == 3 && s->fill > DENSE * nodes) {
-    status = use_fronts(s, pairs, count);
-  } else if (status == SW_OK) {
-    status = find_targets(s);
-    s->x = sw_alloc(bb * (s->n + s->fill + s->widest) + 2 * block * s->n, sizeof *s->own);
-    if (!s->x) status = SW_ENOMEM;
+/* Blocks that the order of least fill changes. */
+static double work_of(const sw_sparse *s) {
+  double sum = 0;
+  for (size_t k = 0; k < s->n; k++) {
+    const double rows = s->start[k + 1] - s->start[k] + 1.0;
+    sum += rows * rows;
   }
-  if (status != SW_OK) {
-    sw_sparse_free(s);
-    return status;
-  }
-  *out = s;
-  if (s->fronts) return SW_OK;
-  s->own = (double *)(s->x + block * s->n);
+  return sum;
+}
+
+/* The pattern in fronts, eliminated along where that is less work. */
+static sw_status choose_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
+  int32_t *order SW_LOCAL = sw_alloc(s->n, sizeof *order);
+  double work;
+  if (!order) return SW_ENOMEM;
+  SW_TRY(sw_sparse_order_along(s->n, pairs, count, order, &work));
+  s->along = s->along || work < work_of(s);
+  return use_fronts(s, pairs, count, s->along ? order : NULL);
+}
+
+/* Memory of the values, where there are no fronts. */
+static sw_status make_room(sw_sparse *s) {
+  const size_t b = s->block, bb = b * b;
+  SW_TRY(find_targets(s));
+  s->x = sw_alloc(bb * (s->n + s->fill + s->widest) + 2 * b * s->n, sizeof *s->own);
+  if (!s->x) return SW_ENOMEM;
+  s->own = (double *)(s->x + b * s->n);
   s->off = s->own + bb * s->n;
   s->column = s->off + bb * s->fill;
   return SW_OK;
+}
+
+sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
+                        const sw_sparse *like, sw_sparse **out) {
+  sw_sparse *s = sw_alloc(1, sizeof *s);
+  if (!s) return SW_ENOMEM;
+  s->n = nodes, s->block = block, s->pairs = count;
+  s->along = like && like->along && block == like->block;
+  s->slot = sw_alloc(count, sizeof *s->slot);
+  sw_status status = s->slot && nodes < INT32_MAX / 4 && count < INT32_MAX / 4 ? SW_OK : SW_ENOMEM;
+  if (status == SW_OK && !s->along) status = analyse(s, pairs, count);
+  if (status == SW_OK)
+    status = s->along || (block == 3 && s->fill > DENSE * nodes) ? choose_fronts(s, pairs, count)
+                                                                 : make_room(s);
+  if (status == SW_OK)
+    *out = s;
+  else
+    sw_sparse_free(s);
+  return status;
 }
 
 /* --- values --------------------------------------------------------------------- */

@@ -21,9 +21,10 @@ typedef struct sw_sparse_pair {
 enum { SW_SPARSE_BLOCK_MAX = 4 };
 
 /* A matrix of nodes x nodes blocks of block x block values (3 or 4), zero apart from
- * the diagonal and the given pairs, which may repeat. SW_ENOMEM. */
+ * the diagonal and the given pairs, which may repeat. like: one of the same block with some pairs
+ * less, which spares a part of the search for an order; or NULL. SW_ENOMEM. */
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
-                        sw_sparse **out);
+                        const sw_sparse *like, sw_sparse **out);
 void sw_sparse_free(sw_sparse *sparse); /* NULL is allowed */
 
 /* All values to zero. */
@@ -46,10 +47,5 @@ void sw_sparse_solve_two(sw_sparse *sparse, double *one, double *other);
 
 /* Blocks below the diagonal of the factor. */
 size_t sw_sparse_fill(const sw_sparse *sparse);
-
-/* An order of n nodes in which few zeros fill: neighbours of node i are
- * next[first[i]] .. next[first[i + 1] - 1], with both directions listed. order[k] is
- * the node to eliminate as number k. SW_ENOMEM. */
-sw_status sw_sparse_order(size_t n, const int32_t *first, const int32_t *next, int32_t *order);
 
 #endif

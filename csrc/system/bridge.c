@@ -208,9 +208,12 @@ sw_status sw_bridges_prepare(sw_system *s) {
   const size_t before = l->known_count;
   for (size_t k = 0; k < l->count; k++) SW_TRY(add_known(l, l->list[k].i, l->list[k].j));
   if (l->matrix && l->known_count == before && !replanned(s)) return SW_OK;
-  sw_sparse_free(l->matrix);
+  sw_sparse *old = l->matrix;
   l->matrix = NULL;
-  SW_TRY(number_nodes(s));
-  SW_TRY(list_pairs(s));
-  return sw_sparse_new(l->nodes, l->block, l->pairs, l->pair_count, &l->matrix);
+  sw_status status = number_nodes(s);
+  if (status == SW_OK) status = list_pairs(s);
+  if (status == SW_OK)
+    status = sw_sparse_new(l->nodes, l->block, l->pairs, l->pair_count, old, &l->matrix);
+  sw_sparse_free(old);
+  return status;
 }

@@ -446,13 +446,21 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
  * let go. From this iteration on they have it. */
 enum { STEADY = 7 };
 
-/* Wires in a bundle need more iterations for their many touches to agree: half as many again cost
- * less than the step's two halves; and of many wires that are solved one by one, twice as many of
- * one cost less than the two halves of all [-]. */
+/* Wires in a bundle need more iterations for their many touches to agree: twice as many cost less
+ * than the step's two halves; and so do those of one of many wires that are solved one by one [-].
+ */
 static int most_iterations(const sw_system *s, const sw_newton *newton) {
-  const int most = newton->max_iterations;
-  if (s->part_end - s->part < s->body_count) return 2 * most;
-  return sw_bridges_any(s) && !newton->statics ? most + most / 2 : most;
+  const int bundle = sw_bridges_any(s) && !newton->statics;
+  const int one = s->part_end - s->part < s->body_count;
+  return newton->max_iterations * (bundle || one ? 2 : 1);
+}
+
+/* Where wires of a bundle were thrown so far that an update had to be shortened, touches have
+ * little to go by; after so many of these they hardly ever found back [-]. */
+enum { MOST_THROWN = 3 };
+
+static int is_thrown(const sw_system *s, const sw_newton *newton, int shortened) {
+  return shortened >= MOST_THROWN && !newton->statics && sw_bridges_any(s);
 }
 
 static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *newton,
@@ -471,6 +479,8 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
       return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
     if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
     shortened += share < 1.0;
+    if (is_thrown(s, newton, shortened))
+      return sw_fail(err, SW_ENOCONV, "wires of a bundle would be thrown about");
     apply(s, stage, share);
     if (converged(s, stage, newton, report, share)) return SW_OK;
   }

@@ -58,7 +58,7 @@ static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more
   size_t count = pairs_of(w, pairs);
   for (size_t i = 0; i < more; i++)
     pairs[count++] = (sw_blocks_pair){others[2 * i], others[2 * i + 1]};
-  return sw_blocks_new_sparse(w->particles, pairs, count, out);
+  return sw_blocks_new_sparse(w->particles, pairs, count, NULL, out);
 }
 
 static size_t between(const sw_blocks *m, size_t a, size_t b) {

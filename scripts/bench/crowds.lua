@@ -66,8 +66,9 @@ function benchcrowds.wires(count, touching)
 end
 
 -- So many wires fall on a table in a bundle, then lie there: time per simulated second of the first
--- 0.2 s and of the next [s/s], solves of a step in both; cable: an entry of the catalogue.
-function benchcrowds.bundle(count, cable)
+-- 0.2 s and of the next [s/s], solves of a step in both; cable: an entry of the catalogue; apart: the
+-- wires do not touch each other.
+function benchcrowds.bundle(count, cable, apart)
   local scene = sw.scene{}
   scene:obstacle{ shape = "plane", friction = 0.3 }
   for i = 0, count - 1 do
@@ -79,7 +80,7 @@ function benchcrowds.bundle(count, cable)
       wire(scene, from, to, 50)
     end
   end
-  scene:wire_contact{ friction = 0.3 }
+  if not apart then scene:wire_contact{ friction = 0.3 } end
   local falling, fell = cost(scene, 0.2)
   local lying, lay = cost(scene, 0.2)
   scene:close()

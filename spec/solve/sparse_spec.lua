@@ -3,8 +3,8 @@
 -- signs against those of dominant diagonals, sparsity of the factor.
 local probe = require "softworld.probe"
 
--- A chain with two neighbours each way and `links` more pairs: blocks as flat lists
--- and the whole matrix as dense rows.
+-- A chain with two neighbours each way and `links` more pairs, or those that links(pair) gives:
+-- blocks as flat lists and the whole matrix as dense rows.
 local function random_matrix(n, b, links, sign)
   local dense, own, pairs, values = {}, {}, {}, {}
   for i = 1, b * n do
@@ -37,7 +37,8 @@ local function random_matrix(n, b, links, sign)
     pair(i, i + 1)
     if i + 2 < n then pair(i, i + 2) end
   end
-  for _ = 1, links do -- both ways round, and some twice
+  if type(links) == "function" then links(pair) end
+  for _ = 1, tonumber(links) or 0 do -- both ways round, and some twice
     local p, q = math.random(0, n - 1), math.random(0, n - 1)
     if p ~= q then pair(p, q) end
   end
@@ -128,6 +129,26 @@ describe("sparse", function()
       local negative = check(21, b, 10, function(node) return node % 3 == 0 and -1 or 1 end)
       assert.are.equal(7 * b, negative)
     end
+  end)
+
+  -- Wires beside each other, coupled all along: elimination goes from end to end, by dense fronts.
+  it("solves bundles and counts their negative directions", function()
+    math.randomseed(7)
+    local wires, long = 12, 16
+    local function across(pair) -- nodes of a wire are numbered one after another
+      for i = 0, long - 1 do
+        for a = 0, wires - 2 do
+          for b = a + 1, math.min(a + 4, wires - 1) do
+            for to = i, math.min(i + 1, long - 1) do pair(long * a + i, long * b + to) end
+          end
+        end
+      end
+    end
+    local function all(sign) return check(wires * long, 3, across, sign) end
+    local negative, fill = all(function() return 1 end)
+    assert.are.equal(0, negative)
+    assert.is_true(fill > 12 * wires * long, fill) -- from there on it is done by fronts
+    assert.are.equal(3 * long, (all(function(node) return node < long and -1 or 1 end)))
   end)
 
   it("keeps the factor of a chain with few links sparse", function()
