@@ -156,11 +156,29 @@ end
 --- The same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".
 function window.text(p, unit) return ("%s (%s)"):format(short(p.value, unit), window.note(p, unit)) end
 
+-- Its largest tension in each step: what a series has.
+local function tension_steps(wire)
+  local rows, count = wire:log()
+  local steps, before = {}, nil
+  for i = 0, count - 1 do
+    local t = rows[3 * i + 1]
+    steps[#steps + 1] = before and t > before and { t0 = before, t1 = t, rows[3 * i + 2], 0, 0 } or nil
+    before = t
+  end
+  return steps
+end
+
 --- A wire's largest tension [N], where [m], when [s], and its note.
 function window.tension(scene, wire)
   local value, s, t = wire:max_tension()
   local raw, _, _, span = wire:max_tension{ raw = true }
-  return value, s, t, window.note({ raw = raw, raw_span = span, width = core.window(scene) }, "N")
+  local p = { value = value, time = t, raw = raw, raw_span = span, width = core.window(scene) }
+  if p.width > 0 and value > 0 and span > 0 then
+    local steps = tension_steps(wire)
+    p.span = longest(steps, t, p.width)
+    p.coarse = p.span > 0 and is_coarse(steps, p, p.width) or nil
+  end
+  return value, s, t, window.note(p, "N")
 end
 
 --- Put a peak into a table of measures, as name = value, name_time, raw_name, ...
