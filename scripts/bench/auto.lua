@@ -192,7 +192,7 @@ local function one(kind, random, share)
   end
   local r, reason, cost = run(build, { auto = true, settle = not moves }, share)
   if not r then return { failed = reason } end
-  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu,
+  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.model.run_cost,
     probes = r.model.cost,
     enough = {}, met = r.met, wall = cost, times = {} }
   for name, q in pairs(r.quantities) do

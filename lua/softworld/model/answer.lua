@@ -78,10 +78,19 @@ local function widen(context, result, model)
   result.met = met
 end
 
+-- What the levels of the run took, those that choosing had left too [s].
+local function cost_of(result)
+  local sum = 0
+  for _, level in ipairs(result.levels or {}) do sum = sum + level.cpu end
+  return sum
+end
+
 --- Give the result its model.
 function answer.add(context, result)
+  local run_cost = cost_of(result)
   local model = setmetatable({ choices = {}, short = {}, unchecked = {}, probes = context.probe_count,
-    cost = context.spent, run_cost = result.cpu, spread = context.spread:text() }, Model)
+    cost = math.max(0, context.spent - run_cost), run_cost = run_cost,
+    spread = context.spread:text() }, Model)
   for _, state in ipairs(context.states) do
     if state.by ~= "idle" then
       local c = choice_of(state)

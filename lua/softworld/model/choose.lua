@@ -64,7 +64,7 @@ end
 
 -- The finest run of the rungs chosen.
 local function refined(context)
-  local job, steps = context.job, nil
+  local job, steps, kept = context.job, nil, nil
   for _, q in ipairs(job.quantities) do
     local left = decide.left_out(context, q.name)
     function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
@@ -75,16 +75,25 @@ local function refined(context)
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
     for name, values in pairs(job.values) do values[k] = known.values[name] or NONE end
-    if suffices(job, k, known.contact) then break end -- the scene is to end there
+    if suffices(job, k, known.contact) then -- the scene is to end there
+      kept = probe.as_it_ended(context, decide.rungs(context), k)
+      break
+    end
     job.levels[k], job.begun = known.level, k
   end
   for _, values in pairs(job.values) do
     for k = job.begun + 1, #values do values[k] = nil end
   end
   affordable(context)
-  job.restore()
+  if not kept then job.restore() end
+  function job.kept(k)
+    local known = k == job.begun + 1 and kept
+    kept = nil
+    return known
+  end
   function job.arrange() steps = probe.arrange(context, decide.rungs(context), nil, true) end
-  local total = { wall = 0, cpu = 0 }
+  local total = { wall = kept and kept.run.wall or 0, cpu = kept and kept.run.cpu or 0 }
+  context.last = nil
   local result = trust.work(job, function(k, name)
     return refine.computer(job, steps, context.run_once, total)(k, name)
   end)
@@ -159,7 +168,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
-    probe_count = 0, spent = 0, states = {}, given_up = {},
+    probe_count = 0, states = {}, given_up = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)
   return context
@@ -208,10 +217,12 @@ function choose.run(scene, given, check, run_once)
   local context = new_context(scene, job, args, run_once)
   local touching = context.data.touching
   context.most = job.most
+  local begun = os.clock()
   local fine, result = pcall(function()
     begin(context)
     return compute(context)
   end)
+  context.spent = os.clock() - begun
   context.data.auto = nil
   if not fine or result.refused then
     context.data.touching = touching

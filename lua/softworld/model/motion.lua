@@ -9,6 +9,9 @@ local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
 local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
 local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be [-]
 local SAFETY = 3     -- coarse steps do not see all that swings [-]
+local SEEN = 2       -- level whose steps see what rings after a jump [-]
+local STEPS = 8       -- of a computation in a first period that follow the swing [-]
+local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
 local motion = { name = "motion", safety = SAFETY, rungs = {
@@ -57,15 +60,22 @@ end
 
 function motion.look(context, run)
   local scene = context.scene
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(),
+  local _, _, acceleration = facts.swept()
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration,
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
-    period = context.period }
+    period = context.period, dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
 --- The first period, of the scene at rest as it begins [s].
 function motion.begin(context)
   if context.job.rests then context.period = period(context.scene) end
 end
+
+--- Do the steps of a computation follow the first swing, so that what swings is not damped away?
+function motion.resolves(f) return f.period ~= nil and f.dt <= f.period / STEPS end
+
+--- Does level k tell too little? What a jump sets ringing coarse steps damp away.
+function motion.blurred(f, k) return f.jumps > 0 and k < SEEN end
 
 function motion.free(_, rung, f, share)
   if rung ~= 1 then return nil end
@@ -80,9 +90,10 @@ function motion.free(_, rung, f, share)
     facts.percent(INERTIA * share))
 end
 
---- Poses that need more iterations than steps do are no saving.
+--- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
+-- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
 function motion.costly(rung, here, above)
-  if rung == 1 and here.iterations >= above.iterations then
+  if rung == 1 and here.iterations >= COSTLY * above.iterations then
     return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
       above.iterations)
   end

@@ -12,6 +12,8 @@
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
 --     changes.shape(k) makes other models of wires on level k. rungs: of all choices, by their names
 --   expected(context, rung, k): time of a run on level k, where it may cost much [s]
+--   resolves(facts): the computation follows what the next rung adds
+--   blurred(facts, k): level k of a comparison tells too little of the next rung to stay
 --   look(context, run): what a computation tells about the choice, read at its end
 --   idle(facts): there was nothing to choose
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
