@@ -42,7 +42,12 @@ function Model:__tostring()
 end
 
 local function choice_of(state)
-  local rung = state.choice.rungs[state.rung]
+  local rung, on = state.choice.rungs[state.rung], state.went_on
+  if on then
+    rung = state.choice.rungs[state.rung + 1]
+    return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = "switched",
+      why = on.text .. "; before, " .. state.why, error = state.change }
+  end
   return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = state.by,
     why = state.why or state.doubt or "there is no dearer one", error = state.change }
 end
@@ -95,6 +100,10 @@ function answer.add(context, result)
     if state.by ~= "idle" then
       local c = choice_of(state)
       model.choices[#model.choices + 1], model[c.name] = c, c.rung
+      if state.went_on then
+        result.events[#result.events + 1] = { kind = "model", time = state.went_on.time, count = 1,
+          text = ("%s: %s"):format(c.name, state.went_on.text) }
+      end
       if state.short then model.short[#model.short + 1] = state.short end
       if state.by == "failed" then model.blind = ("%s was not checked: %s"):format(c.name, c.why) end
       if not state.short and state.doubt and state.by == "skipped" then

@@ -11,6 +11,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local decide = require "softworld.model.decide"
+local guard = require "softworld.model.guard"
 local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
@@ -62,6 +63,19 @@ local function affordable(context)
   function job.enough(k, good) return good >= 2 and is_dear(context, k) end
 end
 
+-- The steps of levels, each with a guard of what free checks stand on.
+local function guarded(context, steps)
+  local base = probe.known(context, decide.rungs(context), 1)
+  local share = base and base.values and decide.tightest(context, base.values)
+  return function(k)
+    local options = steps(k)
+    if context.guard then context.guard:close() end
+    context.guard = share and guard.new(context, SLACK * share)
+    options.guard = context.guard
+    return options
+  end
+end
+
 -- The finest run of the rungs chosen.
 local function refined(context)
   local job, steps, kept = context.job, nil, nil
@@ -91,7 +105,7 @@ local function refined(context)
     kept = nil
     return known
   end
-  function job.arrange() steps = probe.arrange(context, decide.rungs(context), nil, true) end
+  function job.arrange() steps = guarded(context, probe.arrange(context, decide.rungs(context), nil, true)) end
   local total = { wall = kept and kept.run.wall or 0, cpu = kept and kept.run.cpu or 0 }
   context.last = nil
   local result = trust.work(job, function(k, name)
@@ -108,6 +122,7 @@ local function given_up(context, state)
   local rung = state.rung
   repeat until decide.look(context, state)
   local text = ("in the fine run it does not hold any more that %s"):format(why)
+  if state.no_way then text = ("%s, and the run began again: %s"):format(text, state.no_way) end
   state.why = state.why and text .. "; " .. state.why or text
   if state.rung == rung then return end
   context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
@@ -122,7 +137,7 @@ local function broken(context, result)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
-    if state.by == "free" and not state.choice.free(context, state.rung, f, SLACK * share) then
+    if state.by == "free" and not state.went_on and not state.choice.free(context, state.rung, f, SLACK * share) then
       given_up(context, state)
       again = true
     end
@@ -223,6 +238,7 @@ function choose.run(scene, given, check, run_once)
     return compute(context)
   end)
   context.spent = os.clock() - begun
+  if context.guard then context.guard:close() end
   context.data.auto = nil
   if not fine or result.refused then
     context.data.touching = touching

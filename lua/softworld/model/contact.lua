@@ -60,4 +60,12 @@ function contact.free(_, rung, f)
     room_is, f.turning, math.pi)
 end
 
+--- Why wires may meet from here on, of what was seen of a run on the way.
+function contact.broken(f)
+  return f.frames and f.room <= 0 and "wires came as near to each other as they move between frames" or nil
+end
+
+--- They touch each other from here on.
+function contact.onward(context) record.quietly(context.scene.wire_contact, context.scene, {}) end
+
 return contact

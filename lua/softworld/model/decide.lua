@@ -15,6 +15,7 @@ local DOUBT = 4
 local SAFETY = 1.5 -- of what is known of finer levels [-]
 local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
+local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 
@@ -69,15 +70,15 @@ local function moved(before, now, name)
   return a and quantity.alike(a, b) and quantity.distance(a, b) or math.huge
 end
 
--- What the change of a quantity by the next rung may be on the finest level. Of a choice with safety: the
--- change here as many times; or, where the level tells what happens, the change with what both rungs still
+-- What the change of a quantity by the next rung may be on the finest level: the change here, times the
+-- choice's safety; or, where the level tells what happens, the change with 1.5 times what both rungs still
 -- move by, if that is less. levels: { here =, above = } of the rungs, also before.
 local function bound(state, levels, name, d)
   local choice, before = state.choice, levels.before or {}
   local most = choice.safety * d
   if not choice.resolves or not choice.resolves(levels.above.facts[choice.name]) then return most end
   local still = moved(before.here, levels.here, name) + moved(before.above, levels.above, name)
-  return math.min(most, SAFETY * (d + still))
+  return math.min(most, d + SAFETY * still)
 end
 
 -- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
@@ -114,11 +115,14 @@ local function saves_nothing(context, above, before, k)
   return true
 end
 
--- Does the level tell enough of the next rung to stay?
-local function is_blurred(state, here, k)
+-- Does the level tell too little of the next rung to stay, or to go?
+local function is_blurred(context, state, now, c)
   local choice = state.choice
-  if choice.rungs[state.rung].own then return k == 1 end -- how far the next rung itself is off
-  return choice.blurred and choice.blurred(here.facts[choice.name], k)
+  if now.k > 1 then return false end
+  if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
+  if c.worst > 1 then return c.worst <= FAR end
+  local share = decide.tightest(context, now.above.values)
+  return choice.blurred and choice.blurred(now.here.facts[choice.name], now.above.facts[choice.name], share)
 end
 
 -- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
@@ -134,7 +138,7 @@ local function compare(context, state, rungs, above)
     local now = { k = k, here = here, above = there, before = before }
     c, before = change(context, state, now), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
-    if clear and not is_blurred(state, here, k) then return c end
+    if clear and not is_blurred(context, state, now, c) then return c end
   end
   return c
 end

@@ -35,10 +35,10 @@ function facts.reading(scene, start, f, ...)
   for i, t in ipairs(core.frame_times(scene)) do
     if t >= start then kept.numbers[#kept.numbers + 1] = i end
   end
-  local fine, result = pcall(f, ...)
+  local fine, result, more = pcall(f, ...)
   kept = nil
   if not fine then error(result, 0) end
-  return result
+  return result, more
 end
 
 --- Call look(forces, spacing, number) for the frames in which something presses on wire w, in order: forces

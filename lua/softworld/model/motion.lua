@@ -2,6 +2,7 @@
 --- The choice of motion: a row of poses in equilibrium, or dynamics.
 -- @module softworld.model.motion
 local build = require "softworld.scene.build"
+local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
 
@@ -9,7 +10,8 @@ local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
 local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
 local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be [-]
 local SAFETY = 3     -- coarse steps do not see all that swings [-]
-local SEEN = 2       -- level whose steps see what rings after a jump [-]
+local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
+local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
 local STEPS = 8       -- of a computation in a first period that follow the swing [-]
 local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
@@ -71,11 +73,17 @@ function motion.begin(context)
   if context.job.rests then context.period = period(context.scene) end
 end
 
---- Do the steps of a computation follow the first swing, so that what swings is not damped away?
-function motion.resolves(f) return f.period ~= nil and f.dt <= f.period / STEPS end
+--- Do the steps of a computation of dynamics follow the first swing, so that what swings is not damped away?
+-- Or does it hardly speed up?
+function motion.resolves(f)
+  if f.acceleration and f.acceleration <= SMALL * f.weight then return true end
+  return f.period ~= nil and f.dt <= f.period / STEPS
+end
 
---- Does level k tell too little? What a jump sets ringing coarse steps damp away.
-function motion.blurred(f, k) return f.jumps > 0 and k < SEEN end
+--- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
+function motion.blurred(poses, dynamics, share)
+  return poses.jumps > 0 or (dynamics.acceleration or 0) > share * dynamics.weight
+end
 
 function motion.free(_, rung, f, share)
   if rung ~= 1 then return nil end
@@ -88,6 +96,30 @@ function motion.free(_, rung, f, share)
   return ("it lasts %.3g of its first periods of %s (%d are slow), and inertia is up to %s of the weight "
     .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia),
     facts.percent(INERTIA * share))
+end
+
+--- Why poses cannot go on being free, of what was seen of a run on the way; nil: nothing speaks against it.
+function motion.broken(f, share)
+  if f.jumps > 0 then return "poses jumped from one equilibrium to another" end
+  local inertia = f.weight > 0 and f.acceleration and f.acceleration / f.weight or 0
+  if inertia <= INERTIA * share then return nil end
+  return ("inertia was %s of the weight (limit %s)"):format(facts.percent(inertia),
+    facts.percent(INERTIA * share))
+end
+
+--- Dynamics from here on: wires go on with the speed with which they came.
+function motion.onward(context, options)
+  local scene = context.scene
+  options.quasistatic, options.dt = nil, options.dt / POSES
+  for i = scene:frame_count(), 1, -1 do
+    local frame = scene:frame(i)
+    if frame.t < scene.time - TINY * math.max(1, scene.time) then
+      for k, w in ipairs(build.data(scene).wires) do
+        core.came_from(w.object, frame.wires[k], scene.time - frame.t)
+      end
+      return
+    end
+  end
 end
 
 --- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
