@@ -105,7 +105,9 @@ local function refined(context)
     kept = nil
     return known
   end
-  function job.arrange() steps = guarded(context, probe.arrange(context, decide.rungs(context), nil, true)) end
+  function job.arrange()
+    steps = guarded(context, probe.arrange(context, decide.rungs(context), nil, true))
+  end
   local total = { wall = kept and kept.run.wall or 0, cpu = kept and kept.run.cpu or 0 }
   context.last = nil
   local result = trust.work(job, function(k, name)
@@ -137,7 +139,8 @@ local function broken(context, result)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
-    if state.by == "free" and not state.went_on and not state.choice.free(context, state.rung, f, SLACK * share) then
+    local stands = state.by ~= "free" or state.went_on
+    if not stands and not state.choice.free(context, state.rung, f, SLACK * share) then
       given_up(context, state)
       again = true
     end

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Watching a run while it goes on: does what the free checks stand on still hold? Where it does not, the run
--- goes back to a snapshot from before that moment, and on from there with the next rung of the choice.
+--- Watching a run while it goes on: does what the free checks stand on still hold? Where it does not, the
+-- run goes back to a snapshot from before that moment, and on from there with the next rung of the choice.
 --
--- A snapshot brings back the scene, but no Lua function that has gone on since: it is taken anew whenever a
+-- A snapshot brings back the scene, but no Lua function that has gone on since: it is taken anew when a
 -- process has. Where there is no way back, or the rung cannot be changed on the way, the run goes on as it is,
 -- and is computed again from its start.
 -- @module softworld.model.guard
@@ -15,9 +15,9 @@ local process = require "softworld.run.process"
 local guard = {}
 guard.__index = guard
 
-local LOOKS = 20  -- at a run of known duration, one each [-]
-local FRAMES = 4  -- new ones between two looks at least [-]
-local BEFORE = 2  -- frames from before a look that it sees too [-]
+local LOOKS = 20 -- at a run of known duration, one each [-]
+local FRAMES = 4 -- new ones between two looks at least [-]
+local BEFORE = 2 -- frames from before a look that it sees too [-]
 
 --- A guard of a run of a context; share: the tightest tolerance over its value, times the slack of the
 -- checks. nil: no choice stands on a check that can be looked at on the way.
@@ -35,15 +35,21 @@ end
 local function keep(self, total)
   if self.snapshot then self.snapshot:close() end
   self.snapshot, self.mark = self.scene:snapshot(), process.mark(self.scene)
-  self.jumps, self.steps, self.time = total.jumps, total.steps, self.scene.time
+  self.jumps, self.time = total.jumps, self.scene.time
 end
 
---- Processes have gone on, or not.
+--- Processes have gone on, or not. Of those that do at each step there is no state at each.
 function guard:stepped(total)
   if #self.open == 0 then return end
   self.start = self.start or self.scene.time
   self.from, self.frames = self.from or self.start, self.frames or self.scene:frame_count()
-  if not self.snapshot or not process.is_at(self.scene, self.mark) then keep(self, total) end
+  local count = self.scene:frame_count()
+  if not self.snapshot then
+    keep(self, total)
+  elseif count > (self.moved or -1) and not process.is_at(self.scene, self.mark) then
+    keep(self, total)
+    self.moved = count
+  end
 end
 
 --- The run is over, or given up.
@@ -52,13 +58,12 @@ function guard:close()
   self.snapshot = nil
 end
 
-local function is_due(self, options, total)
+local function is_due(self, total)
   if not self.snapshot or #self.open == 0 then return false end
   if total.jumps > self.jumps then return true end
   local lasts = self.context.args.duration
-  local soon = lasts and self.scene.time < self.time + lasts / LOOKS and options
-  local new = self.scene:frame_count() - self.frames
-  return new >= FRAMES and not soon or self.at_end and self.scene.time > self.time
+  local soon = lasts and self.scene.time < self.time + lasts / LOOKS
+  return not soon and self.scene:frame_count() - self.frames >= FRAMES
 end
 
 -- The first choice whose check does not hold, and why.
@@ -98,27 +103,26 @@ local function switch(self, i, why, options, total)
     return
   end
   local rungs = state.choice.rungs
-  state.went_on = { time = self.scene.time, text = ("%s until %s, where the run went back to a snapshot: by %s %s;"
-    .. " %s from there"):format(rungs[state.rung].as, number.text(self.scene.time, "s"),
+  state.went_on = { time = self.scene.time, text = ("%s until %s, where the run went back to a snapshot: by "
+    .. "%s %s; %s from there"):format(rungs[state.rung].as, number.text(self.scene.time, "s"),
     number.text(moment, "s"), why, rungs[state.rung + 1].as) }
   self.from = self.scene.time
 end
 
---- Between two steps: look, and go back if need be. options: of the run, which the next rung may change.
-function guard:look(options, total)
-  if not is_due(self, options, total) then return end
-  local i, why = facts.reading(self.scene, self.from, broken, self, total)
-  if i then switch(self, i, why, options, total) end
-  local times = self.scene:frame_count()
-  self.frames = times
-  if not i then self.from = math.max(self.from, guard.before(self.scene, BEFORE)) end
-  keep(self, total)
+-- Time of a frame, or of the first [s].
+local function time_of(scene, i)
+  local frame = scene:frame(math.max(1, i))
+  return frame and frame.t or scene.time
 end
 
---- Time of the frame so many before the last [s].
-function guard.before(scene, count)
-  local frame = scene:frame(math.max(1, scene:frame_count() - count))
-  return frame and frame.t or scene.time
+--- Between two steps: look, and go back if need be. options: of the run, which the next rung may change.
+function guard:look(options, total)
+  if not is_due(self, total) then return end
+  local i, why = facts.reading(self.scene, self.from, broken, self, total)
+  if i then switch(self, i, why, options, total) end
+  self.frames = self.scene:frame_count()
+  if not i then self.from = math.max(self.from, time_of(self.scene, self.frames - BEFORE)) end
+  keep(self, total)
 end
 
 return guard
