@@ -3,6 +3,7 @@
 -- fixed model and against far finer runs of the dearest one.
 -- @module bench.auto
 local autohandled = require "bench.autohandled"
+local autoharness = require "bench.autoharness"
 local autopressed = require "bench.autopressed"
 local draw = require "bench.autodraw"
 local sw = require "softworld"
@@ -123,7 +124,7 @@ auto.scenes = {
   end },
 }
 
-for _, list in ipairs { autohandled.scenes, autopressed.scenes } do
+for _, list in ipairs { autohandled.scenes, autoharness.scenes, autopressed.scenes } do
   for _, kind in ipairs(list) do auto.scenes[#auto.scenes + 1] = kind end
 end
 

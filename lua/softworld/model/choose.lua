@@ -139,8 +139,8 @@ local function broken(context, result)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
-    local stands = state.by ~= "free" or state.went_on
-    if not stands and not state.choice.free(context, state.rung, f, SLACK * share) then
+    local checked = state.by == "free" and not state.went_on
+    if checked and not state.choice.free(context, state.rung, f, SLACK * share) then
       given_up(context, state)
       again = true
     end

@@ -3,8 +3,8 @@
 -- run goes back to a snapshot from before that moment, and on from there with the next rung of the choice.
 --
 -- A snapshot brings back the scene, but no Lua function that has gone on since: it is taken anew when a
--- process has. Where there is no way back, or the rung cannot be changed on the way, the run goes on as it is,
--- and is computed again from its start.
+-- process has. Where there is no way back, or the rung cannot be changed on the way, the run goes on as it
+-- is, and is computed again from its start.
 -- @module softworld.model.guard
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
