@@ -82,7 +82,8 @@ end
 
 --- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
 function motion.blurred(poses, dynamics, share)
-  return poses.jumps > 0 or (dynamics.acceleration or 0) > share * dynamics.weight
+  local fast = dynamics.weight > 0 and (dynamics.acceleration or 0) > share * dynamics.weight
+  return fast or poses.jumps > 0
 end
 
 function motion.free(_, rung, f, share)

@@ -47,6 +47,7 @@ end
 
 --- Why wires cannot go on without rolling, of what was seen of a run on the way.
 function twist.broken(f)
+  if f.rods == 0 then return nil end -- meshes roll by themselves
   if #f.rubs > 0 then return ("'%s' rubs"):format(f.rubs[1]) end
   return f.met and "wires touch each other" or nil
 end
