@@ -147,6 +147,17 @@ describe("the choice of section", function()
       ("%g, not %g"):format(force_of(run), TUBE_10))
   end)
 
+  it("tells of a thin-walled hose that its wall has no mesh, and is not met", function()
+    local scene, _, args = plates(section(0.9), 0.1)
+    local run = scene:run(args)
+    assert.is_false(run.met)
+    local why = tostring(run:why())
+    assert.truthy(why:find("the wall of 'w', 1.000 mm thick, has its middle at 9.513 mm", 1, true), why)
+    assert.truthy(why:find("it is too thin", 1, true), why)
+    assert.truthy(why:find("NOT enough: 'w' is squeezed from both sides", 1, true), why)
+    assert.truthy(why:find("no mesh of it can be computed", 1, true), why)
+  end)
+
   -- The second level of a wall of 0.3 R has 20 cubes across, and 16 is the most.
   it("computes no elements of one level only, and is not met where springs leave out too much", function()
     local scene, _, args = plates(section(0.7), 0.1, { tolerance = { ["top.force"] = { relative = 0.03 } } })

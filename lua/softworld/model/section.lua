@@ -186,9 +186,14 @@ end
 function section.short(_, f, share, state)
   if state.rung == 1 and state.by ~= "compared" then
     if f.unknown or f.share <= share then return nil end
-    return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): take a mesh, help "
-      .. "'models'")
-      :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
+    local advice = state.by == "failed" and "and no mesh of it can be computed"
+      or "take a mesh, help 'models'"
+    if (f.squeeze or 0) > share then
+      return ("'%s' is squeezed from both sides, where the force on a line may be any: %s"):format(f.squeezed,
+        advice)
+    end
+    return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): %s")
+      :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share), advice)
   end
   if f.passed then return f.passed end
   if f.blind then
