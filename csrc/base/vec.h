@@ -22,6 +22,9 @@ typedef struct sw_pose {
   sw_quat q; /* [-] */
 } sw_pose;
 
+static inline double sw_limit(double x, double low, double high) {
+  return x < low ? low : x > high ? high : x;
+}
 static inline sw_vec sw_v(double x, double y, double z) { return (sw_vec){x, y, z}; }
 static inline sw_vec sw_load(const double *p) { return (sw_vec){p[0], p[1], p[2]}; }
 /* Vector i of a flat array. */

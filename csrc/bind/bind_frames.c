@@ -231,10 +231,73 @@ static int mod_frame_squeeze(lua_State *L) {
   return 1;
 }
 
-const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
-                                      {"frame_times", mod_frame_times},
-                                      {"frame_range", mod_frame_range},
-                                      {"keep_frames", mod_keep_frames},
-                                      {"frames_thinned", mod_frames_thinned},
-                                      {"frame_squeeze", mod_frame_squeeze},
-                                      {NULL, NULL}};
+/* Number of a wire, from 1, as an index. */
+static size_t wire_index(lua_State *L, int at, const sw_scene *scene) {
+  const lua_Integer w = lsw_integer(L, at, "frames: wire");
+  const size_t count = sw_scene_frame_wires(scene);
+  if (w < 1 || (size_t)w > count)
+    luaL_error(L, "frames: wire %d is not allowed; there are %d", (int)w, (int)count);
+  return (size_t)w - 1;
+}
+
+/* core.frames_sweep(scene, w, start [s]) -> { x1, y1, z1, x2, y2, z2, step = } of what wire w
+ * swept [m], the angle it turned by along its length at most [rad], and the largest acceleration
+ * of a node [m/s2], or nil */
+static int mod_frames_sweep(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const size_t w = wire_index(L, 2, scene);
+  const double start = lsw_number(L, 3, "frames_sweep: start", "s");
+  const double most = sw_scene_frames_acceleration(scene, start, w);
+  sw_swept swept;
+  sw_scene_frames_sweep(scene, start, w, &swept);
+  lua_createtable(L, 6, 1);
+  for (int k = 0; k < 3; k++) {
+    lua_pushnumber(L, swept.low[k]);
+    lua_rawseti(L, -2, k + 1);
+    lua_pushnumber(L, swept.high[k]);
+    lua_rawseti(L, -2, k + 4);
+  }
+  lsw_set_number(L, "step", swept.step);
+  lua_pushnumber(L, swept.turning);
+  if (most >= 0)
+    lua_pushnumber(L, most);
+  else
+    lua_pushnil(L);
+  return 3;
+}
+
+/* core.frames_apart(scene, w, v, start [s], enough [m]) -> least distance of their axes [m] */
+static int mod_frames_apart(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const size_t w = wire_index(L, 2, scene), v = wire_index(L, 3, scene);
+  const double start = lsw_number(L, 4, "frames_apart: start", "s");
+  const double enough = lsw_number(L, 5, "frames_apart: enough", "m");
+  lua_pushnumber(L, sw_scene_frames_apart(scene, start, w, v, enough));
+  return 1;
+}
+
+/* core.frame_contact(scene, i, w) -> forces across wire w at its nodes in frame i [N], and the
+ * distance of its first two nodes [m]; nothing: no touch */
+static int mod_frame_contact(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const lua_Integer i = lsw_integer(L, 2, "frame_contact: frame");
+  const size_t w = wire_index(L, 3, scene);
+  size_t count = 0;
+  double most = 0;
+  if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
+  const float *x = sw_scene_frame_wire(scene, (size_t)i - 1, w, &count);
+  const float *p = x ? sw_scene_frame_values(scene, (size_t)i - 1, w, &count) : NULL;
+  for (size_t n = 0; p && n < count; n++)
+    most = fmax(most, (double)p[SW_FRAME_VALUES * n + SW_FRAME_CONTACT]);
+  if (!(most > 0) || count < 2) return 0;
+  push_floats(L, p + SW_FRAME_CONTACT, count, SW_FRAME_VALUES);
+  lua_pushnumber(L, sw_dist(vec_of(x), vec_of(x + 3)));
+  return 2;
+}
+
+const luaL_Reg lsw_module_frames[] = {
+    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
+    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
+    {"frames_thinned", mod_frames_thinned}, {"frame_squeeze", mod_frame_squeeze},
+    {"frames_sweep", mod_frames_sweep},     {"frames_apart", mod_frames_apart},
+    {"frame_contact", mod_frame_contact},   {NULL, NULL}};

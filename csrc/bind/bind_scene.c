@@ -148,6 +148,23 @@ static int mod_remesh(lua_State *L) {
   return 0;
 }
 
+/* core.came_from(wire, before = flat [m], span [s]): the speed with which it came from there. */
+static int mod_came_from(lua_State *L) {
+  const lsw_self w = lsw_check_self(L, &lsw_class_wire);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const double span = lsw_number(L, 3, "came_from: span", "s");
+  const size_t count = lua_rawlen(L, 2);
+  if (!(span > 0) || count == 0) return luaL_error(L, "came_from: a span above 0, and places");
+  double *before = lua_newuserdatauv(L, count * sizeof *before, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    before[i] = lsw_number(L, -1, "came_from: a place", "m");
+    lua_pop(L, 1);
+  }
+  LSW_DO(L, sw_scene_wire_came_from, w.scene, w.id, before, count / 3, span);
+  return 0;
+}
+
 /* core.redraw(wire, rolls, EA, EI, GJ): a rod with other stiffnesses (factors), or that rolls. */
 static int mod_redraw(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
@@ -394,5 +411,6 @@ const luaL_Reg lsw_module_scene[] = {{"scene", mod_scene},
                                      {"window", mod_window},
                                      {"remesh", mod_remesh},
                                      {"redraw", mod_redraw},
+                                     {"came_from", mod_came_from},
                                      {"segments", mod_segments},
                                      {NULL, NULL}};

@@ -88,4 +88,9 @@ typedef struct sw_wire_touch {
 sw_status sw_scene_wire_touch_count(sw_scene *scene, size_t *count, sw_error *err);
 void sw_scene_wire_touch(sw_scene *scene, size_t k, sw_wire_touch *out);
 
+/* The free nodes of a line get the speed with which they came from where they were (count x 3) [m]
+ * a span ago [s]: after poses, which have none. */
+sw_status sw_scene_wire_came_from(sw_scene *scene, sw_handle wire, const double *before,
+                                  size_t count, double span, sw_error *err);
+
 #endif

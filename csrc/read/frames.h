@@ -59,4 +59,20 @@ const float *sw_scene_frame_tool(const sw_scene *scene, size_t frame, size_t k);
 enum { SW_FRAME_ENERGIES = 3 }; /* kinetic, elastic, gravity [J] */
 const double *sw_scene_frame_energy(const sw_scene *scene, size_t frame);
 
+/* --- how wires moved, by the frames from a time [s] on ------------------------------------ */
+
+/* What a wire sweeps: the box, how far a node moves between two frames [m]; by how much it turns
+ * along its length at most [rad]. */
+typedef struct sw_swept {
+  double low[3], high[3], step, turning;
+} sw_swept;
+void sw_scene_frames_sweep(const sw_scene *scene, double start, size_t w, sw_swept *out);
+/* Largest acceleration of a node, by second differences [m/s2]; -1: less than three frames. */
+double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w);
+/* How near the axes of wires w and v come at least, or one to itself where it turns by more than
+ * half a turn between two places: less what moves between frames, and what bows beside the edges
+ * [m]. What is no more than enough is not searched for better; infinite: they cannot meet. */
+double sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
+                             double enough);
+
 #endif

@@ -3,23 +3,8 @@
 #ifndef SW_SHAPE_PAIRS_H
 #define SW_SHAPE_PAIRS_H
 
+#include "base/segments.h"
 #include "shape/shape_class.h"
-
-/* Places s and t, both in [0, 1], where the segments a + s u and p + t v are
- * nearest; of parallel ones a pair near the middle of what overlaps is not
- * promised, only a nearest one. Zero lengths are allowed. */
-static inline void sw_pair_segments(sw_vec a, sw_vec u, sw_vec p, sw_vec v, double *s, double *t) {
-  const double parallel = 1e-14; /* squared sine of the angle below which it is taken as 0 [-] */
-  const sw_vec w = sw_sub(a, p);
-  const double uu = sw_norm2(u), uv = sw_dot(u, v), vv = sw_norm2(v);
-  const double uw = sw_dot(u, w), vw = sw_dot(v, w);
-  const double det = uu * vv - uv * uv;
-  double first = 0;
-  if (det > parallel * uu * vv) first = sw_limit((uv * vw - vv * uw) / det, 0, 1);
-  const double second = vv > 0 ? sw_limit((uv * first + vw) / vv, 0, 1) : 0;
-  *s = uu > 0 ? sw_limit((uv * second - uw) / uu, 0, 1) : 0;
-  *t = vv > 0 ? sw_limit((uv * *s + vw) / vv, 0, 1) : 0;
-}
 
 /* Where on a triangle: inside, on side k (corner k to k + 1), at corner k. */
 enum { SW_ON_FACE = 0, SW_ON_SIDE = 1, SW_ON_CORNER = 4 };

@@ -158,8 +158,5 @@ static inline int sw_bounds_meet(const sw_bounds *a, const sw_bounds *b) {
 static inline sw_vec sw_direction(sw_vec w, double r, sw_vec fallback) {
   return r > SW_SHAPE_TINY ? sw_scale(w, 1 / r) : fallback;
 }
-static inline double sw_limit(double x, double low, double high) {
-  return x < low ? low : x > high ? high : x;
-}
 
 #endif

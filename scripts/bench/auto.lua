@@ -3,6 +3,7 @@
 -- fixed model and against far finer runs of the dearest one.
 -- @module bench.auto
 local autohandled = require "bench.autohandled"
+local autoharness = require "bench.autoharness"
 local autopressed = require "bench.autopressed"
 local draw = require "bench.autodraw"
 local sw = require "softworld"
@@ -123,7 +124,7 @@ auto.scenes = {
   end },
 }
 
-for _, list in ipairs { autohandled.scenes, autopressed.scenes } do
+for _, list in ipairs { autohandled.scenes, autoharness.scenes, autopressed.scenes } do
   for _, kind in ipairs(list) do auto.scenes[#auto.scenes + 1] = kind end
 end
 
@@ -192,7 +193,7 @@ local function one(kind, random, share)
   end
   local r, reason, cost = run(build, { auto = true, settle = not moves }, share)
   if not r then return { failed = reason } end
-  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.cpu,
+  local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.model.run_cost,
     probes = r.model.cost,
     enough = {}, met = r.met, wall = cost, times = {} }
   for name, q in pairs(r.quantities) do

@@ -117,6 +117,53 @@ describe("model = 'auto'", function()
     assert.truthy(tostring(apart:why()):find("wires cannot meet: the boxes that wires sweep stay", 1, true))
   end)
 
+  -- Two wires side by side, askew: their boxes meet, their axes stay 0.1 m/sqrt(2) apart.
+  it("looks at the axes of wires whose boxes meet, and at how near one comes to itself", function()
+    local scene = sw.scene { gravity = { 0, 0, 0 } }
+    local wires = {}
+    for i, name in ipairs { "a", "b" } do
+      local x = 0.1 * (i - 1)
+      wires[i] = rod(scene, { name = name, from = { x, 0, 0 }, to = { x + 0.3, 0.3, 0 } })
+      scene:clamp(wires[i], { s = 0 })
+    end
+    local run = scene:run { duration = 0.1, tolerance = { { name = "place", value = 1e-3, unit = "m",
+      of = function() return wires[1]:position(0.3) end } } }
+    local _, _, room = tostring(run:why()):find("they stay ([%d.]+) m apart")
+    assert.is_near(0.1 / 2 ^ 0.5 - 2 * R, tonumber(room), 1e-3, tostring(run:why()))
+    local coil, path = sw.scene { gravity = { 0, 0, 0 } }, {}
+    for i = 0, 60 do -- three turns, 0.03 m from one to the next
+      local a = 2 * math.pi * i / 20
+      path[#path + 1] = { 0.05 * math.cos(a), 0.05 * math.sin(a), 0.03 * a / (2 * math.pi) }
+    end
+    local w = rod(coil, { path = path, rest = "path", segments = 96 })
+    coil:clamp(w, { s = 0 })
+    run = coil:run { duration = 0.1, tolerance = { tip = 1e-3 } }
+    assert.equal("none", run.model.contact, tostring(run:why()))
+    _, _, room = tostring(run:why()):find("one stays ([%d.]+) m from itself")
+    assert.is_true(tonumber(room) > 0.01 and tonumber(room) < 0.03, tostring(run:why()))
+  end)
+
+  it("computes no mesh for a tolerance that no level can meet, and says so", function()
+    local scene = sw.scene()
+    scene:force { kind = "damping", mass = 5 }
+    scene:obstacle { shape = "plane", friction = 0.3 }
+    local w = rod(scene, { from = { 0, 0, R }, to = { 0.6, 0, R } })
+    scene:clamp(w, { s = 0, name = "hand" }):follow { duration = 2,
+      points = { { 0, 0, R }, { 0.05, 0.1, 0.12 } } }
+    local run = scene:run { duration = 2, tolerance = { ["hand.force"] = 1e-12 } }
+    assert.equal("round", run.model.section)
+    assert.is_false(run.met)
+    assert.truthy(tostring(run:why()):find("no mesh mends that", 1, true), tostring(run:why()))
+  end)
+
+  it("tells what choosing took beside the run, levels that it left to it being the run's", function()
+    local run = hung(2)
+    local sum = 0
+    for _, level in ipairs(run.levels) do sum = sum + level.cpu end
+    assert.is_near(sum, run.model.run_cost, 1e-9)
+    assert.is_true(run.model.cost >= 0)
+  end)
+
   it("keeps what the script has decided", function()
     local scene = sw.scene()
     local w = rod(scene, { rolls = true })

@@ -139,10 +139,33 @@ describe("the choice of section", function()
     assert.equal("tube", w.model)
     assert.is_true(run.met, tostring(run:why()))
     assert.truthy(tostring(run:why()):find("is squeezed from both sides, as no line can be", 1, true))
+    assert.equal("held", run.model.twist) -- a mesh rolls by itself, also where something rubs on the way
+    for _, e in ipairs(run.events) do assert.are_not.equal("model", e.kind) end
     local q = run.quantities["top.force"]
     assert.is_true(q.model_error > 0)
     assert.is_true(math.abs(force_of(run) - TUBE_10) <= q.error / (E * R * R),
       ("%g, not %g"):format(force_of(run), TUBE_10))
+  end)
+
+  it("tells of a thin-walled hose that its wall has no mesh, and is not met", function()
+    local scene, _, args = plates(section(0.9), 0.1)
+    local run = scene:run(args)
+    assert.is_false(run.met)
+    local why = tostring(run:why())
+    assert.truthy(why:find("the wall of 'w', 1.000 mm thick, has its middle at 9.513 mm", 1, true), why)
+    assert.truthy(why:find("it is too thin", 1, true), why)
+    assert.truthy(why:find("NOT enough: 'w' is squeezed from both sides", 1, true), why)
+    assert.truthy(why:find("no mesh of it can be computed", 1, true), why)
+  end)
+
+  -- The second level of a wall of 0.3 R has 20 cubes across, and 16 is the most.
+  it("computes no elements of one level only, and is not met where springs leave out too much", function()
+    local scene, _, args = plates(section(0.7), 0.1, { tolerance = { ["top.force"] = { relative = 0.03 } } })
+    local run = scene:run(args)
+    assert.equal("springs", run.model.section, tostring(run:why()))
+    assert.is_false(run.met)
+    assert.truthy(tostring(run:why()):find("cannot be computed finer: there is no such mesh", 1, true))
+    assert.is_true(run.model.probes <= 4)
   end)
 
   it("takes elements for a solid wire between plates, whose force is within the stated error", function()

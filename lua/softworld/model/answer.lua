@@ -42,7 +42,12 @@ function Model:__tostring()
 end
 
 local function choice_of(state)
-  local rung = state.choice.rungs[state.rung]
+  local rung, on = state.choice.rungs[state.rung], state.went_on
+  if on then
+    rung = state.choice.rungs[state.rung + 1]
+    return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = "switched",
+      why = on.text .. "; before, " .. state.why, error = state.change }
+  end
   return { name = state.choice.name, rung = rung.name, leaves = rung.leaves, by = state.by,
     why = state.why or state.doubt or "there is no dearer one", error = state.change }
 end
@@ -78,14 +83,27 @@ local function widen(context, result, model)
   result.met = met
 end
 
+-- What the levels of the run took, those that choosing had left too [s].
+local function cost_of(result)
+  local sum = 0
+  for _, level in ipairs(result.levels or {}) do sum = sum + level.cpu end
+  return sum
+end
+
 --- Give the result its model.
 function answer.add(context, result)
+  local run_cost = cost_of(result)
   local model = setmetatable({ choices = {}, short = {}, unchecked = {}, probes = context.probe_count,
-    cost = context.spent, run_cost = result.cpu, spread = context.spread:text() }, Model)
+    cost = math.max(0, context.spent - run_cost), run_cost = run_cost,
+    spread = context.spread:text() }, Model)
   for _, state in ipairs(context.states) do
     if state.by ~= "idle" then
       local c = choice_of(state)
       model.choices[#model.choices + 1], model[c.name] = c, c.rung
+      if state.went_on then
+        result.events[#result.events + 1] = { kind = "model", time = state.went_on.time, count = 1,
+          text = ("%s: %s"):format(c.name, state.went_on.text) }
+      end
       if state.short then model.short[#model.short + 1] = state.short end
       if state.by == "failed" then model.blind = ("%s was not checked: %s"):format(c.name, c.why) end
       if not state.short and state.doubt and state.by == "skipped" then

@@ -11,6 +11,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local decide = require "softworld.model.decide"
+local guard = require "softworld.model.guard"
 local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
@@ -62,9 +63,22 @@ local function affordable(context)
   function job.enough(k, good) return good >= 2 and is_dear(context, k) end
 end
 
+-- The steps of levels, each with a guard of what free checks stand on.
+local function guarded(context, steps)
+  local base = probe.known(context, decide.rungs(context), 1)
+  local share = base and base.values and decide.tightest(context, base.values)
+  return function(k)
+    local options = steps(k)
+    if context.guard then context.guard:close() end
+    context.guard = share and guard.new(context, SLACK * share)
+    options.guard = context.guard
+    return options
+  end
+end
+
 -- The finest run of the rungs chosen.
 local function refined(context)
-  local job, steps = context.job, nil
+  local job, steps, kept = context.job, nil, nil
   for _, q in ipairs(job.quantities) do
     local left = decide.left_out(context, q.name)
     function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
@@ -75,16 +89,27 @@ local function refined(context)
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
     for name, values in pairs(job.values) do values[k] = known.values[name] or NONE end
-    if suffices(job, k, known.contact) then break end -- the scene is to end there
+    if suffices(job, k, known.contact) then -- the scene is to end there
+      kept = probe.as_it_ended(context, decide.rungs(context), k)
+      break
+    end
     job.levels[k], job.begun = known.level, k
   end
   for _, values in pairs(job.values) do
     for k = job.begun + 1, #values do values[k] = nil end
   end
   affordable(context)
-  job.restore()
-  function job.arrange() steps = probe.arrange(context, decide.rungs(context), nil, true) end
-  local total = { wall = 0, cpu = 0 }
+  if not kept then job.restore() end
+  function job.kept(k)
+    local known = k == job.begun + 1 and kept
+    kept = nil
+    return known
+  end
+  function job.arrange()
+    steps = guarded(context, probe.arrange(context, decide.rungs(context), nil, true))
+  end
+  local total = { wall = kept and kept.run.wall or 0, cpu = kept and kept.run.cpu or 0 }
+  context.last = nil
   local result = trust.work(job, function(k, name)
     return refine.computer(job, steps, context.run_once, total)(k, name)
   end)
@@ -99,6 +124,7 @@ local function given_up(context, state)
   local rung = state.rung
   repeat until decide.look(context, state)
   local text = ("in the fine run it does not hold any more that %s"):format(why)
+  if state.no_way then text = ("%s, and the run began again: %s"):format(text, state.no_way) end
   state.why = state.why and text .. "; " .. state.why or text
   if state.rung == rung then return end
   context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
@@ -113,7 +139,8 @@ local function broken(context, result)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
-    if state.by == "free" and not state.choice.free(context, state.rung, f, SLACK * share) then
+    local checked = state.by == "free" and not state.went_on
+    if checked and not state.choice.free(context, state.rung, f, SLACK * share) then
       given_up(context, state)
       again = true
     end
@@ -159,7 +186,7 @@ end
 local function new_context(scene, job, args, run_once)
   local data = build.data(scene)
   local context = { scene = scene, data = data, job = job, args = args, run_once = run_once, probes = {},
-    probe_count = 0, spent = 0, states = {}, given_up = {},
+    probe_count = 0, states = {}, given_up = {},
     scripted_contact = data.touching }
   context.spread = spread.new(context)
   return context
@@ -208,10 +235,13 @@ function choose.run(scene, given, check, run_once)
   local context = new_context(scene, job, args, run_once)
   local touching = context.data.touching
   context.most = job.most
+  local begun = os.clock()
   local fine, result = pcall(function()
     begin(context)
     return compute(context)
   end)
+  context.spent = os.clock() - begun
+  if context.guard then context.guard:close() end
   context.data.auto = nil
   if not fine or result.refused then
     context.data.touching = touching

@@ -27,24 +27,45 @@ local function room(a, b)
   return most
 end
 
-function contact.look(context)
-  local boxes, turning = facts.swept()
-  local least = math.huge
-  for i, a in ipairs(boxes) do
-    for j = i + 1, #boxes do
-      local wide = context.data.wires[i].object.radius + context.data.wires[j].object.radius
-      least = math.min(least, room(a, boxes[j]) - a.step - boxes[j].step - wide)
-    end
-  end
-  return { room = least, turning = turning, frames = #boxes > 0 }
+-- Room between the axes of two wires, or of one and itself, less their width [m]: by the frames, where their
+-- boxes meet. sort: "boxes" or "axes", for which it was.
+local function room_between(context, boxes, i, j)
+  local wide = context.data.wires[i].object.radius + context.data.wires[j].object.radius
+  local between = i < j and room(boxes[i], boxes[j]) - boxes[i].step - boxes[j].step - wide or -1
+  if between > 0 then return between, "boxes" end
+  return facts.apart(i, j, wide) - wide, "axes"
 end
 
-function contact.free(_, rung, f)
-  if rung ~= 1 or not f.frames or f.room <= 0 or f.turning >= math.pi then return nil end
-  local apart = f.room < math.huge and ("the boxes that wires sweep stay %.3g m apart, and "):format(f.room)
-    or ""
-  return ("wires cannot meet: %sno wire turns by more than %.3g rad along its length (limit %.3g)"):format(
-    apart, f.turning, math.pi)
+function contact.look(context)
+  local boxes, turning = facts.swept()
+  local f = { room = math.huge, turning = turning, frames = #boxes > 0 }
+  for i = 1, #boxes do
+    for j = turning < math.pi and i + 1 or i, #boxes do
+      local between, sort = room_between(context, boxes, i, j)
+      if between < f.room then f.room, f.sort = between, i == j and "itself" or sort end
+      if f.room <= 0 then return f end
+    end
+  end
+  return f
 end
+
+local apart = { boxes = "the boxes that wires sweep stay %.3g m apart, and ",
+  axes = "they stay %.3g m apart, by what moves between frames, and ",
+  itself = "one stays %.3g m from itself where it turns by more than that, and " }
+
+function contact.free(_, rung, f)
+  if rung ~= 1 or not f.frames or f.room <= 0 then return nil end
+  local room_is = f.room < math.huge and apart[f.sort]:format(f.room) or ""
+  return ("wires cannot meet: %sno wire turns by more than %.3g rad along its length (limit %.3g)"):format(
+    room_is, f.turning, math.pi)
+end
+
+--- Why wires may meet from here on, of what was seen of a run on the way.
+function contact.broken(f)
+  return f.frames and f.room <= 0 and "wires came as near to each other as they move between frames" or nil
+end
+
+--- They touch each other from here on.
+function contact.onward(context) record.quietly(context.scene.wire_contact, context.scene, {}) end
 
 return contact

@@ -5,12 +5,17 @@
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local quantity = require "softworld.quantity"
+local trust = require "softworld.run.trust"
 
 local decide = {}
 
 local MODEL = 0.75 -- of a tolerance: what rungs may leave out [-]
 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
 local DOUBT = 4
+local SAFETY = 1.5 -- of what is known of finer levels [-]
+local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
+local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
+local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 
@@ -50,24 +55,74 @@ function decide.left_out(context, name, but)
   return sum
 end
 
+-- The same, of what may still be chosen otherwise: no other choice makes up for a rung that failed.
+local function left_by_others(context, name, but)
+  local sum = decide.left_out(context, name, but)
+  for _, state in ipairs(context.states) do
+    if state.by == "failed" and state ~= but and state.change then sum = sum - (state.change[name] or 0) end
+  end
+  return sum
+end
+
+-- How far a value has moved from the level before, as the next finer ones will at most; infinite: not known.
+local function moved(before, now, name)
+  local a, b = before and before.values[name], now.values[name]
+  return a and quantity.alike(a, b) and quantity.distance(a, b) or math.huge
+end
+
+-- What the change of a quantity by the next rung may be on the finest level: the change here, times the
+-- choice's safety; or, where the level tells what happens, the change with 1.5 times what both rungs still
+-- move by, if that is less. levels: { here =, above = } of the rungs, also before.
+local function bound(state, levels, name, d)
+  local choice, before = state.choice, levels.before or {}
+  local most = choice.safety * d
+  if not choice.resolves or not choice.resolves(levels.above.facts[choice.name]) then return most end
+  local still = moved(before.here, levels.here, name) + moved(before.above, levels.above, name)
+  return math.min(most, d + SAFETY * still)
+end
+
 -- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
--- all.
--- before: by the next rung, on a coarser level; what that changed by counts too.
-local function change(context, state, here, above, before)
+-- all. levels: as in bound.
+local function change(context, state, levels)
   local c = { worst = -1, all = {} }
+  local own = state.choice.rungs[state.rung].own and levels.before -- what the next rung's edges change too
   for _, q in ipairs(context.job.quantities) do
-    local a, b = here.values[q.name] or NONE, above.values[q.name] or NONE
+    local a, b = levels.here.values[q.name] or NONE, levels.above.values[q.name] or NONE
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
-    if before and quantity.alike(before.values[q.name], b) then
-      d = d + quantity.distance(before.values[q.name], b)
+    if own and quantity.alike(own.above.values[q.name], b) then
+      d = d + quantity.distance(own.above.values[q.name], b)
     end
     if d ~= d then d = math.huge end
-    c.all[q.name] = state.choice.safety * d
-    local allowed = math.max(0, MODEL * quantity.asked(q, b) - decide.left_out(context, q.name, state))
+    c.all[q.name] = bound(state, levels, q.name, d)
+    local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_by_others(context, q.name, state))
     local off = d > 0 and c.all[q.name] / allowed or 0
     if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
   end
   return c
+end
+
+-- Would a level more of the next rung be all that its run needs? Then comparing there saves nothing, and the
+-- comparison ends where it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
+local function saves_nothing(context, above, before, k)
+  local growth = above.work / math.max(1, before.work)
+  if k < decide.levels or growth * above.work < MOMENT then return false end
+  for _, q in ipairs(context.job.quantities) do
+    local value = above.values[q.name] or NONE
+    local bar, rate = trust.estimate(q, { before.values[q.name] or NONE, value }, above.contact)
+    local enough = bar / rate <= quantity.asked(q, value) -- of numbers that are not known: not
+    if not enough then return false end
+  end
+  return true
+end
+
+-- Does the level tell too little of the next rung to stay, or to go?
+local function is_blurred(context, state, now, c)
+  local choice = state.choice
+  if now.k > 1 then return false end
+  if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
+  if c.worst > 1 then return c.worst <= FAR end
+  local share = decide.tightest(context, now.above.values)
+  return choice.blurred and choice.blurred(now.here.facts[choice.name], now.above.facts[choice.name], share)
 end
 
 -- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
@@ -76,13 +131,14 @@ local function compare(context, state, rungs, above)
   local c
   local rung, levels, before = state.choice.rungs[state.rung], state.choice.levels or decide.levels, nil
   for k = 1, levels do
+    local again = before and before.before and before.before.above
+    if again and saves_nothing(context, before.above, again, k) then return c end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
-    c = change(context, state, here, there, rung.own and before)
-    before = there
-    local first = rung.own and k == 1 -- how far the next rung itself is off is not known yet
+    local now = { k = k, here = here, above = there, before = before }
+    c, before = change(context, state, now), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
-    if clear and not first then return c end
+    if clear and not is_blurred(context, state, now, c) then return c end
   end
   return c
 end
@@ -162,13 +218,38 @@ local function bar_rung(context, failed)
   return false
 end
 
+-- Would a mesh be computed for bars that no level makes short enough? Lines on two levels tell; nil: not so.
+local function in_vain(context, rungs, up)
+  local time, job = probe.expected(context, up, 1), context.job
+  if not time or time < LONG then return nil end
+  local one, two = probe.of(context, rungs, 1), probe.of(context, rungs, 2)
+  for _, q in ipairs(one.ok and two.ok and job.quantities or {}) do
+    local now = two.values[q.name] or NONE
+    local asked = quantity.asked(q, now)
+    local bar = trust.hopeless(q, { one.values[q.name] or NONE, now }, two.contact, context.most, asked)
+    if bar then
+      return ("the bar of %s is %s at least on the finest of %d levels, asked for is %s: no mesh mends that")
+        :format(q.name, number.text(bar, q.unit), context.most, number.text(asked, q.unit))
+    end
+  end
+end
+
 -- Does the next rung give another answer? True when the choice is settled.
 local function climb(context, state, rungs, here)
   local choice, rung = state.choice, state.rung
   local name, f = choice.name, here.facts[choice.name]
   local up = with(rungs, name, rung + 1)
-  local above = probe.of(context, up, 1)
   local next_as = choice.rungs[rung + 1].as
+  if choice.rungs[rung].own and probe.expected(context, up, 2) == math.huge then -- one level tells nothing
+    return unknown(context, state, f, here, ("%s cannot be computed finer: there is no such mesh"):format(
+      next_as))
+  end
+  local vain = choice.rungs[rung + 1].own and in_vain(context, rungs, up)
+  if vain then
+    state.doubt = vain
+    return stay(state, "skipped", vain)
+  end
+  local above = probe.of(context, up, 1)
   if not above.ok then
     return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
@@ -240,7 +321,7 @@ end
 local function is_overdrawn(context)
   local here = probe.of(context, decide.rungs(context), 1)
   for _, q in ipairs(here.ok and context.job.quantities or {}) do
-    local left = decide.left_out(context, q.name)
+    local left = left_by_others(context, q.name)
     if left > MODEL * quantity.asked(q, here.values[q.name] or NONE) then return true end
   end
   return false

@@ -3,6 +3,7 @@
 -- other, how they speed up.
 -- @module softworld.model.facts
 local build = require "softworld.scene.build"
+local core = require "softworld.core"
 
 local facts = {}
 
@@ -26,99 +27,46 @@ function facts.rubbing(scene, start)
   return names
 end
 
-local kept -- frames of the run that is looked at, read once for all choices
+local kept -- of the run that is looked at: its scene, start [s] and numbers of frames, what wires swept
 
---- f(...) while the frames of a run are kept.
+--- f(...) while the frames of a run are looked at.
 function facts.reading(scene, start, f, ...)
-  kept = {}
-  for i = 1, scene:frame_count() do
-    local frame = scene:frame(i)
-    if frame.t >= start then
-      frame.number = i
-      kept[#kept + 1] = frame
-    end
+  kept = { scene = scene, start = start, numbers = {} }
+  for i, t in ipairs(core.frame_times(scene)) do
+    if t >= start then kept.numbers[#kept.numbers + 1] = i end
   end
-  local fine, result = pcall(f, ...)
+  local fine, result, more = pcall(f, ...)
   kept = nil
   if not fine then error(result, 0) end
-  return result
+  return result, more
 end
 
---- Call look(frame) for these frames, in order.
-function facts.frames(look)
-  for _, frame in ipairs(kept) do look(frame) end
-end
-
-local function change(x, before, i) return x[i] - before[i] end
-
---- Largest acceleration of what moves along the frames, by second differences over equal spans [m/s2]; nil
--- where there are less than three.
-function facts.acceleration()
-  local a, b, most = nil, nil, nil
-  facts.frames(function(c)
-    if a and b then
-      local first, second = b.t - a.t, c.t - b.t
-      for w, x in ipairs(first > 0 and second > 0 and c.wires or {}) do
-        local y, z = b.wires[w], a.wires[w]
-        local fits = y and z and #x == #y and #y == #z
-        for i = 1, fits and #x - 2 or 0, 3 do
-          local sum = 0
-          for k = i, i + 2 do
-            local v = change(x, y, k) / second - change(y, z, k) / first
-            sum = sum + (2 * v / (first + second)) ^ 2
-          end
-          if sum > (most or -1) then most = sum end
-        end
-      end
-    end
-    a, b = b, c
-  end)
-  return most and most ^ 0.5
-end
-
-local function grow(box, x, y, z)
-  local at = { x, y, z }
-  for k = 1, 3 do
-    box[k], box[k + 3] = math.min(box[k], at[k]), math.max(box[k + 3], at[k])
+--- Call look(forces, spacing, number) for the frames in which something presses on wire w, in order: forces
+-- at its nodes [N], distance of the first two [m], number of the frame.
+function facts.touched(w, look)
+  for _, number in ipairs(kept.numbers) do
+    local forces, spacing = core.frame_contact(kept.scene, number, w)
+    if forces then look(forces, spacing, number) end
   end
 end
 
---- Angle by which a polyline turns in all [rad].
-local function turning(x)
-  local sum = 0
-  for i = 4, #x - 5, 3 do
-    local dot, a, b = 0, 0, 0
-    for k = i, i + 2 do
-      local u, v = x[k] - x[k - 3], x[k + 3] - x[k]
-      dot, a, b = dot + u * v, a + u * u, b + v * v
-    end
-    if a > 0 and b > 0 then sum = sum + math.acos(math.max(-1, math.min(1, dot / (a * b) ^ 0.5))) end
-  end
-  return sum
-end
-
---- Swept boxes of the wires { x1, y1, z1, x2, y2, z2 } [m], grown by how far points move between frames; and
--- the largest angle by which one turns along its length [rad].
+--- Swept boxes of the wires { x1, y1, z1, x2, y2, z2, step = how far points move between frames } [m]; the
+-- largest angle by which one turns along its length [rad]; the largest acceleration of what moves along the
+-- frames, by second differences [m/s2], nil where there are less than three.
 function facts.swept()
-  local boxes, most, before = {}, 0, nil
-  facts.frames(function(frame)
-    for w, x in ipairs(frame.wires) do
-      local box = boxes[w] or { math.huge, math.huge, math.huge, -math.huge, -math.huge, -math.huge,
-        step = 0 }
-      boxes[w] = box
-      for i = 1, #x - 2, 3 do
-        grow(box, x[i], x[i + 1], x[i + 2])
-        local old = before and before[w]
-        if old and #old == #x then
-          local d = (x[i] - old[i]) ^ 2 + (x[i + 1] - old[i + 1]) ^ 2 + (x[i + 2] - old[i + 2]) ^ 2
-          box.step = math.max(box.step, d ^ 0.5)
-        end
-      end
-      most = math.max(most, turning(x))
+  if not kept.boxes then
+    kept.boxes, kept.turning = {}, 0
+    for w = 1, #kept.numbers > 0 and #build.data(kept.scene).wires or 0 do
+      local box, turning, acceleration = core.frames_sweep(kept.scene, w, kept.start)
+      kept.boxes[w], kept.turning = box, math.max(kept.turning, turning)
+      if acceleration then kept.acceleration = math.max(kept.acceleration or 0, acceleration) end
     end
-    before = frame.wires
-  end)
-  return boxes, most
+  end
+  return kept.boxes, kept.turning, kept.acceleration
 end
+
+--- How near the axes of wires v and w come, or one to itself beyond half a turn [m]: less what moves between
+-- frames. What is no more than enough is not searched for better.
+function facts.apart(v, w, enough) return core.frames_apart(kept.scene, v, w, kept.start, enough) end
 
 return facts

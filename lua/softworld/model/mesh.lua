@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local flat = require "softworld.model.flat"
+local number = require "softworld.output.number"
 local record = require "softworld.scene.record"
 
 local mesh = {}
@@ -19,6 +20,7 @@ local ITERATIONS = 300 -- of a run whose rods do not get through it [-]
 local BESIDE = 6       -- slices more, beside clamps [-]
 local SPRINGS = 0.35   -- spacing of a solid wire's springs [radii]
 local ACROSS = 16      -- no more small cubes than this are across [-]
+local OUTERMOST = 0.9 -- of the radius: where particles of a wall may lie [-]
 local VOXELS = 2       -- across a wall, on the coarsest level [-]
 
 -- By levels: particles round a slice, layers of them, spacing of slices [radii].
@@ -82,11 +84,23 @@ local function plain(message) return (tostring(message):gsub("^[^\n]-:%d+: ", ""
 -- Beside a region lines carry no twist, and a clamp may be too near.
 local function takes_all(reason) return tostring(reason):find("leave region out", 1, true) end
 
+-- Why the wall of a tube has no mesh, or nil: its middle, where it has EI and EA of the tube, is too far out.
+local function too_thin(w)
+  local r, inner = w.body.radius, w.body.inner
+  local middle = inner and ((r ^ 2 + inner ^ 2) / 2) ^ 0.5 or 0
+  if middle <= OUTERMOST * r then return nil end
+  return ("the wall of '%s', %s thick, has its middle at %s, outside of radius = %s up to which a mesh has "
+    .. "particles: it is too thin"):format(w.object.name, number.text(r - inner, "m"),
+    number.text(middle, "m"), number.text(OUTERMOST * r, "m"))
+end
+
 --- Make it that mesh; w = { object, body, share, region }. Returns why it cannot be, or nil.
 function mesh.make(w, rung, k, whole)
   if rung == mesh.elements and w.body.cable then
     return ("no two materials have EA and EI of '%s', whose strands slide"):format(w.object.name)
   end
+  local thin = too_thin(w)
+  if thin then return thin end
   local args, _, spacing = plan(w.body, rung, k, w.share)
   local was = { model = w.object.model, segments = core.segments(w.object) }
   local slices = math.max(2, math.ceil(w.object.length / spacing - 1e-6))

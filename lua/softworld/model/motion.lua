@@ -2,6 +2,7 @@
 --- The choice of motion: a row of poses in equilibrium, or dynamics.
 -- @module softworld.model.motion
 local build = require "softworld.scene.build"
+local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
 
@@ -9,6 +10,10 @@ local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
 local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
 local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be [-]
 local SAFETY = 3     -- coarse steps do not see all that swings [-]
+local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
+local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
+local STEPS = 8       -- of a computation in a first period that follow the swing [-]
+local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
 local motion = { name = "motion", safety = SAFETY, rungs = {
@@ -57,14 +62,28 @@ end
 
 function motion.look(context, run)
   local scene = context.scene
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = facts.acceleration(),
+  local _, _, acceleration = facts.swept()
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration,
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
-    period = context.period }
+    period = context.period, dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
 --- The first period, of the scene at rest as it begins [s].
 function motion.begin(context)
   if context.job.rests then context.period = period(context.scene) end
+end
+
+--- Do the steps of a computation of dynamics follow the first swing, so that what swings is not damped away?
+-- Or does it hardly speed up?
+function motion.resolves(f)
+  if f.acceleration and f.acceleration <= SMALL * f.weight then return true end
+  return f.period ~= nil and f.dt <= f.period / STEPS
+end
+
+--- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
+function motion.blurred(poses, dynamics, share)
+  local fast = dynamics.weight > 0 and (dynamics.acceleration or 0) > share * dynamics.weight
+  return fast or poses.jumps > 0
 end
 
 function motion.free(_, rung, f, share)
@@ -80,9 +99,34 @@ function motion.free(_, rung, f, share)
     facts.percent(INERTIA * share))
 end
 
---- Poses that need more iterations than steps do are no saving.
+--- Why poses cannot go on being free, of what was seen of a run on the way; nil: nothing speaks against it.
+function motion.broken(f, share)
+  if f.jumps > 0 then return "poses jumped from one equilibrium to another" end
+  local inertia = f.weight > 0 and f.acceleration and f.acceleration / f.weight or 0
+  if inertia <= INERTIA * share then return nil end
+  return ("inertia was %s of the weight (limit %s)"):format(facts.percent(inertia),
+    facts.percent(INERTIA * share))
+end
+
+--- Dynamics from here on: wires go on with the speed with which they came.
+function motion.onward(context, options)
+  local scene = context.scene
+  options.quasistatic, options.dt = nil, options.dt / POSES
+  for i = scene:frame_count(), 1, -1 do
+    local frame = scene:frame(i)
+    if frame.t < scene.time - TINY * math.max(1, scene.time) then
+      for k, w in ipairs(build.data(scene).wires) do
+        core.came_from(w.object, frame.wires[k], scene.time - frame.t)
+      end
+      return
+    end
+  end
+end
+
+--- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
+-- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
 function motion.costly(rung, here, above)
-  if rung == 1 and here.iterations >= above.iterations then
+  if rung == 1 and here.iterations >= COSTLY * above.iterations then
     return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
       above.iterations)
   end

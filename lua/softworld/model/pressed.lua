@@ -22,12 +22,10 @@ local function at_pads(context, wire, s, spacing)
 end
 
 -- Loads on the nodes of a line in one frame, and the largest [N/m].
-local function loads_of(context, wire, values, x)
+local function loads_of(context, wire, forces, spacing)
   local loads, most = {}, 0
-  local spacing = values and x and #x > 3
-    and ((x[4] - x[1]) ^ 2 + (x[5] - x[2]) ^ 2 + (x[6] - x[3]) ^ 2) ^ 0.5 or 0
-  for k = 1, spacing > 0 and #values.contact or 0 do
-    local load = values.contact[k] / spacing
+  for k, force in ipairs(spacing > 0 and forces or {}) do
+    local load = force / spacing
     if load > 0 and not at_pads(context, wire, (k - 1) * spacing, spacing) then
       loads[k], most = load, math.max(most, load)
     end
@@ -52,10 +50,10 @@ end
 -- pressed [m]: whenever that flattens it by a tenth, or is a tenth of its largest.
 function pressed.line(context, wire, w, body)
   local most, seen = 0, {}
-  facts.frames(function(frame)
-    local loads, top = loads_of(context, wire, frame.values[w], frame.wires[w])
+  facts.touched(w, function(forces, spacing)
+    local loads, top = loads_of(context, wire, forces, spacing)
     most = math.max(most, top)
-    if top > 0 then seen[#seen + 1] = { loads = loads, top = top, count = #frame.values[w].contact } end
+    if top > 0 then seen[#seen + 1] = { loads = loads, top = top, count = #forces } end
   end)
   local enough = PLACE * math.min(most, flat.stiffness(body, FLATTENED) * FLATTENED * 2 * body.radius)
   local from, to
@@ -66,16 +64,15 @@ function pressed.line(context, wire, w, body)
 end
 
 --- The same of a wire that is a mesh in a region: of the lines beside it.
-function pressed.beside(w, region)
+function pressed.beside(scene, w, region)
   local most = 0
-  facts.frames(function(frame)
-    local values, x = frame.values[w], frame.wires[w]
-    local s, n = 0, values and x and #values.contact or 0
-    for k = 1, n - 1 do
+  facts.touched(w, function(forces, _, number)
+    local s, x = 0, scene:frame(number).wires[w]
+    for k = 1, #forces - 1 do
       local i = 3 * k
       local step = ((x[i + 1] - x[i - 2]) ^ 2 + (x[i + 2] - x[i - 1]) ^ 2 + (x[i + 3] - x[i]) ^ 2) ^ 0.5
       local outside = s + step < region[1] or s > region[2]
-      if outside and step > 0 then most = math.max(most, values.contact[k] / step) end
+      if outside and step > 0 then most = math.max(most, forces[k] / step) end
       s = s + step
     end
   end)
@@ -92,12 +89,10 @@ end
 -- as faces that leave it no room push as hard as can be.
 function pressed.squeeze(context, wire, w)
   local most = 0
-  facts.frames(function(frame)
-    local values = frame.values[w]
-    local count = values and #values.contact or 0
-    local edge = count > 1 and wire.length / (count - 1)
-    for k, force in ipairs(edge and core.frame_squeeze(context.scene, frame.number, w) or {}) do
-      local both = force > TWO_SIDED * values.contact[k]
+  facts.touched(w, function(forces, _, number)
+    local edge = wire.length / (#forces - 1)
+    for k, force in ipairs(core.frame_squeeze(context.scene, number, w)) do
+      local both = force > TWO_SIDED * forces[k]
       local counts = both and not at_pads(context, wire, (k - 1) * edge, edge)
       if counts then most = math.max(most, force / edge) end
     end

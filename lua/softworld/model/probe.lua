@@ -128,32 +128,53 @@ function probe.expected(context, rungs, k, levels)
   return time
 end
 
+local function nodes_of(scene)
+  local sum = 0
+  for _, w in ipairs(build.data(scene).wires) do
+    sum = sum + (core.exists(w.object) and core.segments(w.object) + 1 or 0)
+  end
+  return sum
+end
+
 local function compute(context, rungs, k, factors)
   local job, scene = context.job, context.scene
   local time = probe.expected(context, rungs, k)
   if time and time > LONGEST and time < math.huge then
     return { ok = false, reason = ("it would take about %s"):format(number.duration(time)) }
   end
+  context.last = nil
   job.restore()
   local steps = probe.arrange(context, rungs, factors)
   core.remesh(scene, trust.counts(job, k))
+  local begun = os.clock()
   local run = refine.computer(job, steps, context.run_once, { wall = 0, cpu = 0 })(k, "choosing a model")
   if job.unmade then return { ok = false, unmade = true, reason = job.unmade } end
+  local cpu = os.clock() - begun
   local result = { ok = run.ok, reason = run.reason, iterations = run.iterations }
   if not run.ok then
     result.facts = facts_of_failed(context, run)
     return result
   end
+  result.work = run.iterations * nodes_of(scene)
   result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
   result.values = {}
   for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
   context.iterations = run.iterations / 2 ^ (k - 1)
-  result.level = { segments = trust.counts(job, k), ok = true, cpu = run.cpu }
+  result.level = { segments = trust.counts(job, k), ok = true, cpu = cpu }
+  context.last = not factors and { key = probe.key(rungs, k), run = run, level = result.level } or nil
   return result
 end
 
 --- What was computed of rungs on level k; nil: nothing.
 function probe.known(context, rungs, k) return context.probes[probe.key(rungs, k)] end
+
+--- The run of rungs on level k and the level, where the scene is still as it ended, with the frames that the
+-- run to be kept would have; else nil.
+function probe.as_it_ended(context, rungs, k)
+  local last, args = context.last, context.args
+  local own_frames = args.frames ~= false and (args.frame or args.frames ~= nil)
+  return last and not own_frames and last.key == probe.key(rungs, k) and last or nil
+end
 
 --- The values and facts of rungs (by the choices' names) on level k; of what was computed before the same.
 -- A computation that raises counts as one that failed.
@@ -161,9 +182,7 @@ function probe.of(context, rungs, k, factors, label)
   local key = probe.key(rungs, k, label)
   local known = context.probes[key]
   if known then return known end
-  local begun = os.clock()
   local fine, result = pcall(compute, context, rungs, k, factors)
-  context.spent = context.spent + os.clock() - begun
   if not fine then
     if checks.is_interrupt(result) then error(result, 0) end
     result = { ok = false, reason = build.plain(tostring(result)), raised = result }

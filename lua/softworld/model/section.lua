@@ -116,7 +116,7 @@ local function passed(p, run)
   end
 end
 
-local function look_at_mesh(worst, p, i, run)
+local function look_at_mesh(context, worst, p, i, run)
   if is_line(p.object) then return end
   worst.passed = worst.passed or passed(p, run)
   local flattened = pressed.mesh(p.object, p.body)
@@ -124,7 +124,7 @@ local function look_at_mesh(worst, p, i, run)
   worst.wall = math.max(worst.wall or 0, p.body.inner and p.body.wall / (p.body.radius - p.body.wall / 2)
     or math.huge)
   if not p.body.known then worst.blind = p.name end
-  local q = p.region and pressed.beside(i, p.region) or 0
+  local q = p.region and pressed.beside(context.scene, i, p.region) or 0
   local share = flat.share(p.body, q)
   if share > (worst.beside or 0) then worst.beside, worst.load, worst.wire = share, q, p.name end
 end
@@ -134,7 +134,7 @@ function section.look(context, run)
   for i, w in ipairs(context.data.wires) do
     if core.exists(w.object) then
       if is_line(w.object) then look_at_line(context, worst, w, i)
-      elseif context.pressed[w.name] then look_at_mesh(worst, context.pressed[w.name], i, run) end
+      elseif context.pressed[w.name] then look_at_mesh(context, worst, context.pressed[w.name], i, run) end
     end
   end
   return worst
@@ -186,9 +186,14 @@ end
 function section.short(_, f, share, state)
   if state.rung == 1 and state.by ~= "compared" then
     if f.unknown or f.share <= share then return nil end
-    return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): take a mesh, help "
-      .. "'models'")
-      :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
+    local advice = state.by == "failed" and "and no mesh of it can be computed"
+      or "take a mesh, help 'models'"
+    if (f.squeeze or 0) > share then
+      return ("'%s' is squeezed from both sides, where the force on a line may be any: %s"):format(f.squeezed,
+        advice)
+    end
+    return ("'%s' is pressed by up to %s and flattened by %s of its width (limit %s): %s")
+      :format(f.wire, number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share), advice)
   end
   if f.passed then return f.passed end
   if f.blind then

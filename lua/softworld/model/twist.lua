@@ -45,4 +45,18 @@ function twist.free(_, rung, f)
   end
 end
 
+--- Why wires cannot go on without rolling, of what was seen of a run on the way.
+function twist.broken(f)
+  if f.rods == 0 then return nil end -- meshes roll by themselves
+  if #f.rubs > 0 then return ("'%s' rubs"):format(f.rubs[1]) end
+  return f.met and "wires touch each other" or nil
+end
+
+--- They roll from here on; raises where they are twisted, which they would lose.
+function twist.onward(context)
+  for _, w in ipairs(context.data.wires) do
+    if may_roll(w.object) then core.redraw(w.object, true) end
+  end
+end
+
 return twist

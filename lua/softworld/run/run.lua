@@ -70,14 +70,16 @@ local function drive(scene, args, total, bar)
   local stop = args.duration and start + args.duration or math.huge
   local options = {}
   for k, v in pairs(args) do options[k] = v end
-  options.progress, options.duration, options.save, options.resume = nil, nil, nil, nil
+  options.progress, options.duration, options.save, options.resume, options.guard = nil, nil, nil, nil, nil
   options.frame = args.frames ~= false and (options.frame or default_frame) or nil
   options.frames = nil
   local bounds = type(args.frames) == "table" and frames_rows:read(args.frames, "scene:run: frames")
   core.keep_frames(scene, bounds and bounds.memory or nil)
   local left = (args.max_steps or math.huge) - total.steps
   while true do
+    if args.guard then args.guard:look(options, total) end
     local alive, wake, watching = process.step(scene)
+    if args.guard then args.guard:stepped(total) end
     if stop == math.huge and alive == 0 then return "all processes have ended" end
     if process.reached(scene, stop) then
       waiting.at_end(scene)

@@ -80,6 +80,13 @@ function trust.estimate(q, values, contact)
   return safety * off + floor, math.max(rate, 1)
 end
 
+--- Is a quantity's bar so long on the last of k levels that no finer one of at most so many makes it short
+-- enough? Values of levels, what is asked for; returns the shortest that may be hoped for, or nil.
+function trust.hopeless(q, values, contact, most, asked)
+  local bar = trust.estimate(q, values, contact) / hoped ^ math.max(0, most - #values)
+  return bar > asked and bar or nil
+end
+
 -- --- results ----------------------------------------------------------------------------
 
 local function text_of(value, unit)
@@ -313,12 +320,17 @@ local function climb(job, compute)
       check_wires(job)
       job.restore()
     end
-    if job.arrange then job.arrange() end
-    core.remesh(job.scene, trust.counts(job, k))
-    local begun = os.clock()
-    result = compute(k, describe(job, k))
-    job.levels[#job.levels + 1] = { segments = trust.counts(job, k), ok = result.ok, reason = result.reason,
-      cpu = os.clock() - begun }
+    local known = job.kept and job.kept(k)
+    if known then
+      result, job.levels[#job.levels + 1] = known.run, known.level
+    else
+      if job.arrange then job.arrange() end
+      core.remesh(job.scene, trust.counts(job, k))
+      local begun = os.clock()
+      result = compute(k, describe(job, k))
+      job.levels[#job.levels + 1] = { segments = trust.counts(job, k), ok = result.ok, reason = result.reason,
+        cpu = os.clock() - begun }
+    end
     if result.ok then
       local most = hoped ^ (job.most - k)
       job.known = good

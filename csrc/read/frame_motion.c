@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What frames tell of how wires moved between them. */
+#include "base/segments.h"
+#include "read/frames.h"
+
+static const double HALF_TURN = 3.14159265358979323846; /* [rad] */
+
+/* A line in a frame, with the frame before: NULL where it has not as many nodes there. */
+typedef struct line {
+  const float *x, *before;
+  size_t count; /* of nodes [-] */
+} line;
+
+static sw_vec node(const float *x, size_t i) {
+  return sw_v((double)x[3 * i], (double)x[3 * i + 1], (double)x[3 * i + 2]);
+}
+
+static line line_of(const sw_scene *s, size_t frame, size_t w, double start) {
+  line l = {0};
+  size_t count = 0;
+  l.x = sw_scene_frame_wire(s, frame, w, &l.count);
+  if (!l.x) l.count = 0;
+  if (frame > 0 && sw_scene_frame_time(s, frame - 1) >= start) {
+    l.before = sw_scene_frame_wire(s, frame - 1, w, &count);
+    if (count != l.count) l.before = NULL;
+  }
+  return l;
+}
+
+/* Angle between the edges at node i [rad]. */
+static double angle_at(const line *l, size_t i) {
+  const sw_vec a = sw_sub(node(l->x, i), node(l->x, i - 1));
+  const sw_vec b = sw_sub(node(l->x, i + 1), node(l->x, i));
+  const double size = sw_norm(sw_cross(a, b)), dot = sw_dot(a, b);
+  return size > 0 || dot < 0 ? atan2(size, dot) : 0;
+}
+
+static double moved(const line *l, size_t i) {
+  return l->before ? sw_dist(node(l->x, i), node(l->before, i)) : 0;
+}
+
+static void sweep(const line *l, sw_swept *out) {
+  double turn = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    for (size_t k = 0; k < 3; k++) {
+      const double x = (double)l->x[3 * i + k];
+      out->low[k] = fmin(out->low[k], x), out->high[k] = fmax(out->high[k], x);
+    }
+    out->step = fmax(out->step, moved(l, i));
+    if (i > 0 && i + 1 < l->count) turn += angle_at(l, i);
+  }
+  out->turning = fmax(out->turning, turn);
+}
+
+void sw_scene_frames_sweep(const sw_scene *s, double start, size_t w, sw_swept *out) {
+  *out =
+      (sw_swept){.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
+  for (size_t f = 0; f < sw_scene_frames(s); f++) {
+    if (sw_scene_frame_time(s, f) < start) continue;
+    const line l = line_of(s, f, w, start);
+    sweep(&l, out);
+  }
+}
+
+double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w) {
+  double most = -1;
+  for (size_t f = 2; f < sw_scene_frames(s); f++) {
+    const double a = sw_scene_frame_time(s, f - 2), b = sw_scene_frame_time(s, f - 1);
+    const double second = sw_scene_frame_time(s, f) - b, first = b - a;
+    size_t n, m, k;
+    const float *x = sw_scene_frame_wire(s, f - 2, w, &n);
+    const float *y = sw_scene_frame_wire(s, f - 1, w, &m);
+    const float *z = sw_scene_frame_wire(s, f, w, &k);
+    if (a < start || first <= 0 || second <= 0 || !x || !y || !z || n != m || m != k) continue;
+    for (size_t i = 0; i < n; i++) {
+      const sw_vec before = sw_scale(sw_sub(node(y, i), node(x, i)), 1 / first);
+      const sw_vec after = sw_scale(sw_sub(node(z, i), node(y, i)), 1 / second);
+      most = fmax(most, 2 * sw_dist(after, before) / (first + second));
+    }
+  }
+  return most;
+}
+
+/* --- how near lines come ----------------------------------------------------------------- */
+
+/* An edge of a line: its first node, the way to the second, half of its length, and by how much
+ * what is there may be off it: moved since the frame before, or bowed. */
+typedef struct edge {
+  sw_vec from, way;
+  double half, off; /* [m] */
+} edge;
+
+static edge edge_of(const line *l, size_t i) {
+  edge e = {.from = node(l->x, i)};
+  double bend = 0;
+  e.way = sw_sub(node(l->x, i + 1), e.from);
+  e.half = sw_norm(e.way) / 2;
+  if (i > 0) bend = angle_at(l, i);
+  if (i + 2 < l->count) bend = fmax(bend, angle_at(l, i + 1));
+  e.off = fmax(moved(l, i), moved(l, i + 1)) + e.half * bend / 4; /* of an arc: length angle/8 */
+  return e;
+}
+
+static double gap_of(const edge *a, const edge *b, double enough) {
+  double s, t;
+  const sw_vec middle = sw_sub(sw_madd(a->from, a->way, 0.5), sw_madd(b->from, b->way, 0.5));
+  const double off = a->off + b->off, least = sw_norm(middle) - a->half - b->half - off;
+  if (least >= enough) return least;
+  sw_pair_segments(a->from, a->way, b->from, b->way, &s, &t);
+  return sw_dist(sw_madd(a->from, a->way, s), sw_madd(b->from, b->way, t)) - off;
+}
+
+/* Of a line with itself, places between which it turns by less than half a turn cannot meet: a
+ * closed polygon turns by 2 pi at least, and by no more than pi where it closes (Fenchel). */
+static double near_itself(const line *l, double best, double enough) {
+  for (size_t i = 0; i + 2 < l->count; i++) {
+    const edge a = edge_of(l, i);
+    double turn = 0;
+    for (size_t j = i + 1; j + 1 < l->count && best > enough; j++) {
+      turn += angle_at(l, j);
+      if (turn < HALF_TURN) continue;
+      const edge b = edge_of(l, j);
+      best = fmin(best, gap_of(&a, &b, best));
+    }
+  }
+  return best;
+}
+
+static double near_other(const line *l, const line *m, double best, double enough) {
+  for (size_t i = 0; i + 1 < l->count; i++) {
+    const edge a = edge_of(l, i);
+    for (size_t j = 0; j + 1 < m->count && best > enough; j++) {
+      const edge b = edge_of(m, j);
+      best = fmin(best, gap_of(&a, &b, best));
+    }
+  }
+  return best;
+}
+
+double sw_scene_frames_apart(const sw_scene *s, double start, size_t w, size_t v, double enough) {
+  double best = INFINITY;
+  for (size_t f = 0; f < sw_scene_frames(s) && best > enough; f++) {
+    if (sw_scene_frame_time(s, f) < start) continue;
+    const line l = line_of(s, f, w, start), m = line_of(s, f, v, start);
+    best = w == v ? near_itself(&l, best, enough) : near_other(&l, &m, best, enough);
+  }
+  return best;
+}

@@ -1,0 +1,146 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Runs that choose their model, watched while they go on: what a free check stood on breaks on the way, and
+-- the run goes on with the next rung from a snapshot before that; or it begins again.
+local sw = require "softworld"
+local core = sw.core
+
+local R = 0.0025
+
+local function rod(scene, more)
+  local args = { name = "w", E = 5e6, density = 1500, radius = R, from = { 0, 0, 0 }, to = { 0.6, 0, 0 },
+    segments = 24, model = "auto" }
+  for key, value in pairs(more or {}) do args[key] = value end
+  return scene:wire(args)
+end
+
+local function event_of(run, words)
+  for _, e in ipairs(run.events) do
+    if e.kind == "model" and e.text:find(words, 1, true) then return e end
+  end
+end
+
+local function choice(run, name)
+  for _, c in ipairs(run.model.choices) do
+    if c.name == name then return c end
+  end
+end
+
+-- A wire hangs between two clamps at rest. In the second half one clamp sets off at once: what coarse poses
+-- take for 1 % of the weight is four times as much in poses a quarter as far apart.
+local function sets_off(options, more)
+  local scene = sw.scene { name = "off" }
+  scene:force { kind = "damping", mass = 5 }
+  local w = rod(scene, options)
+  scene:clamp(w, { s = 0 })
+  local right = scene:clamp(w, { s = 0.6, name = "right" })
+  scene:settle()
+  scene:process(function(p)
+    p:wait(20)
+    right:follow { points = { { 0.6, 0, 0 }, { 0.5, 0, 0 } }, duration = 20, law = "linear" }
+    p:wait(20)
+  end)
+  local all = { tolerance = { ["right.force"] = { relative = 0.1 } } }
+  for key, value in pairs(more or {}) do all[key] = value end
+  return scene:run(all), scene, w
+end
+
+describe("a run that chose its model", function()
+  it("goes on with dynamics from a snapshot where poses speed up, and says so", function()
+    local run = sets_off()
+    assert.equal("dynamic", run.model.motion, tostring(run:why()))
+    assert.equal("switched", choice(run, "motion").by)
+    local words = "motion dynamic: poses until 20.00 s, where the run went back to a snapshot: by 2"
+    assert.truthy(tostring(run:why()):find(words, 1, true), tostring(run:why()))
+    local e = event_of(run, "motion: poses until")
+    assert.is_near(20, e.time, 0.2)
+    assert.is_true(run.met)
+    local fine = sets_off({ model = "rod" }, { levels = 5, tolerance = {
+      ["right.force"] = { relative = 0.005 } } })
+    local q, t, off = run.quantities["right.force"], fine.quantities["right.force"], 0
+    for k = 1, 3 do off = off + (q.value[k] - t.value[k]) ^ 2 end
+    assert.is_true(off ^ 0.5 <= q.error + t.error, ("%g off, %g stated"):format(off ^ 0.5, q.error))
+  end)
+
+  it("gives the same bits twice", function()
+    local one, two = sets_off(), sets_off()
+    assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))
+    local _, scene, w = sets_off()
+    assert.is_nil(w:get().spin_inertia)
+    assert.is_true(math.abs(scene.time - 40) < 1e-9)
+  end)
+
+  -- What the coarse run did not have happens in those after it: a script that counts its runs.
+  local function lifted(turn)
+    local scene, count = sw.scene { name = "rub" }, 0
+    scene:force { kind = "damping", mass = 5 }
+    local w = rod(scene)
+    scene:clamp(w, { s = 0, name = "left" })
+    scene:clamp(w, { s = 0.6 }):follow { points = { { 0.6, 0, 0 }, { 0.5, 0, 0 } }, duration = 4,
+      turn = turn and { axis = { 1, 0, 0 }, angle = turn } or nil }
+    local table_ = scene:obstacle { name = "table", shape = "plane", friction = 0.3, at = { 0, 0, -0.3 } }
+    scene:process(function(p)
+      count = count + 1
+      p:wait(5)
+      if count > 1 then
+        table_:follow { relative = true, points = { { 0, 0, 0 }, { 0, 0, 0.17 } }, duration = 5 }
+      end
+      p:wait(15)
+    end)
+    return scene:run { quasistatic = true, tolerance = { ["left.force"] = { relative = 0.1 } } }, w
+  end
+
+  it("lets a wire roll from where something begins to rub", function()
+    local run, w = lifted()
+    assert.equal("switched", choice(run, "twist").by, tostring(run:why()))
+    assert.equal("rolling", run.model.twist)
+    assert.truthy(event_of(run, "'table' rubs; rolling from there"))
+    assert.is_true(event_of(run, "'table' rubs").time > 5)
+    assert.is_not_nil(w:get().spin_inertia)
+  end)
+
+  it("begins again where a wire that is twisted cannot go on rolling, and says why", function()
+    local run = lifted(1)
+    assert.are_not.equal("switched", choice(run, "twist").by)
+    assert.truthy(tostring(run:why()):find("and the run began again: ", 1, true), tostring(run:why()))
+    assert.truthy(tostring(run:why()):find("is twisted by", 1, true), tostring(run:why()))
+  end)
+
+  it("lets wires touch from where they come near", function()
+    local scene, count = sw.scene { name = "near", gravity = { 0, 0, 0 } }, 0
+    scene:force { kind = "damping", mass = 5 }
+    local a = rod(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
+    local b = rod(scene, { name = "b", from = { 0, -0.2, 0.1 }, to = { 0, 0.2, 0.1 } })
+    for i, s in ipairs { 0, 0.4 } do scene:clamp(a, { s = s, name = "a" .. i }) end
+    local held = { scene:clamp(b, { s = 0 }), scene:clamp(b, { s = 0.4 }) }
+    scene:process(function(p)
+      count = count + 1
+      p:wait(2)
+      for _, clamp in ipairs(count > 1 and held or {}) do
+        clamp:follow { relative = true, points = { { 0, 0, 0 }, { 0, 0, -0.11 } }, duration = 8 }
+      end
+      p:wait(8)
+    end)
+    local run = scene:run { quasistatic = true, tolerance = { ["a1.force"] = 0.1 } }
+    assert.equal("switched", choice(run, "contact").by, tostring(run:why()))
+    assert.equal("wires", run.model.contact)
+    assert.is_true(scene:contacts() > 0)
+  end)
+end)
+
+-- v = (x - x before)/span at free nodes; of lines with as many nodes alone.
+describe("core.came_from", function()
+  it("gives the speed of the way", function()
+    local scene = sw.scene()
+    local w = rod(scene, { model = "rod", segments = 4 })
+    scene:clamp(w, { s = 0 })
+    local before = w:positions()
+    for i = 3, #before, 3 do before[i] = before[i] - 0.02 end
+    core.came_from(w, before, 0.1)
+    local v = w:velocities()
+    assert.is_near(0.2, v[#v], 1e-12)
+    assert.equal(0, v[3]) -- held
+    assert.has_error(function() core.came_from(w, { 0, 0, 0 }, 0.1) end)
+    assert.has_error(function() core.came_from(w, before, 0) end)
+    assert.has_error(function() core.came_from(w, before, 1e-300) end)
+  end)
+end)
