@@ -133,7 +133,8 @@ static double book_gain(sw_scene *s, double gain) {
 
 /* Losses of a step are known by what they take at its ends, so that they may be booked too high:
  * damping where its power changed within the step, friction where its force began in it, a strike
- * where the step gave some of it back. So much of them that they exceed the step's loss by. */
+ * where the step gave some of it back; both where something touches. So much of them that they
+ * exceed the step's loss by. */
 static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
@@ -144,7 +145,7 @@ static double booked_too_high(const sw_books *b, sw_step_energy *step, double ex
   } parts[] = {{&step->damping, step->damping - least},
                {&step->impact, step->impact},
                {&step->friction, 0.5 * step->friction}};
-  for (size_t k = 0; k < 3; k++) {
+  for (size_t k = 0; k < (step->touching ? 3 : 1); k++) {
     const double part = fmin(left, fmax(0.0, parts[k].most));
     *parts[k].lost -= part, left -= part;
   }
