@@ -111,7 +111,7 @@ describe("a mesh does not go with", function()
       s:clamp(w, { s = 0 })
       s:settle{ tolerance = { tip = 1e-3 } }
     end },
-    { "spin", "rolls = true only", function(_, w) return w:spin(0.1) end },
+    { "spin", "spin needs a wire made with rolls = true", function(_, w) return w:spin(0.1) end },
     { "places that are not on it", "it must be in [0, 0.2] m", function(_, w) return w:position(0.3) end },
     { "velocities that are no numbers", "finite", function(_, w) w:set_velocity{ 0, NAN, 0 } end },
   }

@@ -76,7 +76,8 @@ describe("energy of wire that is fed", function()
       f:speed(-0.3)
       local run = s:run{ duration = 0.5, dt = dt }
       assert.is_true(run.ok, run.reason)
-      gaps[i] = run:ledger().gap
+      local l = run:ledger()
+      gaps[i] = l.gap + l.lost.integrator -- all that is not known, whatever its sign
     end
     assert.is_true(gaps[2] < 0.5 * gaps[1] and gaps[3] < 0.7 * gaps[2],
       ("%.3g, %.3g, %.3g J"):format(table.unpack(gaps)))
