@@ -269,7 +269,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
                            : p->restart || uneven ? p->start
                                                   : p->method;
   SW_TRY(implicit_trial(p, m, s, t, h, err));
-  if (p->wants_error && m->flags & SW_INTEGRATOR_EMBEDDED) p->error = embedded_error(p, m, s, h);
+  if (p->wants_error && m->error[0] != 0) p->error = embedded_error(p, m, s, h);
   return SW_OK;
 }
 

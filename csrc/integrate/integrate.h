@@ -50,8 +50,9 @@ typedef struct sw_integrator {
   unsigned flags;
   size_t stages; /* implicit members */
   sw_stage_row rows[SW_STAGES_MAX];
-  /* embedded: h times the sum of these shares of the velocities at the start and after each
-   * stage is the step's error, of one order more than the method [-]. */
+  /* embedded, and what such a method starts with: h times the sum of these shares of the velocities
+   * at the start and after each stage is the step's error, of one order more than the method [-].
+   */
   double error[SW_STAGES_MAX + 1];
   /* onwards: the step ends at x_n + reach (y - x_n), and its velocities; keeps > 0: its
    * accelerations at a_n + keeps (a - a_n), which the next step begins with [-]. */

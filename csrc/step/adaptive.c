@@ -6,6 +6,12 @@
 #include "scene/parts.h"
 #include "step/restart.h"
 
+/* A strike is a jump, which no step is short enough for: one that starts anew and is this short is
+ * taken as it is. */
+static int is_short_enough(const sw_ladder *p, double h) {
+  return sw_scene_course(p->s)->stepper.restart && h <= SW_SMALLEST_SHARE * p->args->dt;
+}
+
 /* An adaptive step of at most `left`; refuses steps whose error is too large. */
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
@@ -20,10 +26,11 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
-    const int fine = status == SW_OK && course->stepper.error <= tolerance;
+    const int fine =
+        status == SW_OK && (course->stepper.error <= tolerance || is_short_enough(p, h));
     double next = status == SW_OK ? sw_stepper_next_h(&course->stepper, h, tolerance) : 0.25 * h;
     if (fine) {
-      const int unknown = !(course->stepper.error > 0); /* a starting step gives no estimate */
+      const int unknown = !(course->stepper.error > 0); /* implicit Euler gives no estimate */
       const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);
       if (!(sw_scene_time(s) > before))

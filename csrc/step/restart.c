@@ -65,12 +65,11 @@ void sw_restart_struck(sw_scene *s, int dull) {
 }
 
 /* Accelerations at a step's end may be those of a shock that is over: the next step starts without
- * them, or it pushes with them for half of it and makes energy. A starting step gives no estimate
- * of its error. */
+ * them, or it pushes with them for half of it and makes energy. */
 static int is_shaken(const sw_scene *s) {
   sw_contact *contact = sw_scene_contact(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
-  if (!contact || stepper->wants_error || stepper->start == stepper->method) return 0;
+  if (!contact || stepper->start == stepper->method) return 0;
   return sw_contact_shaken(contact, sw_scene_system(s));
 }
 
