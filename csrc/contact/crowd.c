@@ -151,15 +151,14 @@ sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
 
 /* --- forces ------------------------------------------------------------------------------- */
 
-enum { ROW = 24 }; /* layout of the system's block rows */
-
 /* Along the line between both; the part across, which pulls them off it, only where an
  * equilibrium is looked for and iterations converge. */
 static void add_stiffness(sw_body *b, const group *g, const couple *p, double r, sw_vec t) {
   const double u[3] = {t.x, t.y, t.z};
   const sw_field *f = &b->field;
   const double across = f->statics && !f->cautious ? -g->stiffness * (g->distance - r) / r : 0.0;
-  double between[9], *row[2] = {f->rows + ROW * (size_t)p->a, f->rows + ROW * (size_t)p->b};
+  double between[9],
+      *row[2] = {f->rows + SW_FIELD_ROW * (size_t)p->a, f->rows + SW_FIELD_ROW * (size_t)p->b};
   for (size_t i = 0, at = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++) {
       const double K = (g->stiffness - across) * u[i] * u[j] + (i == j ? across : 0.0);

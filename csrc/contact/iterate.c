@@ -4,36 +4,12 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/meet.h"
 #include "contact/touch.h"
 
 /* Shorter updates leave place and normal of a touch on a curved or edged shape
  * as they are; of the radius [-]. */
 static const double SMALL_SHIFT = 0.05;
-
-enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
-
-/* Add force f and symmetric stiffness K (upper half) at a touch. */
-static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
-                         unsigned want) {
-  static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  sw_body *b = &s->bodies[t->body];
-  const sw_mean *spot = &t->spot;
-  for (size_t e = 0; e < spot->count; e++) {
-    const size_t i = spot->node[e] - b->first_node;
-    double *row = b->field.rows + ROW * i;
-    sw_accumulate(b->field.force + 3 * i, sw_scale(f, spot->w[e]));
-    if (!(want & SW_WANT_STIFFNESS)) continue;
-    for (size_t k = 0; k < 6; k++) row[OWN + k] += spot->w[e] * spot->w[e] * K[k];
-    for (size_t g = e + 1; g < spot->count; g++) {
-      double between[9];
-      for (size_t k = 0; k < 9; k++) between[k] = spot->w[e] * spot->w[g] * K[full[k]];
-      if (b->plan->web)
-        sw_body_couple(b, i, spot->node[g] - b->first_node, between);
-      else
-        for (size_t k = 0; k < 9; k++) row[(g == e + 1 ? NEXT : SECOND) + k] += between[k];
-    }
-  }
-}
 
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   double K[6];
@@ -41,7 +17,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   t->press.tangential = t->press.slip = sw_v(0, 0, 0);
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
-  add_to_field(s, t, f, K, want);
+  sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
