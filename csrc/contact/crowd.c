@@ -8,10 +8,11 @@
 #include "base/interrupt.h"
 #include "contact/cells.h"
 #include "contact/joined.h"
+#include "contact/same.h"
 
-/* Pairs are looked for up to the distance and this much of the way that they may come nearer in
- * the step [-]; in statics up to so many distances. */
-static const double RESERVE = 1.5, STATIC_REACH = 2.0;
+/* Pairs are looked for up to the distance and what they may come nearer in the step; in statics up
+ * to so many distances [-]. */
+static const double STATIC_REACH = 2.0;
 static const double FARTHEST = 5.0;    /* in distances: whatever speeds are [-] */
 static const double SMALL_PUSH = 0.01; /* of the distance: does not keep iterations going [-] */
 
@@ -92,7 +93,7 @@ static double fastest(const sw_body *b, const double *v) {
 
 static double reach_of(const group *g, double speed, double h) {
   if (!(h > 0)) return STATIC_REACH * g->distance;
-  return fmin(g->distance + RESERVE * h * speed, FARTHEST * g->distance);
+  return fmin(g->distance + SW_RESERVE * h * speed, FARTHEST * g->distance);
 }
 
 /* More pairs than this near each other are of particles much closer than they should be [-]. */
