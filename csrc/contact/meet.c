@@ -199,27 +199,16 @@ static int update_all(sw_mutual *m, const double *delta) {
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
 }
 
-static sw_spot spot_of(const sw_mutual *m, sw_meet *t) {
-  sw_spot spot = {.press = &t->press,
-                  .friction = sw_mutual_rule(m, t->of.body)->friction,
-                  .scale = scale_of(m, t)};
-  for (int side = 0; side < 2; side++)
-    for (uint32_t i = 0; i < t->bow[side].spot.count; i++, spot.count++) {
-      spot.body[spot.count] = t->of.body[side];
-      spot.node[spot.count] = t->bow[side].spot.node[i];
-      spot.weight[spot.count] = side ? -t->bow[side].spot.w[i] : t->bow[side].spot.w[i];
-    }
-  return spot;
-}
-
 void sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
   m->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &m->spots);
   find_scales(m);
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
-    if (sw_press_slides(&t->press, sw_mutual_rule(m, t->of.body)->friction))
-      sw_spots_add(&m->spots, s, spot_of(m, t));
+    const double friction = sw_mutual_rule(m, t->of.body)->friction;
+    const sw_spot spot = {.press = &t->press, .friction = friction, .scale = scale_of(m, t)};
+    sw_spots_add(&m->spots, s, spot, &t->bow[0].spot, t->of.body[0], &t->bow[1].spot,
+                 t->of.body[1]);
   }
   sw_spots_follow(&m->spots, s);
 }
