@@ -102,13 +102,13 @@ static const double CLOSE = 3.0; /* rings along the pad's face, its x and z [-] 
 /* The same of a wire's line: nodes that lie just on a pad's edges come and go, and a whole
  * segment's share of the force with them. So pads with faces are met at places spread evenly, so
  * many along their width, that fade out over their edges. Pins are met at the nearest place. */
-static const double SAMPLES = 12.0;            /* [-] */
-enum { LEAST_SAMPLES = 2, MOST_SAMPLES = 64 }; /* of a segment [-] */
+static const double SAMPLES = 12.0; /* [-] */
+enum { LEAST_SAMPLES = 2 };         /* of a segment [-] */
 
 /* Pads' touches of the segment of a line. */
 static int samples_of(const sw_plan *p, size_t i, double spaced) {
   if (!(spaced > 0)) return 0;
-  return (int)fmin(MOST_SAMPLES, fmax(LEAST_SAMPLES, ceil(p->rest[i] / spaced)));
+  return (int)fmin(SW_SAMPLES_MOST, fmax(LEAST_SAMPLES, ceil(p->rest[i] / spaced)));
 }
 
 static sw_status segment_candidates(sw_contact *c, const sw_system *s, size_t body, size_t i,

@@ -36,7 +36,18 @@ static double width_of(const sw_mutual *m, const sw_system *s, double reach) {
   return fmax(2.0 * radius + sqrt(length2) + reach, far * 1e-8);
 }
 
-static void put(sw_cells *g, const double *x, uint32_t body, size_t node, size_t end) {
+sw_status sw_cells_make(void **room, size_t *capacity, size_t most, double width, sw_cells *out) {
+  *out = (sw_cells){.size = 64, .width = width};
+  while (out->size < 2 * most) out->size *= 2;
+  const size_t bytes = most * sizeof *out->things + out->size * sizeof *out->head;
+  SW_TRY(sw_grow(room, capacity, bytes, 1));
+  out->things = *room;
+  out->head = (uint32_t *)(void *)(out->things + most);
+  memset(out->head, 0, out->size * sizeof *out->head);
+  return SW_OK;
+}
+
+void sw_cells_put(sw_cells *g, const double *x, uint32_t body, size_t node, size_t end) {
   sw_thing *t = &g->things[g->count++];
   *t = (sw_thing){.node = (uint32_t)node, .end = (uint32_t)end, .body = body};
   t->at = sw_cell_of(g->width, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
@@ -50,11 +61,11 @@ static void put_body(sw_cells *g, const sw_system *s, uint32_t body, int points)
   const sw_web *w = b->plan->web;
   const size_t first = b->first_node;
   for (size_t i = 0; i < b->plan->nodes; i++) {
-    if (points && (!w || w->outer[i])) put(g, s->x, body, first + i, first + i);
-    if (!w && i < b->plan->edges) put(g, s->x, body, first + i, first + i + 1);
+    if (points && (!w || w->outer[i])) sw_cells_put(g, s->x, body, first + i, first + i);
+    if (!w && i < b->plan->edges) sw_cells_put(g, s->x, body, first + i, first + i + 1);
     for (size_t k = points && w ? w->side_first[i] : 0; points && w && k < w->side_first[i + 1];
          k++)
-      put(g, s->x, body, first + i, first + w->side[k]);
+      sw_cells_put(g, s->x, body, first + i, first + w->side[k]);
   }
 }
 
@@ -64,13 +75,7 @@ sw_status sw_cells_fill(sw_mutual *m, const sw_system *s, double reach, int poin
     const sw_plan *p = s->bodies[k].plan;
     most += p->nodes + (p->web ? p->web->side_first[p->web->particles] : p->edges);
   }
-  *out = (sw_cells){.size = 64, .width = width_of(m, s, reach)};
-  while (out->size < 2 * most) out->size *= 2;
-  const size_t bytes = most * sizeof *out->things + out->size * sizeof *out->head;
-  SW_TRY(sw_grow(&m->grid, &m->grid_capacity, bytes, 1));
-  out->things = m->grid;
-  out->head = (uint32_t *)(void *)(out->things + most);
-  memset(out->head, 0, out->size * sizeof *out->head);
+  SW_TRY(sw_cells_make(&m->grid, &m->grid_capacity, most, width_of(m, s, reach), out));
   for (size_t k = 0; k < s->body_count; k++)
     if (sw_mutual_takes_part(m, k)) put_body(out, s, (uint32_t)k, points);
   return SW_OK;

@@ -2,17 +2,17 @@
 #include "contact/crowd.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
+#include "contact/cells.h"
 #include "contact/joined.h"
+#include "contact/same.h"
 
-/* Pairs are looked for up to the distance and this much of the way that they may come nearer in
- * the step [-]; in statics up to so many distances. */
-static const double RESERVE = 1.5, STATIC_REACH = 2.0;
+/* Pairs are looked for up to the distance and what they may come nearer in the step; in statics up
+ * to so many distances [-]. */
+static const double STATIC_REACH = 2.0;
 static const double FARTHEST = 5.0;    /* in distances: whatever speeds are [-] */
 static const double SMALL_PUSH = 0.01; /* of the distance: does not keep iterations going [-] */
 
@@ -26,8 +26,8 @@ typedef struct group {
   sw_joined joined;
   couple *near; /* of this step */
   size_t count, capacity;
-  uint32_t *head, *next; /* particles of each cell, as lists; UINT32_MAX ends them */
-  size_t cells;          /* power of 2 */
+  void *grid; /* work of the search */
+  size_t grid_capacity;
 } group;
 
 struct sw_crowd {
@@ -43,10 +43,7 @@ static int by_number(const void *left, const void *right) {
 
 static sw_status new_group(group *g, size_t body, const sw_web *w) {
   *g = (group){.body = body, .distance = w->repel_distance, .stiffness = w->repel_stiffness};
-  for (g->cells = 16; g->cells < 2 * w->particles;) g->cells *= 2;
-  g->head = sw_alloc(g->cells, sizeof *g->head);
-  g->next = sw_alloc(w->particles, sizeof *g->next);
-  return g->head && g->next ? sw_joined_new(w, &g->joined) : SW_ENOMEM;
+  return sw_joined_new(w, &g->joined);
 }
 
 sw_status sw_crowd_new(const sw_system *s, sw_crowd **out) {
@@ -74,34 +71,15 @@ void sw_crowd_free(sw_crowd *c) {
   if (!c) return;
   for (size_t k = 0; c->groups && k < c->count; k++) {
     group *g = &c->groups[k];
-    void *const blocks[] = {g->near, g->head, g->next};
     sw_joined_free(&g->joined);
-    for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) sw_free(blocks[i]);
+    sw_free(g->near);
+    sw_free(g->grid);
   }
   sw_free(c->groups);
   sw_free(c);
 }
 
 /* --- who is near to whom ------------------------------------------------------------------ */
-
-typedef struct cell {
-  int64_t x, y, z;
-} cell;
-
-/* Whatever the numbers are: cells far out may be one. */
-static int64_t coordinate(double x, double size) {
-  return (int64_t)fmax(-1e15, fmin(1e15, floor(x / size)));
-}
-
-static cell cell_of(const double *x, double size) {
-  return (cell){coordinate(x[0], size), coordinate(x[1], size), coordinate(x[2], size)};
-}
-
-static size_t slot_of(const group *g, cell at) {
-  const uint64_t h = (uint64_t)at.x * 0x9E3779B97F4A7C15u ^ (uint64_t)at.y * 0xC2B2AE3D27D4EB4Fu ^
-                     (uint64_t)at.z * 0x165667B19E3779F9u;
-  return (size_t)(h ^ h >> 29) & (g->cells - 1);
-}
 
 /* How fast the fastest particle goes beside the mean of all [m/s]. */
 static double fastest(const sw_body *b, const double *v) {
@@ -115,43 +93,46 @@ static double fastest(const sw_body *b, const double *v) {
 
 static double reach_of(const group *g, double speed, double h) {
   if (!(h > 0)) return STATIC_REACH * g->distance;
-  return fmin(g->distance + RESERVE * h * speed, FARTHEST * g->distance);
+  return fmin(g->distance + SW_RESERVE * h * speed, FARTHEST * g->distance);
 }
 
 /* More pairs than this near each other are of particles much closer than they should be [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-static sw_status look_at(group *g, const double *x, const double *v, double h, uint32_t i,
-                         uint32_t j) {
-  const uint32_t a = i < j ? i : j, b = i < j ? j : i;
-  const double speed = sw_dist(sw_vec_at(v, a), sw_vec_at(v, b));
-  if (!(sw_dist(sw_vec_at(x, a), sw_vec_at(x, b)) < reach_of(g, speed, h))) return SW_OK;
-  if (sw_joined_are(&g->joined, a, b)) return SW_OK;
+/* A search for pairs. */
+typedef struct search {
+  group *g;
+  const double *x, *v;
+  double h; /* [s] */
+} search;
+
+static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
+  const search *all = user;
+  group *g = all->g;
+  const uint32_t a = t->node < u->node ? t->node : u->node,
+                 b = t->node < u->node ? u->node : t->node;
+  const double speed = sw_dist(sw_vec_at(all->v, a), sw_vec_at(all->v, b));
+  const double apart = sw_dist(sw_vec_at(all->x, a), sw_vec_at(all->x, b));
+  if (a == b || !(apart < reach_of(g, speed, all->h)) || sw_joined_are(&g->joined, a, b))
+    return SW_OK;
   if (g->count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&g->near, &g->capacity, g->count + 1, sizeof *g->near));
   g->near[g->count++] = (couple){a, b};
   return SW_OK;
 }
 
-/* Each particle meets those that were put into the cells around it before. */
-static sw_status search(group *g, const sw_body *b, const double *x, const double *v, double h) {
-  const double size = reach_of(g, 2.0 * fastest(b, v), h);
+/* Each particle meets those that were put into the cells before. */
+static sw_status find_pairs(group *g, const sw_body *b, const double *x, const double *v,
+                            double h) {
+  search all = {g, x, v, h};
+  sw_cells cells;
+  SW_TRY(sw_cells_make(&g->grid, &g->grid_capacity, b->plan->nodes,
+                       reach_of(g, 2.0 * fastest(b, v), h), &cells));
   g->count = 0;
-  memset(g->head, 0xff, g->cells * sizeof *g->head);
-  for (uint32_t i = 0; i < b->plan->nodes; i++) {
-    const cell at = cell_of(x + 3 * (size_t)i, size);
+  for (size_t i = 0; i < b->plan->nodes; i++) {
     if (sw_interrupted()) return SW_EINTR;
-    for (int k = 0; k < 27; k++) {
-      const cell beside = {at.x + k % 3 - 1, at.y + k / 3 % 3 - 1, at.z + k / 9 - 1};
-      for (uint32_t j = g->head[slot_of(g, beside)]; j != UINT32_MAX; j = g->next[j]) {
-        const cell its = cell_of(x + 3 * (size_t)j, size);
-        if (its.x == beside.x && its.y == beside.y && its.z == beside.z)
-          SW_TRY(look_at(g, x, v, h, i, j));
-      }
-    }
-    const size_t slot = slot_of(g, at);
-    g->next[i] = g->head[slot];
-    g->head[slot] = i;
+    sw_cells_put(&cells, x, 0, i, i);
+    SW_TRY(sw_cells_around(&cells, &cells.things[i], look_at, &all));
   }
   if (g->count)
     qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
@@ -163,7 +144,7 @@ sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
     group *g = &c->groups[k];
     sw_body *b = &s->bodies[g->body];
     const size_t at = 3 * b->first_node;
-    SW_TRY(search(g, b, s->x + at, s->v + at, h));
+    SW_TRY(find_pairs(g, b, s->x + at, s->v + at, h));
     SW_TRY(sw_body_plan_pairs(b, (const uint32_t *)(const void *)g->near, g->count));
   }
   return SW_OK;
@@ -171,15 +152,14 @@ sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
 
 /* --- forces ------------------------------------------------------------------------------- */
 
-enum { ROW = 24 }; /* layout of the system's block rows */
-
 /* Along the line between both; the part across, which pulls them off it, only where an
  * equilibrium is looked for and iterations converge. */
 static void add_stiffness(sw_body *b, const group *g, const couple *p, double r, sw_vec t) {
   const double u[3] = {t.x, t.y, t.z};
   const sw_field *f = &b->field;
   const double across = f->statics && !f->cautious ? -g->stiffness * (g->distance - r) / r : 0.0;
-  double between[9], *row[2] = {f->rows + ROW * (size_t)p->a, f->rows + ROW * (size_t)p->b};
+  double between[9],
+      *row[2] = {f->rows + SW_FIELD_ROW * (size_t)p->a, f->rows + SW_FIELD_ROW * (size_t)p->b};
   for (size_t i = 0, at = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++) {
       const double K = (g->stiffness - across) * u[i] * u[j] + (i == j ? across : 0.0);

@@ -21,14 +21,21 @@ typedef struct sw_place {
   sw_sharp sharp;
   sw_vec edge;  /* along it, or 0 [-] */
   sw_vec along; /* the curve there [-] */
+  sw_vec wire;  /* of one that is not sharp: where the wire is, likewise [m] */
 } sw_place;
 
-/* Of a segment, those that are nearest. */
+/* Of a segment: those of its curve that are nearest, or all of its chord or of its samples. */
 enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
 typedef struct sw_places {
   size_t count;
-  sw_place place[SW_PLACES_MOST];
+  sw_place place[SW_SAMPLES_MOST];
 } sw_places;
+_Static_assert(SW_PLACES_MOST + SW_CLOSEST_MAX <= SW_SAMPLES_MOST, "room for those of a chord");
+
+/* Where the candidate's wire is less than reach from its obstacle, with the system's nodes at x and
+ * obstacles where `at` says: first along its smooth curve, sharp ones, then elsewhere [m]. */
+void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                     const sw_contact_at *at, const double *x, double reach, sw_places *list);
 
 /* A segment's piece with the system's nodes at x. 0: no edge or corner is less than reach away. */
 int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate *k,

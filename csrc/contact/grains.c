@@ -48,8 +48,8 @@ static int widen(sw_mutual *m, sw_system *s, const double *x1, double h) {
   double least = HUGE_VAL;
   for (size_t b = 0; b < s->body_count; b++)
     least = fmin(least, 2.0 * sw_thing_radius(&s->bodies[b]));
-  if (!(needed > fmax(0.25 * least + m->fall, m->least_reserve))) return 0;
-  m->least_reserve = 1.5 * needed;
+  if (!(needed > fmax(SW_LISTED_GAP * least + m->fall, m->least_reserve))) return 0;
+  m->least_reserve = SW_RESERVE * needed;
   return sw_mutual_choose(m, s) == SW_OK ? 1 : -1;
 }
 

@@ -7,12 +7,10 @@
 #include "base/interrupt.h"
 #include "contact/cells.h"
 #include "contact/grain.h"
-
-static const double RESERVE = 1.5; /* of what speeds can close in the step [-] */
-static const double LEAST = 0.25;  /* of the radii's sum: what is as near is chosen [-] */
+#include "contact/same.h"
 
 static double reserve_of(const sw_grains *g, double reach, double speed) {
-  return fmax(LEAST * reach + g->m.fall, g->m.least_reserve) + RESERVE * g->m.h * speed;
+  return fmax(SW_LISTED_GAP * reach + g->m.fall, g->m.least_reserve) + SW_RESERVE * g->m.h * speed;
 }
 
 /* Of a body's node by itself [N/m]. */

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "contact/grain.h"
 #include "contact/pairs_sweep.h"
+#include "contact/same.h"
 
 static size_t first_memory(const sw_mutual *m, const sw_ends *e) {
   size_t i;
@@ -33,17 +34,13 @@ static const sw_met *recall(const sw_mutual *m, const sw_system *s, const sw_end
   return best;
 }
 
-/* Friction's springs in an object of many particles are softer than its touches, by their number
- * and up to this, as where it touches obstacles [-]. */
-static const double SOFTEST = 1000.0;
-
 static double softness(const sw_system *s, const sw_ends *e) {
   double most = 0;
   for (int i = 0; i < 2; i++) {
     const sw_web *w = s->bodies[e->body[i]].plan->web;
     if (w) most = fmax(most, (double)w->particles);
   }
-  return fmin(SOFTEST, most);
+  return fmin(SW_SOFTEST, most);
 }
 
 /* A new touch of a pair there, or NULL; slides: 1, it follows the nearest places. */

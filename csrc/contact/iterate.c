@@ -4,36 +4,9 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "contact/meet.h"
+#include "contact/same.h"
 #include "contact/touch.h"
-
-/* Shorter updates leave place and normal of a touch on a curved or edged shape
- * as they are; of the radius [-]. */
-static const double SMALL_SHIFT = 0.05;
-
-enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
-
-/* Add force f and symmetric stiffness K (upper half) at a touch. */
-static void add_to_field(sw_system *s, const sw_touch *t, sw_vec f, const double K[6],
-                         unsigned want) {
-  static const size_t full[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  sw_body *b = &s->bodies[t->body];
-  const sw_mean *spot = &t->spot;
-  for (size_t e = 0; e < spot->count; e++) {
-    const size_t i = spot->node[e] - b->first_node;
-    double *row = b->field.rows + ROW * i;
-    sw_accumulate(b->field.force + 3 * i, sw_scale(f, spot->w[e]));
-    if (!(want & SW_WANT_STIFFNESS)) continue;
-    for (size_t k = 0; k < 6; k++) row[OWN + k] += spot->w[e] * spot->w[e] * K[k];
-    for (size_t g = e + 1; g < spot->count; g++) {
-      double between[9];
-      for (size_t k = 0; k < 9; k++) between[k] = spot->w[e] * spot->w[g] * K[full[k]];
-      if (b->plan->web)
-        sw_body_couple(b, i, spot->node[g] - b->first_node, between);
-      else
-        for (size_t k = 0; k < 9; k++) row[(g == e + 1 ? NEXT : SECOND) + k] += between[k];
-    }
-  }
-}
 
 static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   double K[6];
@@ -41,7 +14,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   t->press.tangential = t->press.slip = sw_v(0, 0, 0);
   if (!t->press.active) return;
   const sw_vec f = sw_press_eval(&t->press, t->friction, c->regime != SW_CONTACT_EXPLICIT, K);
-  add_to_field(s, t, f, K, want);
+  sw_meet_push_one(&s->bodies[t->body], &t->spot, f, want & SW_WANT_STIFFNESS ? K : NULL);
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
@@ -139,11 +112,6 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
-/* Friction of a loose object's many touches may never agree with itself all over. After so many
- * updates of a stage it no longer keeps iterations going where it shifts a touch by less than a
- * small share of the radius: it is then off by less than its own size for that step [-]. */
-enum { PATIENCE = 6 };
-
 /* The first update of a stage starts from a prediction, where the normals of what is round are a
  * little off. Accepted, that shakes ropes which slide round a cylinder: their force then swings by
  * 12 % instead of 1 %. A mesh that rocks on a peg gains energy by it. Pads of a gripper are pressed
@@ -157,11 +125,14 @@ static int is_first(const sw_contact *c, const sw_system *s, const sw_touch *t) 
 /* On what is not flat the touch may have got another place and another normal. */
 static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
   const double radius = c->candidates[t->candidate].radius;
-  return !c->flat[t->obstacle] && t->press.gap_after < radius && !(shift <= SMALL_SHIFT * radius);
+  return !c->flat[t->obstacle] && t->press.gap_after < radius &&
+         !(shift <= SW_SMALL_SHIFT * radius);
 }
 
-/* Bring a touch's forces up to the solved update; 1 = it agrees with what the
- * solve assumed. */
+/* Bring a touch's forces up to the solved update; 1 = it agrees with what the solve assumed.
+ * Friction of a loose object's many touches may never agree with itself all over: in the end it no
+ * longer keeps iterations going where it shifts a touch by less than a small share of the radius,
+ * and is then off by less than its own size for that step. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *y,
                   const double *delta, double scale) {
   const sw_vec shift = sw_mean_of(delta, 0, &t->spot);
@@ -174,8 +145,8 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   const int first = is_first(c, s, t);
   if (web || c->regime != SW_CONTACT_IMPLICIT) {
     if ((changes && s->rough < SW_NOT_MADE) || first) return 0;
-    const int small = way <= SMALL_SHIFT * c->candidates[t->candidate].radius;
-    if (agrees || !small || c->updates <= PATIENCE || !web || web->per_ring) return agrees;
+    const int small = way <= SW_SMALL_SHIFT * c->candidates[t->candidate].radius;
+    if (agrees || !small || c->updates <= SW_PATIENCE || !web || web->per_ring) return agrees;
     return sw_press_apart(&t->press);
   }
   if (!agrees || (first && !c->straight[t->obstacle])) return 0;
@@ -196,7 +167,6 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   int any = 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
-    if (t->held || c->candidates[t->candidate].given) continue;
     t->stiffer = stiffer(c, s, t);
     any |= t->stiffer > t->press.k;
   }

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "contact/round.h"
+#include "contact/curve.h"
 #include "contact/same.h"
 
 /* When the wire's axis is inside the obstacle the nearest face may be the wrong
@@ -43,9 +43,9 @@ static int behind_barrier(const sw_contact *c, const sw_system *s, const sw_cand
 }
 
 static sw_status add_near(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y,
-                          sw_closest *near, sw_vec local) {
-  if (!keep_side(c, k, local, near)) return SW_OK;
-  return sw_contact_add_touch(c, s, k, y, &(sw_place){.near = *near, .edge = {0, 0, 0}});
+                          sw_place *place) {
+  return keep_side(c, k, place->wire, &place->near) ? sw_contact_add_touch(c, s, k, y, place)
+                                                    : SW_OK;
 }
 
 /* The nearest place of a segment that lies along an obstacle comes and goes with the last
@@ -53,64 +53,22 @@ static sw_status add_near(sw_contact *c, const sw_system *s, const sw_candidate 
  * found in this iterate. */
 static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
                               const double *y, size_t first) {
-  const sw_pose *pose = &c->now[k->obstacle].pose;
+  const int chords = k->segment && !k->samples && (!k->smooth || k->round);
+  if (!chords || c->regime == SW_CONTACT_EXPLICIT) return SW_OK;
   for (size_t i = k->last; i < k->last_end; i++) {
     const sw_touch *last = &c->last[i];
     if (last->sharp || !(last->press.normal_force > 0)) continue;
     int found = 0;
     for (size_t j = first; j < c->touch_count; j++)
       found |= fabs(c->touches[j].at - last->at) < SW_SAME_TOUCH;
-    const sw_vec p = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->other, last->at));
-    sw_closest near;
-    if (found || !sw_shape_point(c->obstacles[k->obstacle].shape, p, k->radius, &near)) continue;
-    near.at = last->at;
-    SW_TRY(add_near(c, s, k, y, &near, p));
+    const sw_vec p = sw_contact_where(c, y, k->node, k->other, last->at);
+    sw_place place = {.wire = sw_pose_local(c->now[k->obstacle].pose, p)};
+    const sw_shape *shape = c->obstacles[k->obstacle].shape;
+    if (found || !sw_shape_point(shape, place.wire, k->radius, &place.near)) continue;
+    place.near.at = last->at;
+    SW_TRY(add_near(c, s, k, y, &place));
   }
   return SW_OK;
-}
-
-/* Touches at a candidate's samples. */
-static sw_status query_samples(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                               const double *y, double reach) {
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
-  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
-  for (int i = 0; i < k->samples; i++) {
-    const double at = sw_sample_at(k, i);
-    const sw_vec p = sw_lerp(a, b, at);
-    sw_closest near;
-    if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, reach, &near)) continue;
-    near.at = at;
-    SW_TRY(add_near(c, s, k, y, &near, p));
-  }
-  return SW_OK;
-}
-
-/* Along chords. */
-static sw_status query_segment(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                               const double *y, double reach) {
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
-  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, y, k->other, k->other, 0));
-  const size_t first = c->touch_count;
-  sw_closest near[SW_CLOSEST_MAX];
-  const int n = sw_shape_segment(c->obstacles[k->obstacle].shape, a, b, reach, near);
-  for (int i = 0; i < n; i++) {
-    if (k->round && sw_contact_is_rounds(c, k, a, b, near[i].at)) continue;
-    SW_TRY(add_near(c, s, k, y, &near[i], sw_lerp(a, b, near[i].at)));
-  }
-  return c->regime == SW_CONTACT_EXPLICIT ? SW_OK : keep_pushing(c, s, k, y, first);
-}
-
-static sw_status query_node(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                            const double *y, double reach) {
-  const sw_pose *pose = &c->now[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, y, k->node, k->node, 0));
-  sw_closest near;
-  if (!sw_shape_point(c->obstacles[k->obstacle].shape, a, reach, &near)) return SW_OK;
-  if (k->smooth && sw_contact_is_segments(c, s, k, c->now, y, &near)) return SW_OK;
-  near.at = 0;
-  return add_near(c, s, k, y, &near, a);
 }
 
 /* Touches of one obstacle nearer to each other than this share of the radius, on edges or corners,
@@ -150,7 +108,7 @@ static const sw_candidate *owner(const sw_contact *c, const sw_candidate *k, sw_
   return own;
 }
 
-static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate *k,
+static sw_status add_sharp(sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const double *y, sw_place *place) {
   if (is_known(c, k, place)) return SW_OK;
   k = owner(c, k, place);
@@ -160,26 +118,19 @@ static sw_status add_place(sw_contact *c, const sw_system *s, const sw_candidate
   return sw_contact_add_touch(c, s, k, y, place);
 }
 
-/* Along the smooth curve. */
-static sw_status query_curve(sw_contact *c, const sw_system *s, const sw_candidate *k,
-                             const double *y, double reach) {
-  sw_piece piece;
-  sw_places list;
-  if (!sw_contact_piece(c, s, k, c->now, y, reach, &piece)) return SW_OK;
-  sw_contact_places(c, k, &piece, reach, &list);
-  for (size_t i = 0; i < list.count; i++) SW_TRY(add_place(c, s, k, y, &list.place[i]));
-  return SW_OK;
-}
-
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
   const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
-  sw_place place;
-  if (c->barrier_count && behind_barrier(c, s, k, y, &place))
-    return sw_contact_add_touch(c, s, k, y, &place);
-  if (k->samples) return query_samples(c, s, k, y, reach);
-  if (!k->segment) return query_node(c, s, k, y, reach);
-  if (k->smooth) SW_TRY(query_curve(c, s, k, y, reach));
-  return k->smooth && !k->round ? SW_OK : query_segment(c, s, k, y, reach);
+  size_t first = c->touch_count;
+  sw_places list;
+  if (c->barrier_count && behind_barrier(c, s, k, y, list.place))
+    return sw_contact_add_touch(c, s, k, y, list.place);
+  sw_contact_near(c, s, k, c->now, y, reach, &list);
+  for (size_t i = 0; i < list.count; i++) {
+    sw_place *place = &list.place[i];
+    SW_TRY(place->sharp ? add_sharp(c, s, k, y, place) : add_near(c, s, k, y, place));
+    if (place->sharp) first = c->touch_count;
+  }
+  return keep_pushing(c, s, k, y, first);
 }
 
 /* So many candidates at once: the touches that they find are still at hand when their forces are

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/same.h"
 
 /* --- one touch ------------------------------------------------------------------- */
 
@@ -165,9 +166,6 @@ static double scale_of(const sw_mutual *m, const sw_meet *t) {
   return fmin(m->largest[t->of.body[0]], m->largest[t->of.body[1]]);
 }
 
-/* Shorter updates leave place and normal of a touch as they are; of the radii [-]. */
-static const double SMALL_SHIFT = 0.05;
-
 typedef enum verdict { GOES_ON, ALL_BUT_FRICTION, AGREES } verdict;
 
 static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, double scale) {
@@ -175,7 +173,7 @@ static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, doubl
   const double friction = sw_mutual_rule(m, t->of.body)->friction;
   const int agrees = sw_press_update(&t->press, friction, shift, scale);
   for (int i = 0; i < 2; i++) sw_press_weigh(&t->press, friction, &m->rubbing[t->of.body[i]]);
-  if (t->press.gap_after < 0.5 * t->reach && sw_norm(shift) > SMALL_SHIFT * t->reach)
+  if (t->press.gap_after < 0.5 * t->reach && sw_norm(shift) > SW_SMALL_SHIFT * t->reach)
     return GOES_ON;
   if (t->far && t->press.normal_force > 0) return GOES_ON;
   return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
@@ -201,27 +199,16 @@ static int update_all(sw_mutual *m, const double *delta) {
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
 }
 
-static sw_spot spot_of(const sw_mutual *m, sw_meet *t) {
-  sw_spot spot = {.press = &t->press,
-                  .friction = sw_mutual_rule(m, t->of.body)->friction,
-                  .scale = scale_of(m, t)};
-  for (int side = 0; side < 2; side++)
-    for (uint32_t i = 0; i < t->bow[side].spot.count; i++, spot.count++) {
-      spot.body[spot.count] = t->of.body[side];
-      spot.node[spot.count] = t->bow[side].spot.node[i];
-      spot.weight[spot.count] = side ? -t->bow[side].spot.w[i] : t->bow[side].spot.w[i];
-    }
-  return spot;
-}
-
 void sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
   m->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &m->spots);
   find_scales(m);
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
-    if (sw_press_slides(&t->press, sw_mutual_rule(m, t->of.body)->friction))
-      sw_spots_add(&m->spots, s, spot_of(m, t));
+    const double friction = sw_mutual_rule(m, t->of.body)->friction;
+    const sw_spot spot = {.press = &t->press, .friction = friction, .scale = scale_of(m, t)};
+    sw_spots_add(&m->spots, s, spot, &t->bow[0].spot, t->of.body[0], &t->bow[1].spot,
+                 t->of.body[1]);
   }
   sw_spots_follow(&m->spots, s);
 }

@@ -149,6 +149,8 @@ void sw_meet_side(const sw_met *m, double reach, sw_vec *normal, double *distanc
  * (upper half) is its stiffness, NULL = no stiffness wanted. */
 sw_status sw_meet_push(sw_system *system, const sw_meet *touch, const double *y, sw_vec force,
                        const double *K);
+/* The same of a force on one body alone, at a place of it. */
+void sw_meet_push_one(sw_body *body, const sw_mean *at, sw_vec force, const double *K);
 
 /* Nearest points of two segments: places along them, distance returned [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);

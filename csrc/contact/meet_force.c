@@ -6,8 +6,8 @@
  * (negative on the second segment), Q the second derivatives of |r|^2/2 with respect to the places
  * along the wires, and g its mixed ones. The normal force N adds -N times that. */
 #include "contact/meet.h"
+#include "solve/band3.h"
 
-enum { OWN = 0, NEXT = 6, SECOND = 15, ROW = 24 }; /* layout of the system's block rows */
 static const size_t FULL[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
 static const size_t UPPER[6] = {0, 1, 2, 4, 5, 8};
 
@@ -109,7 +109,8 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
 /* Between nodes i < j of one body. */
 static void couple(sw_body *body, uint32_t i, uint32_t j, const double K[9]) {
   const size_t from = i - body->first_node, to = j - body->first_node;
-  double *row = body->field.rows + ROW * from + (to == from + 1 ? NEXT : SECOND);
+  double *row = body->field.rows + SW_ROW_SIZE * from;
+  row += to == from + 1 ? SW_ROW_NEXT : SW_ROW_SECOND;
   if (body->plan->web)
     sw_body_couple(body, from, to, K);
   else
@@ -119,8 +120,8 @@ static void couple(sw_body *body, uint32_t i, uint32_t j, const double K[9]) {
 static void add_to_rows(sw_body *body, const sw_mean *at, blocks *b, int side) {
   const int from = b->from[side], count = b->count[side];
   for (int i = 0; i < count; i++) {
-    double *row = body->field.rows + ROW * (at->node[i] - body->first_node);
-    for (int m = 0; m < 6; m++) row[OWN + m] += block(b, from + i, from + i)[UPPER[m]];
+    double *row = body->field.rows + SW_ROW_SIZE * (at->node[i] - body->first_node);
+    for (int m = 0; m < 6; m++) row[SW_ROW_OWN + m] += block(b, from + i, from + i)[UPPER[m]];
     for (int j = i + 1; j < count; j++)
       couple(body, at->node[i], at->node[j], block(b, from + i, from + j));
   }
@@ -159,6 +160,18 @@ static places places_of(const sw_meet *t, const double *y, double d) {
                   .bb = sw_meet_rise(bb, -d * sw_dot(n, sw_bow_bend(y, &t->bow[1])), t->firm[1]),
                   .ab = sw_dot(a, b),
                   .slides = t->slides};
+}
+
+void sw_meet_push_one(sw_body *body, const sw_mean *at, sw_vec force, const double *K) {
+  add_force(body, at, force);
+  for (uint32_t i = 0; K && i < at->count; i++) {
+    double *row = body->field.rows + SW_ROW_SIZE * (at->node[i] - body->first_node), between[9];
+    for (int m = 0; m < 6; m++) row[SW_ROW_OWN + m] += at->w[i] * at->w[i] * K[m];
+    for (uint32_t j = i + 1; j < at->count; j++) {
+      for (int m = 0; m < 9; m++) between[m] = at->w[i] * at->w[j] * K[FULL[m]];
+      couple(body, at->node[i], at->node[j], between);
+    }
+  }
 }
 
 sw_status sw_meet_push(sw_system *s, const sw_meet *t, const double *y, sw_vec force,

@@ -99,15 +99,13 @@ sw_status sw_mutual_choose(sw_mutual *m, sw_system *s) {
   return m->finder->choose(m, s);
 }
 
-static const double RESERVE = 1.5; /* of what gravity can close in the step [-] */
-
 sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime regime, double h,
                                double nominal, sw_error *err) {
   m->regime = regime;
   m->h = h, m->nominal = nominal;
   m->hit_count = m->struck = m->barrier_count = 0;
   m->least_reserve = 0;
-  m->fall = regime == SW_CONTACT_STATIC ? 0.0 : RESERVE * sw_norm(sw_load(s->gravity)) * h * h;
+  m->fall = regime == SW_CONTACT_STATIC ? 0.0 : SW_RESERVE * sw_norm(sw_load(s->gravity)) * h * h;
   for (size_t b = 0; b < s->body_count; b++)
     if (sw_mutual_takes_part(m, b))
       sw_contact_stiffness(regime, force_of(s, &s->bodies[b]), nominal, &m->base[b], &m->rate2);

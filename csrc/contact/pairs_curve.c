@@ -9,16 +9,11 @@
 #include <math.h>
 
 #include "contact/lean.h"
+#include "contact/same.h"
 
 /* Wires whose radii together are below this share of their longest edge meet by curves, as on pegs
  * [-]. */
 static const double ROUND = 0.9;
-/* A wire whose curvature times the radii is above this begins to go round the other one. What it is
- * more than this is the firmness: so a place is never less of a nearest one than where it begins.
- * And as far as it goes round, up to one, it does not lean. Of the pulls of
- * spec/contact/crossing_spec at radii of 0.8 edges together, that at T h^2/EI = 2 swings by 10 %
- * with 0.3, by 1 % with 0.5; with 0.7 a limp one, at 100, by 80 % instead of 10 [-]. */
-static const double GOES_ROUND = 0.5;
 /* Wires begin to cross where the sine of the angle between them is above the second one, and go on
  * until it is below the first: strands of a twisted pair lie along each other [-]. */
 static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
@@ -165,8 +160,8 @@ void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
     const uint32_t node = side ? k->two : k->one;
     const double h = b->plan->rest[node - b->first_node];
     const double curvature = sw_pair_off_middle(b, node, s->x) / (h * h);
-    k->firm[side] = fmax(0.0, k->reach * curvature - GOES_ROUND);
-    k->lone[side] = fmax(0.0, 1.0 - k->firm[side] / (1.0 - GOES_ROUND));
+    k->firm[side] = fmax(0.0, k->reach * curvature - SW_GOES_ROUND);
+    k->lone[side] = fmax(0.0, 1.0 - k->firm[side] / (1.0 - SW_GOES_ROUND));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "base/simd.h"
 #include "contact/cells.h"
 #include "contact/pairs_curve.h"
+#include "contact/same.h"
 #include "system/join.h"
 
 static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
@@ -184,12 +185,10 @@ static double lighter_mass(const sw_system *s, const sw_near *n) {
               segment_mass(&s->bodies[n->body[1]], n->two));
 }
 
-static const double RESERVE = 1.5; /* [-] */
-
 /* Gap up to which a pair is chosen: a share of its radii, what gravity and its speed (or a
  * larger one) can close in the step. */
 static double reserve_of(const sw_pairs *p, double reach, double fast) {
-  const double reserve = 0.25 * reach + p->m.fall + RESERVE * p->m.h * fast;
+  const double reserve = SW_LISTED_GAP * reach + p->m.fall + SW_RESERVE * p->m.h * fast;
   return reserve > p->m.least_reserve ? reserve : p->m.least_reserve;
 }
 

@@ -344,16 +344,11 @@ void sw_contact_refine(void *contact, sw_system *s) {
 void sw_contact_add_spots(sw_contact *c, const sw_system *s, sw_spots *to) {
   for (size_t first = 0, end; first < c->touch_count; first = end) {
     const double scale = sw_contact_scale(c, first, &end);
-    const uint32_t body = (uint32_t)c->touches[first].body;
-    if (!s->bodies[body].bridged) continue;
-    for (size_t i = first; i < end; i++) {
+    const size_t body = c->touches[first].body;
+    for (size_t i = first; i < end && s->bodies[body].bridged; i++) {
       sw_touch *t = &c->touches[i];
-      sw_spot spot = {
-          .press = &t->press, .friction = t->friction, .scale = scale, .count = (int)t->spot.count};
-      memcpy(spot.node, t->spot.node, t->spot.count * sizeof *spot.node);
-      memcpy(spot.weight, t->spot.w, t->spot.count * sizeof *spot.weight);
-      for (int j = 0; j < spot.count; j++) spot.body[j] = body;
-      sw_spots_add(to, s, spot);
+      const sw_spot spot = {.press = &t->press, .friction = t->friction, .scale = scale};
+      sw_spots_add(to, s, spot, &t->spot, body, NULL, 0);
     }
   }
 }

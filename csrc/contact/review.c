@@ -2,7 +2,7 @@
 /* What a trial step did to the contact with obstacles: is it taken, done again, or made smaller? */
 #include <math.h>
 
-#include "contact/round.h"
+#include "contact/curve.h"
 #include "contact/same.h"
 
 /* Did every node stay within the reach that its candidates were chosen for? */
@@ -26,50 +26,18 @@ static const double DEEPER = 1e-4;
 /* What has the softness of a section is meant to give way; of the radius [-]. */
 static const double SQUEEZED = 0.2;
 
-/* How deep the candidate's wire is at a place near its obstacle [m]. */
-static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_pose *pose,
-                       const sw_closest *near) {
-  const sw_vec normal = sw_rotate(pose->q, near->normal);
-  return k->skin - near->gap - sw_contact_aslant(c, k->node, k->other, near->at, normal);
-}
-
-static double depth_of_curve(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                             const sw_contact_at *at, const double *x) {
-  sw_piece piece;
-  sw_places list;
-  double most = 0;
-  if (!sw_contact_piece(c, s, k, at, x, k->skin, &piece)) return 0;
-  sw_contact_places(c, k, &piece, k->skin, &list);
-  for (size_t i = 0; i < list.count; i++) most = fmax(most, k->skin - list.place[i].near.gap);
-  return most;
-}
-
-/* The same with positions x, where it is deepest. */
+/* How deep the candidate's wire is with positions x, where it is deepest [m]. */
 static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                        const sw_contact_at *at, const double *x) {
-  double deepest = k->smooth && k->segment ? depth_of_curve(c, s, k, at, x) : 0.0;
-  if (k->smooth && k->segment && !k->round) return deepest;
-  const sw_shape *shape = c->obstacles[k->obstacle].shape;
-  const sw_pose *pose = &at[k->obstacle].pose;
-  const sw_vec a = sw_pose_local(*pose, sw_contact_where(c, x, k->node, k->node, 0));
-  sw_closest near[SW_CLOSEST_MAX];
-  near[0].at = 0;
-  if (!k->segment) {
-    if (!sw_shape_point(shape, a, k->skin, &near[0])) return 0;
-    if (k->smooth && sw_contact_is_segments(c, s, k, at, x, &near[0])) return 0;
-    return depth_of(c, k, pose, &near[0]);
+  double deepest = 0;
+  sw_places list;
+  sw_contact_near(c, s, k, at, x, k->skin, &list);
+  for (size_t i = 0; i < list.count; i++) {
+    const sw_closest *near = &list.place[i].near;
+    const sw_vec normal = sw_rotate(at[k->obstacle].pose.q, near->normal);
+    const double aslant = sw_contact_aslant(c, k->node, k->other, near->at, normal);
+    deepest = fmax(deepest, k->skin - near->gap - (list.place[i].sharp ? 0.0 : aslant));
   }
-  const sw_vec b = sw_pose_local(*pose, sw_contact_where(c, x, k->other, k->other, 0));
-  for (int i = 0; i < k->samples; i++) {
-    near[0].at = sw_sample_at(k, i);
-    if (sw_shape_point(shape, sw_lerp(a, b, near[0].at), k->skin, &near[0]))
-      deepest = fmax(deepest, depth_of(c, k, pose, &near[0]));
-  }
-  if (k->samples) return deepest;
-  const int n = sw_shape_segment(shape, a, b, k->skin, near);
-  for (int i = 0; i < n; i++)
-    if (!k->round || !sw_contact_is_rounds(c, k, a, b, near[i].at))
-      deepest = fmax(deepest, depth_of(c, k, pose, &near[i]));
   return deepest;
 }
 

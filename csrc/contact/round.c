@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "base/halving.h"
+#include "contact/same.h"
 
 /* A wire meets what is round, its own radius added, by its curve up to so many of its edges,
  * whatever it does; and up to so many as long as it does not go round it [-]. */
@@ -19,8 +20,8 @@ static const double THIN = 0.9, THICK = 4.0;
  * do not press any more: a capstan needs them. The chords are outside of the curve, so that the
  * change lets go of it and makes no energy [-]. */
 static const double WOUND = 0.9;
-/* Above this it begins to; what it is more is the firmness (contact/pairs_curve.c) [-]. */
-static const double GOES_ROUND = 0.5, LOOSE = 0.1;
+/* Round what is thin it is at least as firm as this [-]. */
+static const double LOOSE = 0.1;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
@@ -109,8 +110,8 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   const double round = radius * bend_beside(s, b, k->node, k->segment);
   const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND;
   k->round = thin || (!wound && passes_side(c, s, k, low, high));
-  k->firm = fmax(thin ? LOOSE : 0.0, round - GOES_ROUND);
-  k->lone = fmin(1.0, fmax(0.0, (1.0 - round) / (1.0 - GOES_ROUND)));
+  k->firm = fmax(thin ? LOOSE : 0.0, round - SW_GOES_ROUND);
+  k->lone = fmin(1.0, fmax(0.0, (1.0 - round) / (1.0 - SW_GOES_ROUND)));
 }
 
 /* --- places ----------------------------------------------------------------------------------- */

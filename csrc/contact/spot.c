@@ -17,12 +17,20 @@ void sw_spots_free(sw_spots *g) {
   sw_free(g->mixed);
 }
 
-void sw_spots_add(sw_spots *g, const sw_system *s, sw_spot spot) {
-  if (!sw_press_slides(spot.press, spot.friction)) return;
-  for (int i = 0; i < spot.count; i++) {
-    const sw_body *b = &s->bodies[spot.body[i]];
-    spot.held[i] = b->plan->held[spot.node[i] - b->first_node] != SW_FREE;
+/* What nodes of a body have of it. */
+static void add_place(sw_spot *spot, const sw_body *b, const sw_mean *at, double sign) {
+  for (uint32_t i = 0; i < at->count; i++, spot->count++) {
+    spot->node[spot->count] = at->node[i];
+    spot->weight[spot->count] = sign * at->w[i];
+    spot->held[spot->count] = b->plan->held[at->node[i] - b->first_node] != SW_FREE;
   }
+}
+
+void sw_spots_add(sw_spots *g, const sw_system *s, sw_spot spot, const sw_mean *one,
+                  size_t body_one, const sw_mean *two, size_t body_two) {
+  if (!sw_press_slides(spot.press, spot.friction)) return;
+  add_place(&spot, &s->bodies[body_one], one, 1.0);
+  if (two) add_place(&spot, &s->bodies[body_two], two, -1.0);
   if (sw_grow((void **)&g->list, &g->capacity, g->count + 1, sizeof *g->list) == SW_OK)
     g->list[g->count++] = spot;
 }

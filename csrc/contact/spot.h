@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "contact/law.h"
+#include "contact/mean.h"
 #include "system/system.h"
 
 enum { SW_SPOT_NODES = 6 };
@@ -16,7 +17,6 @@ typedef struct sw_spot {
   double friction;              /* [-] */
   double scale;                 /* forces far below this do not matter [N] */
   uint32_t node[SW_SPOT_NODES]; /* of the system; count of them */
-  uint32_t body[SW_SPOT_NODES]; /* of each */
   double weight[SW_SPOT_NODES]; /* share of the force; negative on the other wire [-] */
   int count;
   int held[SW_SPOT_NODES]; /* 1: a hold bears the node's share */
@@ -33,8 +33,10 @@ typedef struct sw_spots {
 
 void sw_spots_free(sw_spots *spots);
 
-/* One more, if it slides; out of memory it is left out. */
-void sw_spots_add(sw_spots *spots, const sw_system *system, sw_spot spot);
+/* One more, if it slides: press, friction and scale of it, at a place of one body and, unless NULL,
+ * one of the other. Out of memory it is left out. */
+void sw_spots_add(sw_spots *spots, const sw_system *system, sw_spot spot, const sw_mean *one,
+                  size_t body_one, const sw_mean *two, size_t body_two);
 
 /* Friction of what slides follows the normal forces within the linearisation of the bodies that are
  * solved together, by solves with the factor that there is. */

@@ -11,12 +11,6 @@
  * turns by an angle with a cosine above this [-]. */
 static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
-/* Friction's springs in an object of many particles are softer than its touches, by their number
- * and up to this: hundreds of touches at once whose springs are as stiff as they themselves go to
- * and fro between sticking and sliding. What sticks gives way by some tens of micrometres under
- * its weight, and comes back [-]. */
-static const double SOFTEST = 1000.0;
-
 /* What has pressed a mesh up to now is not let go of by the first static solve in which it pulls:
  * that one may only have met too many touches at once, and then nothing holds the mesh. */
 enum { SPARE_PULLS = 1 };
@@ -373,7 +367,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->k = c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer;
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
-  if (web && !web->per_ring) press->soft = fmin(SOFTEST, (double)web->particles);
+  if (web && !web->per_ring) press->soft = fmin(SW_SOFTEST, (double)web->particles);
   forgive(c, s, k, m, y, t);
   if (m && web)
     t->hardened =

@@ -202,7 +202,8 @@ sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, do
 /* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
-/* Number k of a candidate's samples, along its segment [-]. */
+/* A candidate has at most so many samples; number k of them, along its segment [-]. */
+enum { SW_SAMPLES_MOST = 64 };
 static inline double sw_sample_at(const sw_candidate *candidate, int k) {
   return ((double)k + 0.5) / (double)candidate->samples;
 }
