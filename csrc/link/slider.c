@@ -30,10 +30,11 @@ static const sw_param rows[] = {
  * there at once, which strains them by that share squared [-]. */
 static const double LARGEST_GAP = 0.02;
 
-static sw_vec point_at(const sw_mesh *m, double s) {
+/* What nodes have (n x 3), x or v, at arc length s. */
+static sw_vec value_at(const sw_mesh *m, const double *nodes, double s) {
   size_t i = 0;
   while (i + 2 < m->n && m->s[i + 1] <= s) i++;
-  return sw_lerp(sw_vec_at(m->x, i), sw_vec_at(m->x, i + 1),
+  return sw_lerp(sw_vec_at(nodes, i), sw_vec_at(nodes, i + 1),
                  (s - m->s[i]) / (m->s[i + 1] - m->s[i]));
 }
 
@@ -56,7 +57,7 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
   SW_TRY(status);
   const sw_mesh *m = w->mesh;
   const double edge = (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1);
-  const sw_vec at = point_at(m, a->s);
+  const sw_vec at = value_at(m, m->x, a->s);
   sw_curve_at(curve, sw_curve_nearest(curve, at), &near);
   sw_curve_release(curve);
   if (sw_dist(near.x, at) <= LARGEST_GAP * edge) return SW_OK;
@@ -77,15 +78,23 @@ static sw_status make_curve(const sw_hold *h, sw_curve **out) {
   return sw_curve_spline(points, a->count, a->closed, out);
 }
 
+/* 1: the place is at an end and would go beyond it; it stops there. */
+static int stops(const sw_slider *x) {
+  return (x->p <= x->from && x->v < 0) || (x->p >= x->to && x->v > 0);
+}
+
 static sw_status begin(sw_hold *h, const sw_link_wire *w) {
   sw_slider *x = &h->slider;
-  (void)w;
+  sw_rail_point here;
   SW_TRY(make_curve(h, &x->curve));
   const double end = sw_curve_end(x->curve);
   x->from = isfinite(end) ? 0.0 : h->args.points ? -HUGE_VAL : h->args.from;
   x->to = isfinite(end) ? end : h->args.points ? HUGE_VAL : h->args.to;
   x->friction = h->args.friction;
   x->p = sw_curve_nearest(x->curve, sw_v(0, 0, 0));
+  sw_curve_at(x->curve, x->p, &here);
+  x->v = sw_dot(here.along, value_at(w->mesh, w->mesh->v, h->args.s));
+  if (stops(x)) x->v = 0;
   return SW_OK;
 }
 
@@ -101,11 +110,6 @@ static void rail(const sw_hold *h, sw_rail *out) {
                    .p = x->p,
                    .v = x->v,
                    .a = x->a};
-}
-
-/* 1: the place is at an end and would go beyond it; it stops there. */
-static int stops(const sw_slider *x) {
-  return (x->p <= x->from && x->v < 0) || (x->p >= x->to && x->v > 0);
 }
 
 static void take(sw_hold *h, const sw_link_wire *w) {

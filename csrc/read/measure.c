@@ -14,6 +14,7 @@
 #include "scene/wire.h"
 #include "state/clamp.h"
 #include "system/join.h"
+#include "system/rail.h"
 #include "system/system.h"
 
 sw_status sw_scene_wire_length(sw_scene *s, sw_handle h, double *length, sw_error *err) {
@@ -92,6 +93,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
     const sw_vec arm = sw_sub(sw_load(system->x + k), about);
     sw_store(system->v + k, sw_add(v, sw_cross(omega, arm)));
   }
+  sw_rails_launch(system, h.slot, v, omega, about);
   sw_system_rate_from_velocity(system, h.slot);
   sw_system_forget_turning(system);
   for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)

@@ -143,6 +143,13 @@ static void note_obstacle(sw_scene *s, size_t k) {
   w->force = sw_neg(w->force), w->moment = sw_neg(w->moment);
 }
 
+/* A rail's moment is kept about the place that is on it; work is done about the pose. */
+static sw_vec moment_of_rail(const sw_slider *x, const sw_pose *pose, sw_vec force) {
+  sw_rail_point on;
+  sw_curve_at(x->curve, x->p, &on);
+  return sw_cross(sw_rotate(pose->q, on.x), force);
+}
+
 static void note_hold(sw_scene *s, size_t k, int logged) {
   sw_system *system = sw_scene_system(s);
   const sw_hold *h = sw_scene_held_by(s, k);
@@ -150,6 +157,7 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
   *w = (sw_worker){system->hold_states[k].pose, h->force, h->moment, 0, 0};
   if (!logged) sw_system_reaction(system, (int)k, w->pose.p, &w->force, &w->moment);
   if (h->cls->hold->rail) w->fed = h->slider.p, w->drive = h->slider.rubs;
+  if (h->cls->hold->rail && logged) w->moment = moment_of_rail(&h->slider, &w->pose, w->force);
   if (!sw_hold_passes(h)) return;
   const sw_hold_way now = sw_hold_way_of(s, h, sw_scene_time(s), logged ? NULL : system->x);
   w->fed = now.way;

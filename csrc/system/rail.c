@@ -75,6 +75,27 @@ void sw_rails_place(const sw_system *s, const double *x, double *v, double *a, d
   }
 }
 
+static int stops(const sw_rail *r, double p, double v) {
+  return (p <= r->from && v < 0) || (p >= r->to && v > 0);
+}
+
+void sw_rails_launch(sw_system *s, size_t body, sw_vec v, sw_vec omega, sw_vec about) {
+  for (size_t k = 0; k < s->rail_count; k++) {
+    const sw_rail *r = &s->rails[k];
+    const size_t at = sw_rail_freedom(s, k), node = 3 * node_of(s, r)->node;
+    double p[3] = {s->x[at], 0, 0}, *rate = s->v + node;
+    if (node_of(s, r)->body != body) continue;
+    sw_rail_point c;
+    r->at(r->curve, p[0], &c);
+    place(s, r, p, NULL, rate, NULL);
+    const sw_vec along = sw_rotate(s->hold_states[node_of(s, r)->hold].pose.q, c.along);
+    const sw_vec given = sw_add(v, sw_cross(omega, sw_sub(sw_load(s->x + node), about)));
+    p[1] = sw_dot(along, sw_sub(given, sw_load(rate)));
+    s->v[at] = p[1] = stops(r, p[0], p[1]) ? 0 : p[1];
+    place(s, r, p, NULL, rate, NULL);
+  }
+}
+
 /* 1: it is of the bodies that are solved now. */
 static int is_part(const sw_system *s, const sw_rail *r) {
   const size_t body = node_of(s, r)->body;

@@ -44,6 +44,10 @@ size_t sw_rail_freedom(const sw_system *system, size_t rail);
  * with x. */
 void sw_rails_place(const sw_system *system, const double *x, double *v, double *a, double *to);
 
+/* The nodes of a body are given the velocity v + omega x (x - about): its rails' places go on with
+ * the part of it along their curves. */
+void sw_rails_launch(sw_system *system, size_t body, sw_vec v, sw_vec omega, sw_vec about);
+
 /* A stage begins; its iterate changed; velocities for forces; it was solved. */
 void sw_rails_begin(sw_system *system, const sw_stage *stage, int statics);
 void sw_rails_follow(sw_system *system, const sw_stage *stage, int statics);

@@ -341,11 +341,46 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
   return 0;
 }
 
+/* Error of a bending moment that is left to an update, of the wire's weight, or of what accelerates
+ * it, times its length [-]; rounding is no error [-]. */
+static const double MOMENT_NOISE = 1e-4, LEAST_UPDATE = 1e-5;
+
+static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stage) {
+  double largest = 0;
+  for (size_t i = 3 * b->first_node; i < 3 * (b->first_node + b->plan->nodes); i++)
+    largest = fmax(largest, fabs(stage->y[i] - s->yhat[i]));
+  return largest * mass_rate(stage);
+}
+
+/* An update by the share u of an edge, along it or across, leaves a hinge's moment wrong by about
+ * EI u^2 / l: it is linear in the update, the edges are not. Of soft wires the limit of rotation
+ * sees to that; of stiff ones that are turned fast it was a thousand times the moment of inertia.
+ */
+static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton) {
+  for (size_t k = s->part; k < s->part_end && !newton->statics; k++) {
+    const sw_body *b = &s->bodies[k];
+    const sw_plan *p = b->plan;
+    const double hinge = p->beam.EI * (double)p->edges / p->length;
+    const double arm = MOMENT_NOISE * p->beam.mass * p->length * p->length;
+    const double weight = arm * sw_norm(sw_load(s->gravity)), u = newton->accept_rotation;
+    double largest = 0;
+    if (p->web || hinge * u * u <= weight) continue;
+    for (size_t e = 0; e < p->edges; e++) {
+      const double *d = s->delta + 3 * (b->first_node + e), r = b->field.reciprocal[e];
+      largest = fmax(largest, sw_norm2(sw_sub(sw_load(d + 3), sw_load(d))) * r * r);
+    }
+    if (largest <= LEAST_UPDATE * LEAST_UPDATE || hinge * largest <= weight) continue;
+    if (hinge * largest > weight + arm * fastest(s, b, stage)) return 1;
+  }
+  return 0;
+}
+
 static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                      const sw_stage_report *report, double share) {
   if (share < 1.0) return 0;
   /* contact is told of rough updates too: the next iteration goes on from what it finds */
-  s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation;
+  s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation ||
+             bends_roughly(s, stage, newton);
   const int settled =
       !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
   if (!settled || s->rough) return 0;
