@@ -51,7 +51,7 @@ local function wears(args)
   if args.fatigue or args.abrasion then return true end
   for name in pairs(type(args.limits) == "table" and args.limits or {}) do
     local word = type(name) == "string" and name:match "[^.]*$"
-    if word == "friction_work" or word == "wear_depth" then return true end
+    if word == "friction_work" or word == "wear_depth" or word == "fatigue" then return true end
   end
   return false
 end

@@ -23,7 +23,7 @@ end
 
 --- Mark a value as the least that it may be, and say why.
 function worn.at_least(value, why)
-  value.low, value.high = value.value, math.huge
+  value.low, value.high = value.low or value.value, math.huge
   value.note = value.note and value.note .. "; " .. why or why
   return value
 end
