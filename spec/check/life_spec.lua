@@ -138,6 +138,21 @@ describe("run:check of fatigue without curves of the script", function()
     os.remove(path)
   end)
 
+  -- Numbers of the page have the sign of micro; words that begin with u are words.
+  it("has its note on the page letter by letter", function()
+    local path = os.tmpname() .. ".html"
+    local check = run:check{ fatigue = {}, checks = { { name = "tiny", unit = "m", max = 3e-6,
+      of = function() return 2e-6 end } } }
+    check:report(path)
+    local file <close> = assert(io.open(path))
+    local text = file:read "a"
+    os.remove(path)
+    for _, words in ipairs{ "ranges up to", "by universal slopes", "2.000 µm", "3.000 µm" } do
+      assert.truthy(text:find(words, 1, true), words)
+    end
+    for _, words in ipairs{ "µp to", "µniversal" } do assert.is_nil(text:find(words, 1, true), words) end
+  end)
+
   it("is open without a record of each step, and says how to get it", function()
     local blind = bent(wave, nil, { wear = false }, { cable = "GXL 1.5" })
     local row = blind:check{ fatigue = {} }:row "fatigue"

@@ -17,7 +17,7 @@ end
 --- A row's value where nothing was kept: it is not known.
 function worn.missing(entry)
   local note = worn.LINE[entry.object.model] and "it was not kept: " .. worn.HOW
-    or "it is not kept of a mesh of particles"
+    or "it is not kept of a mesh of particles; with model = 'rod' it is"
   return { value = 0, low = 0, high = math.huge, note = note }
 end
 
