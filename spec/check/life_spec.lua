@@ -147,10 +147,9 @@ describe("run:check of fatigue without curves of the script", function()
     local file <close> = assert(io.open(path))
     local text = file:read "a"
     os.remove(path)
-    for _, words in ipairs{ "ranges up to", "by universal slopes", "2.000 µm", "3.000 µm" } do
-      assert.truthy(text:find(words, 1, true), words)
-    end
-    for _, words in ipairs{ "µp to", "µniversal" } do assert.is_nil(text:find(words, 1, true), words) end
+    -- the page holds this script too
+    for _, words in ipairs{ "2.000", "3.000" } do assert.truthy(text:find(words .. " µm", 1, true), words) end
+    for _, words in ipairs{ "p to", "niversal" } do assert.is_nil(text:find("µ" .. words, 1, true), words) end
   end)
 
   it("is open without a record of each step, and says how to get it", function()
