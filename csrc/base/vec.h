@@ -95,6 +95,10 @@ static inline sw_vec sw_quat_log(sw_quat q) {
 
 static inline sw_pose sw_pose_identity(void) { return (sw_pose){{0, 0, 0}, {1, 0, 0, 0}}; }
 static inline sw_vec sw_pose_point(sw_pose f, sw_vec a) { return sw_add(sw_rotate(f.q, a), f.p); }
+/* Pose b, told in the axes of a. */
+static inline sw_pose sw_pose_within(sw_pose a, sw_pose b) {
+  return (sw_pose){sw_pose_point(a, b.p), sw_quat_unit(sw_quat_mul(a.q, b.q))};
+}
 static inline sw_vec sw_pose_local(sw_pose f, sw_vec a) { return sw_unrotate(f.q, sw_sub(a, f.p)); }
 
 /* The shortest rotation that takes one unit vector to another. */

@@ -4,14 +4,19 @@
 #include "bind/bind_shape.h"
 #include "bind/child.h"
 
-/* core.zone(scene, { shape =, at =, name =, temperature = }) -> its name, shape, position, rotation
- */
+/* core.zone(scene, { shape =, at =, name =, temperature =, on = obstacle }) -> its name, shape,
+ * position, rotation; with on the obstacle's slot, and position and rotation in its axes */
 static int mod_zone(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_zone_args args;
   sw_error err = {""};
+  sw_handle on = {0};
+  if (lua_getfield(L, 2, "on") != LUA_TNIL)
+    on = lsw_check_child_of(L, -1, &lsw_class_obstacle, scene, "scene:zone: on");
+  lua_pop(L, 1);
   const lsw_section extra = {&sw_zone_params, &args};
   sw_shape *shape = lsw_shape_from_table(L, 2, &extra, 1);
+  args.on = on;
   const sw_status status = sw_scene_add_zone(scene, shape, &args, &err);
   sw_shape_release(shape);
   lsw_must(L, status, &err);
@@ -19,7 +24,10 @@ static int mod_zone(lua_State *L) {
   lua_pushstring(L, zone->name);
   lsw_push_shape(L, zone->shape);
   lsw_push_vector(L, zone->pose.p), lsw_push_quaternion(L, zone->pose.q);
-  return 4;
+  if (!zone->on.generation) return 4;
+  lua_pushinteger(L, zone->on.slot);
+  lsw_push_vector(L, zone->local.p), lsw_push_quaternion(L, zone->local.q);
+  return 7;
 }
 
 /* core.zones(wire) -> { { name, temperature [degC], and where a step was watched gap [m], s [m],

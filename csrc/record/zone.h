@@ -4,6 +4,7 @@
 #define SW_RECORD_ZONE_H
 
 #include "base/tape.h"
+#include "base/vec.h"
 
 /* Of one wire and one zone, since the run began. */
 typedef struct sw_zone_past {
@@ -13,6 +14,7 @@ typedef struct sw_zone_past {
   double inside;  /* time that something of the wire was inside [s] */
   double until;   /* end of the last step that is in it [s] */
   double last;    /* distance then [m] */
+  sw_pose before; /* then, of the obstacle that the zone goes with */
 } sw_zone_past;
 
 typedef struct sw_zone_watch {

@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "record/zone.h"
 #include "scene/course.h"
+#include "scene/driven.h"
 #include "scene/lists.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
@@ -23,6 +24,8 @@ static const sw_param rows[] = {
     {"temperature", SW_PARAM_NUMBER, "degC", NAN, -273.15, 5000, 0, NULL,
      offsetof(sw_zone_args, temperature),
      "of wires in the zone; a zone without a temperature is forbidden"},
+    {"on", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
+     "an obstacle that the zone moves with, as if it were fixed to it now"},
 };
 const sw_params sw_zone_params = SW_PARAMS("zone", rows);
 
@@ -36,6 +39,13 @@ sw_status sw_scene_add_zone(sw_scene *s, sw_shape *shape, const sw_zone_args *ar
     return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_zone *z = &zones->list[zones->count];
   *z = (sw_zone){.pose = {args->at, args->rotation}, .temperature = args->temperature};
+  if (args->on.generation) {
+    SW_TRY(sw_scene_object_pose(s, SW_OF_OBSTACLE, args->on, &z->carrier, err));
+    const sw_quat back = sw_quat_conj(z->carrier.q);
+    z->on = args->on;
+    z->local =
+        (sw_pose){sw_pose_local(z->carrier, z->pose.p), sw_quat_unit(sw_quat_mul(back, z->pose.q))};
+  }
   sw_scene_give_name(z->name, args->name, "zone", zones->count);
   for (size_t k = 0; k < zones->count; k++)
     if (strcmp(zones->list[k].name, z->name) == 0)
@@ -92,6 +102,31 @@ static double moved(const sw_zone_watch *w, size_t e, sw_vec from, sw_vec to) {
   return fmax(sw_dist(sw_load(w->x + 6 * e), from), sw_dist(sw_load(w->x + 6 * e + 3), to));
 }
 
+/* By how much the axes that the zone goes with have turned since the last step's end [rad]. */
+static double turned(const sw_zone *z, const sw_zone_past *past) {
+  return sw_norm(sw_quat_log(sw_quat_mul(z->carrier.q, sw_quat_conj(past->before.q))));
+}
+
+/* The way of a point in those axes. It goes straight, they shift evenly by what makes c of its
+ * way, and turn evenly by an angle, at a distance of r at most: then its way there is longer than
+ * the chord by (2 angle c + angle^2 r) / 3 at most, a third of its largest second derivative. */
+static double way_in(const sw_zone *z, const sw_zone_past *past, double angle, sw_vec from,
+                     sw_vec to) {
+  const sw_vec a = sw_pose_local(past->before, from), b = sw_pose_local(z->carrier, to);
+  const double c = sw_norm(sw_sub(sw_sub(to, z->carrier.p), sw_sub(from, past->before.p)));
+  const double r = fmax(sw_norm(a), sw_norm(b));
+  return sw_dist(a, b) + (2 * angle * c + angle * angle * r) / 3;
+}
+
+/* How far an end of the piece has moved since, as seen from the zone. */
+static double passed(const sw_zone *z, const sw_zone_past *past, const sw_zone_watch *w, size_t e,
+                     sw_vec from, sw_vec to) {
+  if (!z->on.generation) return moved(w, e, from, to);
+  const double angle = turned(z, past);
+  return fmax(way_in(z, past, angle, sw_load(w->x + 6 * e), from),
+              way_in(z, past, angle, sw_load(w->x + 6 * e + 3), to));
+}
+
 /* The farthest that any node may have gone since a time. */
 static double farthest(const sw_scene *s, const sw_body *b, double since) {
   double most = 0;
@@ -102,30 +137,43 @@ static double farthest(const sw_scene *s, const sw_body *b, double since) {
   return most * (sw_scene_time(s) - since);
 }
 
+/* The same as seen from the zone. */
+static double farthest_from(const sw_scene *s, const sw_body *b, const sw_zone *z,
+                            const sw_zone_past *past) {
+  const double far = farthest(s, b, past->until);
+  if (!z->on.generation) return far;
+  const double shift = sw_dist(past->before.p, z->carrier.p);
+  double r = 0;
+  for (size_t i = 0; i < b->plan->nodes; i++)
+    r = fmax(r, sw_dist(sw_vec_at(sw_scene_system(s)->x, b->first_node + i), z->carrier.p));
+  return far + shift + turned(z, past) * (r + far + shift);
+}
+
 static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
   sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
   sw_zone_past *past = &watch->past[k];
+  const sw_zone *zone = &sw_scene_zones_of(s)->list[k];
   const int seen = past->until > -HUGE_VAL;
-  const double before = past->last, far = seen && !same ? farthest(s, b, past->until) : 0;
+  const double before = past->last, far = seen && !same ? farthest_from(s, b, zone, past) : 0;
   double *gaps = watch->gaps + k * watch->edges;
   past->last = HUGE_VAL;
   for (size_t e = 0; e < watch->edges; e++) {
     sw_vec from, to;
     double along;
     piece(system, b, e, &from, &to);
-    const double gap =
-        gap_of(&sw_scene_zones_of(s)->list[k], from, to, &along) - sw_plan_skin(b->plan, e);
+    const double gap = gap_of(zone, from, to, &along) - sw_plan_skin(b->plan, e);
     /* a place that was `old` away and is `gap` away now was never nearer than this */
-    const double way = same ? moved(watch, e, from, to) : far, old = same ? gaps[e] : before;
+    const double way = !same ? far : seen ? passed(zone, past, watch, e, from, to) : 0;
+    const double old = same ? gaps[e] : before;
     past->between = fmin(past->between, seen ? fmin(gap, 0.5 * (old + gap - way)) : gap);
     gaps[e] = gap, past->last = fmin(past->last, gap);
     if (gap < past->gap)
       past->gap = gap, past->s = place_of(b->plan, e, along), past->time = sw_scene_time(s);
   }
   if (past->last < 0 && seen) past->inside += sw_scene_time(s) - past->until;
-  past->until = sw_scene_time(s);
+  past->until = sw_scene_time(s), past->before = zone->carrier;
 }
 
 static sw_status fit(sw_scene *s, size_t w, int *same) {
@@ -150,6 +198,23 @@ static sw_status fit(sw_scene *s, size_t w, int *same) {
   return SW_OK;
 }
 
+/* One that goes with an obstacle is taken away with it. */
+static int is_there(const sw_scene *s, const sw_zone *z) {
+  return !z->on.generation || sw_scene_find_obstacle(s, z->on, NULL);
+}
+
+/* Zones that go with an obstacle are where it is. */
+static sw_status carry(sw_scene *s, sw_error *err) {
+  const sw_zones *zones = sw_scene_zones_of(s);
+  for (size_t k = 0; k < zones->count; k++) {
+    sw_zone *z = &zones->list[k];
+    if (!z->on.generation || !is_there(s, z)) continue;
+    SW_TRY(sw_scene_object_pose(s, SW_OF_OBSTACLE, z->on, &z->carrier, err));
+    z->pose = sw_pose_within(z->carrier, z->local);
+  }
+  return SW_OK;
+}
+
 sw_status sw_zones_note(sw_scene *s, size_t w, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   int same;
@@ -157,8 +222,10 @@ sw_status sw_zones_note(sw_scene *s, size_t w, sw_error *err) {
   if (fit(s, w, &same) != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for zones near '%s'",
                    sw_scene_wire_in(s, w)->name);
+  SW_TRY(carry(s, err));
   sw_zone_watch *watch = &sw_scene_wire_in(s, w)->zones;
-  for (size_t k = 0; k < watch->zones; k++) note_zone(s, w, k, same);
+  for (size_t k = 0; k < watch->zones; k++)
+    if (is_there(s, &sw_scene_zones_of(s)->list[k])) note_zone(s, w, k, same);
   for (size_t e = 0; e < watch->edges; e++) {
     sw_vec from, to;
     piece(system, &system->bodies[w], e, &from, &to);
@@ -170,8 +237,9 @@ sw_status sw_zones_note(sw_scene *s, size_t w, sw_error *err) {
 /* --- on a tape ------------------------------------------------------------------- */
 
 void sw_tape_zone(sw_tape *t, sw_zone *z) {
-  SW_TAPE_STRUCT(t, sw_zone, 136);
+  SW_TAPE_STRUCT(t, sw_zone, 256);
   sw_tape_name(t, z->name), sw_tape_shape(t, &z->shape);
   sw_tape_pose(t, &z->pose), sw_tape_double(t, &z->temperature);
-  sw_tape_expect(t, z->shape && sw_finite(z->pose.p), "a zone");
+  sw_tape_raw(t, &z->on, sizeof z->on), sw_tape_pose(t, &z->carrier), sw_tape_pose(t, &z->local);
+  sw_tape_expect(t, z->shape && sw_finite(z->pose.p) && sw_finite(z->local.p), "a zone");
 }

@@ -13,6 +13,7 @@ typedef struct sw_zone_args {
   sw_vec at;          /* [m] */
   sw_quat rotation;   /* [-] */
   double temperature; /* NAN = it is a zone to be kept out of [degC] */
+  sw_handle on;       /* the obstacle that it goes with; generation 0: none */
 } sw_zone_args;
 extern const sw_params sw_zone_params;
 
@@ -21,6 +22,9 @@ typedef struct sw_zone {
   sw_shape *shape;
   sw_pose pose;
   double temperature; /* [degC] */
+  sw_handle on;       /* an obstacle; generation 0: it stands still */
+  sw_pose carrier;    /* of that */
+  sw_pose local;      /* of the zone in its axes */
 } sw_zone;
 
 /* Retains the shape. */

@@ -25,6 +25,7 @@ local checks = require "softworld.checks"
 local methods = require "softworld.methods"
 local keep = require "softworld.scene.keep"
 local bendrule = require "softworld.wire.bendrule"
+local lifecurve = require "softworld.wire.lifecurve"
 local material = require "softworld.wire.material"
 local breaking = require "softworld.run.breaking"
 local stranding = require "softworld.wire.stranding"
@@ -264,8 +265,29 @@ local function read_bend(name, given, entry)
   return bend
 end
 
+-- S-N curves as the user wrote them, else those of the strands; nil where nothing is known of them.
+local function read_fatigue(name, given, entry, construction)
+  if given == nil then return construction and lifecurve.of(construction) end
+  check_keys(name, "fatigue", given, { "curve", "bending", "spread", "flag", "source" })
+  if not (given.curve or given.bending) then
+    fail(name, "fatigue has no curve: curve = { { range [N], cycles } } or bending = { { range [1/m], "
+      .. "cycles } }")
+  end
+  local spread = given.spread or 1
+  if not (is_number(spread) and spread >= 1) then
+    fail(name, "fatigue: spread is a factor of the life, from 1, got %s", checks.shown(spread))
+  end
+  local read = { spread = spread, flag = flag_of(name, "fatigue", given.flag or entry.flag),
+    source = source_of(name, "fatigue", given.source or entry.source) }
+  for key, unit in pairs{ curve = "N", bending = "1/m" } do
+    local what = ("cable '%s': fatigue.%s"):format(name, key)
+    read[key] = given[key] and lifecurve.read(what, given[key], unit)
+  end
+  return read
+end
+
 local fields = { "name", "description", "outer_diameter", "mass_per_length", "EA", "EI", "GJ", "friction",
-  "breaking_load", "temperature", "bend", "construction", "source", "flag", "spread" }
+  "breaking_load", "fatigue", "temperature", "bend", "construction", "source", "flag", "spread" }
 
 -- A checked entry, or an error without a place.
 local function read(given)
@@ -307,6 +329,7 @@ local function read(given)
     entry.breaking_load = read_quantity(name, breaking_load, load, given)
     check_range(name, breaking_load, entry.breaking_load)
   end
+  entry.fatigue = read_fatigue(name, given.fatigue, given, entry.construction)
   entry.temperature = read_temperature(name, given.temperature, given)
   entry.bend = read_bend(name, given.bend, given)
   return entry
@@ -358,7 +381,8 @@ end
 --- An own entry, from then on known by its name. Fields: `name`; `outer_diameter`
 -- [m], `mass_per_length` [kg/m], `EA` [N], `EI`, `GJ` [N m2], `friction` [-], each
 -- { value =, low =, high =, flag =, source = } (or spread, a share, instead of low
--- and high); `breaking_load` [N], where that is known;
+-- and high); `breaking_load` [N], where that is known; `fatigue` { curve = { { range [N],
+-- cycles } }, bending = { { range [1/m], cycles } }, spread = factor of the life };
 -- `temperature` { low =, high = } [degC]; `bend` { rule = "IEC 62440",
 -- use = "fixed" } or multiples of the outer diameter by use; `construction`
 -- { strands =, strand_diameter = [m], conductor = "copper", insulation = "PVC" },
@@ -477,6 +501,10 @@ function Entry:__tostring()
   if load then
     row(lines, "breaking_load", ("%.4g"):format(load.value), load.unit,
       ("%.3g .. %.3g"):format(load.low, load.high), load.flag, load.source)
+  end
+  local life = self.fatigue
+  if type(life) == "table" then
+    row(lines, "S-N curves", "", "", "", tostring(life.flag), tostring(life.source))
   end
   local t, b = self.temperature, self.bend
   row(lines, "temperature", "", "degC", ("%g .. %g"):format(t.low, t.high), t.flag, t.source)

@@ -29,8 +29,8 @@ local function over_at(name)
 end
 
 -- Kind of object -> name -> unit and how to read it: value, where [m], when [s].
--- plain: values of edges and the like, whose errors do not halve twice with the edge. named: only with the
--- object's name in front.
+-- plain: values of edges and the like, whose errors do not halve twice with the edge. vanishes: all of it
+-- is an error, whose size is that of its bar at least. named: only with the object's name in front.
 quantity.known = {
   wire = {
     tip = { unit = "m", of = function(w) return w:position(w.length) end },
@@ -63,7 +63,7 @@ quantity.known = {
   },
   scene = {
     energy = { unit = "J", of = function(s) return s:energy().total end },
-    penetration = { unit = "m", plain = true, of = function(s)
+    penetration = { unit = "m", plain = true, vanishes = true, of = function(s)
       local depth, at, time = s:penetration()
       return depth, at, time
     end },
@@ -102,7 +102,7 @@ local function directory(scene)
   for _, o in ipairs(objects_of(scene)) do
     for key, def in pairs(quantity.known[o.kind]) do
       local full = o.name and o.name .. "." .. key or key
-      local entry = { full = full, unit = def.unit, plain = def.plain,
+      local entry = { full = full, unit = def.unit, plain = def.plain, vanishes = def.vanishes,
         of = function(start) return def.of(o.object, start, scene) end }
       add(full, entry)
       if o.name and not def.named then add(key, entry) end
@@ -205,7 +205,7 @@ end
 
 --- The quantities that tolerance = {...} asks for, in order; raises what is wrong with
 -- them, without a place.
--- @treturn table list of { name, unit, tolerance, of, at, plain }
+-- @treturn table list of { name, unit, tolerance, of, at, plain, vanishes }
 function quantity.list(scene, tolerance, what)
   local found, names = directory(scene)
   local list, taken, words = {}, {}, {}
@@ -221,7 +221,8 @@ function quantity.list(scene, tolerance, what)
   table.sort(words)
   for _, word in ipairs(words) do
     local entry = find(word, found, names, what)
-    list[#list + 1] = take(what, { name = word, unit = entry.unit, of = entry.of, plain = entry.plain },
+    list[#list + 1] = take(what, { name = word, unit = entry.unit, of = entry.of, plain = entry.plain,
+      vanishes = entry.vanishes },
       tolerance[word])
   end
   for _, q in ipairs(list) do

@@ -4,6 +4,7 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
+local bent = require "spec.check.bent"
 local capstan = require "spec.check.capstan"
 local rainflow = require "softworld.check.rainflow"
 
@@ -62,35 +63,6 @@ describe("cycles that are counted as they come", function()
     assert.same({ 1e300, 5e299, 0.5 }, core.cycles{ 0, 1e300, math.huge, 1e300 })
   end)
 end)
-
--- A wire between two clamps that follow a circle of curvature k(t); turn(t): both about the wire.
-local function bent(k, turn, run_options, wire_options)
-  local scene = sw.scene{ gravity = { 0, 0, 0 } }
-  local given = { name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02, radius = RADIUS,
-    from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 40 }
-  for key, value in pairs(wire_options or {}) do given[key] = value end
-  local wire = scene:wire(given)
-  turn = turn or function() return 0 end
-  -- the rotation: first about the wire as it was drawn, then in the plane of the circle
-  local function rotation(roll, angle)
-    local a, b, c, d = math.cos(roll / 2), math.sin(roll / 2), math.cos(angle / 2), math.sin(-angle / 2)
-    return { a * c, b * c, a * d, -b * d }
-  end
-  local function place(s)
-    return function(t)
-      local angle = k(t) * s
-      local r = math.abs(angle) > 1e-9 and s / angle
-      return r and { r * math.sin(angle), 0, r * (1 - math.cos(angle)) } or { s, 0, 0 },
-        rotation(turn(t), angle)
-    end
-  end
-  for _, s in ipairs{ 0, L } do
-    scene:clamp(wire, { s = s }):follow{ duration = 4, func = place(s) }
-  end
-  local options = { duration = 4, dt = 0.02, quasistatic = true, wear = true, frame = 4 }
-  for key, value in pairs(run_options or {}) do options[key] = value end
-  return scene:run(options), scene, wire
-end
 
 local function wave(t) return math.sin(math.pi * t / 2) / R end
 
@@ -407,11 +379,13 @@ end)
 
 describe("fatigue that makes no sense", function()
   local run = bent(wave, nil, { duration = 0.04 })
-  for words, given in pairs{ ["a curve is missing"] = {}, ["fatigue.bending has fewer than 2 points"] =
-    { bending = { { 1, 1 } } }, ["fatigue.bending[1][1] = -1 1/m"] = { bending = { { -1, 5 }, { 2, 3 } } },
+  for words, given in pairs{ ["a curve is missing"] = { source = "mine" },
+    ["fatigue.bending has fewer than 2 points"] = { bending = { { 1, 1 } } },
+    ["fatigue.bending[1][1] = -1 1/m"] = { bending = { { -1, 5 }, { 2, 3 } } },
     ["is not one of: goodman none"] = { bending = curve, mean = "goodmann" },
     ["fatigue.flag = 'sure'"] = { bending = curve, flag = "sure" },
-    ["strength = 0 N"] = { bending = curve, strength = 0 } } do
+    ["strength = 0 N"] = { bending = curve, strength = 0 },
+    ["spread = 0.5"] = { bending = curve, spread = 0.5 } } do
     it("is refused: " .. words, function()
       local fine, why = pcall(run.check, run, { fatigue = given })
       assert.is_false(fine)

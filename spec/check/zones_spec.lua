@@ -264,3 +264,113 @@ describe("scene:zone", function()
     os.remove(picture)
   end)
 end)
+
+-- A sphere or box that passes over a wire at rest along x, held all along, its obstacle at height 0.05 m.
+describe("a zone on an obstacle", function()
+  local path = { { 0.1, -0.3, 0.05 }, { 0.1, 0.3, 0.05 } }
+  local function passing(shape, steps, turn, made)
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
+      segments = 16 }
+    for k = 0, 8 do scene:clamp(wire, { s = 0.025 * k }) end
+    local hand = scene:obstacle{ name = "hand", shape = "sphere", radius = 0.01, at = path[1] }
+    local zone = { name = "guard", at = path[1], on = hand }
+    for key, value in pairs(shape) do zone[key] = value end
+    scene:zone(zone)
+    hand:follow{ points = path, duration = 1, law = "linear", turn = turn }
+    if made then made(scene, hand) end
+    return scene:run{ duration = 1, dt = 1 / steps, quasistatic = true, frame = 1 / 4 }, scene, hand
+  end
+  local ball, bar = { shape = "sphere", radius = 0.02 }, { shape = "box", size = { 0.4, 0.02, 0.06 } }
+  local spin = { axis = { 1, 0, 0 }, angle = math.pi }
+
+  it("moves with it", function()
+    local row = passing(ball, 40):check{}:row "clearance"
+    assert.is_near(0.05 - 0.02 - RADIUS, row.value, 1e-9)
+    assert.is_near(0.5, row.time, 1e-9)
+    assert.truthy(row.note:find("zone 'guard'", 1, true), row.note)
+  end)
+
+  -- Distance of the wire, at y = z = 0, from a bar that has turned by pi t about x at (-0.3 + 0.6 t, 0.05).
+  it("turns with it, and its least distance within steps is a lower bound", function()
+    local least = math.huge
+    for i = 0, 100000 do
+      local t = i / 100000
+      local c, s, y, z = math.cos(math.pi * t), math.sin(math.pi * t), 0.3 - 0.6 * t, -0.05
+      local a, b = math.abs(c * y + s * z) - 0.01, math.abs(c * z - s * y) - 0.03
+      least = math.min(least, math.sqrt(math.max(a, 0) ^ 2 + math.max(b, 0) ^ 2))
+    end
+    least = least - RADIUS
+    for _, steps in ipairs{ 25, 200, 1600 } do
+      local row = passing(bar, steps, spin):check{}:row "clearance"
+      print(("measured: %d steps: %.5f, at least %.5f m; by hand %.5f m"):format(steps, row.value, row.low,
+        least))
+      assert.is_true(row.low <= least + 1e-9 and row.value >= least - 1e-9)
+      -- at most half of the way of a step, of the obstacle and of the turn at the wire's distance from it
+      assert.is_true(row.value - row.low <= 0.5 * (0.6 + 0.31 * math.pi) / steps * 1.2, row.low)
+    end
+  end)
+
+  -- Seen from the zone a wire that is carried with it does not move: no way within steps is counted.
+  it("sees a wire that goes with it at rest", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
+    local hand = scene:obstacle{ name = "hand", shape = "sphere", radius = 0.01, at = { 0.1, 0, 0.05 } }
+    scene:zone{ shape = "sphere", radius = 0.02, at = { 0.1, 0, 0.05 }, on = hand }
+    local moves = { points = { { 0, 0, 0 }, { 0, 0.4, 0.2 } }, relative = true, duration = 1, law = "linear" }
+    for k = 0, 8 do scene:clamp(wire, { s = 0.025 * k }):follow(moves) end
+    hand:follow(moves)
+    local row = scene:run{ duration = 1, dt = 0.05, quasistatic = true }:check{}:row "clearance"
+    assert.is_near(0.03 - RADIUS, row.value, 1e-6)
+    assert.is_true((row.low or row.value) > row.value - 1e-6, row.low)
+  end)
+
+  it("is taken away with it, what it saw before stays", function()
+    local run, scene, hand = passing(ball, 40, nil, function(scene, hand)
+      scene:process(function(p)
+        p:wait(0.25)
+        hand:remove()
+        p:wait(0.1)
+      end)
+    end)
+    -- at 0.25 s the hand is 0.15 m beside the wire and 0.05 m above
+    assert.is_near(math.sqrt(0.15 ^ 2 + 0.05 ^ 2) - 0.02 - RADIUS, run:check{}:row "clearance".value, 1e-6)
+    assert.has_error(function() scene:run{ duration = 0.1 }:check{}:row "clearance" end)
+    assert.has_error(function() scene:zone{ shape = "sphere", radius = 1, on = hand } end)
+  end)
+
+  it("is drawn with it", function()
+    local run = passing(bar, 40, spin)
+    local document = run:document()
+    local zone = document.zones[1]
+    for _, frame in ipairs(document.frames) do
+      local pose = solid.carried(zone, frame)
+      assert.is_near(-0.3 + 0.6 * frame.t, pose.position[2], 1e-6) -- frames have short numbers
+      assert.is_near(math.abs(math.cos(math.pi / 2 * frame.t)), math.abs(pose.rotation[1]), 1e-6)
+    end
+    assert.is_nil(solid.carried(zone, { obstacles = { false } }))
+  end)
+
+  it("goes on from a file and after a snapshot", function()
+    local file = os.tmpname()
+    local _, scene = passing(ball, 40, nil, function(scene) scene:save(file) end)
+    assert.truthy(scene:script():find("on = hand", 1, true))
+    local again = sw.load(file)
+    os.remove(file)
+    local snapshot = again:snapshot()
+    for _ = 1, 2 do
+      local row = again:run{ duration = 1, dt = 1 / 40, quasistatic = true }:check{}:row "clearance"
+      assert.is_near(0.05 - 0.02 - RADIUS, row.value, 1e-9)
+      again:restore(snapshot)
+    end
+  end)
+
+  for words, on in pairs{ ["expects a obstacle of the scene, got number 3"] = 3, ["got table"] = {} } do
+    it("refuses what is none: " .. words, function()
+      local scene = sw.scene{}
+      local fine, why = pcall(scene.zone, scene, { shape = "sphere", radius = 1, on = on })
+      assert.is_false(fine)
+      assert.truthy(why:find(words, 1, true), why)
+    end)
+  end
+end)

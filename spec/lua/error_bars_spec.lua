@@ -524,6 +524,14 @@ describe("the estimate", function()
     t.near(1.5, trust.estimate(plain, { 5.25, 5.125 }, false) / 0.125, 0.01, "two levels, first order")
   end)
 
+  it("is no less than all of what vanishes", function()
+    local depth = { plain = true, row = true, vanishes = true }
+    assert.equal(2e-6, trust.estimate(depth, { 3e-6, 2.1e-6, 2e-6 }, true))
+    assert.equal(2e-6, trust.estimate(depth, { 2e-6, 2e-6 }, true))
+    assert.is_near(6e-5, trust.estimate(depth, { 1e-6, 2e-6, 12e-6 }, true), 1e-12) -- its change is larger
+    assert.equal(0, trust.estimate(depth, { 0, 0, 0 }, true))
+  end)
+
   it("does not trust a small last change", function()
     for _, last in ipairs{ 0, 1e-9, -1e-9 } do
       assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, false) > 0.1)

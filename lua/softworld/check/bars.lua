@@ -4,6 +4,7 @@
 -- @module softworld.check.bars
 local check = require "softworld.check.check"
 local checks = require "softworld.checks"
+local registry = require "softworld.check.registry"
 
 local bars = {}
 
@@ -41,7 +42,9 @@ end
 local function add(job, name, unit)
   local values = {}
   for k = 1, job.known or 0 do values[k] = NONE end
-  local q = { name = name, unit = unit == "-" and "" or unit, row = true, plain = true }
+  local member = registry.by_name[name]
+  local q = { name = name, unit = unit == "-" and "" or unit, row = true, plain = true,
+    vanishes = member and member.vanishes }
   job.values[name], job.quantities[#job.quantities + 1] = values, q
   return q
 end
@@ -51,7 +54,7 @@ local function wears(args)
   if args.fatigue or args.abrasion then return true end
   for name in pairs(type(args.limits) == "table" and args.limits or {}) do
     local word = type(name) == "string" and name:match "[^.]*$"
-    if word == "friction_work" or word == "wear_depth" then return true end
+    if word == "friction_work" or word == "wear_depth" or word == "fatigue" then return true end
   end
   return false
 end

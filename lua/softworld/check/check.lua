@@ -81,11 +81,15 @@ local function error_bar(run, object, name)
   return q and type(q.value) == "number" and q.error or nil
 end
 
--- Widen what is known of a value by its error bar.
+-- Widen what is known of a value by its error bar; value.share: low and high are by the same share wrong.
 local function with_error(value, bar)
   if not bar then return value end
   value.error = bar
-  value.low, value.high = (value.low or value.value) - bar, (value.high or value.value) + bar
+  local low, high = bar, bar
+  if value.share and value.value > 0 and bar > 0 and bar < math.huge then
+    low, high = bar * value.low / value.value, bar * value.high / value.value
+  end
+  value.low, value.high = (value.low or value.value) - low, (value.high or value.value) + high
   return value
 end
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Fatigue: the share of its life that the wire loses, at the place where that is most. Cycles of tension and
--- of bending are counted there by rainflow and added up by Miner's rule with the S-N curves that the script
--- gives, times repeats.
+-- of bending are counted there by rainflow and added up by Miner's rule, times repeats, with the S-N curves
+-- that the script gives, else those of the cable, else those of its copper strands, whose spread is wide.
 --
 -- With scene:run{ wear = true } they are those of every step. Bending is then that of the fibres all round
 -- the wire: to and fro is one cycle of the whole range, and what rolls while bent is bent. Without it there
@@ -79,7 +79,7 @@ local function of_steps(entry, given, places, strength)
       local ranges = {}
       if given.curve then ranges[1] = ("%.4g N"):format(pull) end
       if given.bending then ranges[#ranges + 1] = ("%.4g 1/m"):format(bend) end
-      best = { value = sum, s = place.s,
+      best = { value = sum, s = place.s, bend = bend,
         note = "ranges up to " .. table.concat(ranges, " and ") }
     end
   end
@@ -99,8 +99,7 @@ local function histories(context, entry)
   return same and count and list or nil, places, count
 end
 
-local function of_frames(entry, context, strength)
-  local given = context.fatigue
+local function of_frames(entry, context, strength, given)
   local list, places, count = histories(context, entry)
   if not list then return { value = 0 / 0, note = "the wire has not the same nodes in all frames" } end
   local best = { value = 0 }
@@ -123,28 +122,60 @@ local function strength_of(entry, given)
   return given.strength or load and (load.low or load.value) or false
 end
 
-local function value(entry, context)
-  local given = context.fatigue
-  if not given then
-    return { value = 0 / 0, note = "its curve is missing: fatigue = { curve = { { range [N], cycles } } } or "
-      .. "{ bending = { { range [1/m], cycles } } }" }
+-- The curves that hold for a wire: those of the script, else of its cable, else of its strands; or nil.
+local function curves_of(entry, given)
+  if given.curve or given.bending then return given, given.source or "of the script" end
+  local known = entry.object:cable()
+  local own = known and known.fatigue
+  if type(own) == "table" and (own.curve or own.bending) then return own, own.source end
+end
+
+-- Curves with what else is given, as of_steps takes them.
+local function with(curves, given)
+  return { curve = curves.curve, bending = curves.bending, repeats = given.repeats }
+end
+
+local function at_curves(entry, context, given, strength)
+  local places, partial = worn.of(entry)
+  if places then return of_steps(entry, given, places, strength), partial end
+  if given.bending then return worn.missing(entry) end
+  return of_frames(entry, context, strength, given)
+end
+
+-- How far the curves leave the sum open: by their factor, or by the curves of least and most damage.
+local function add_spread(best, entry, curves, given, strength)
+  local places = worn.of(entry)
+  if curves.high and places then
+    best.low = of_steps(entry, with(curves.low, given), places, strength).value
+    best.high = of_steps(entry, with(curves.high, given), places, strength).value
+    local bend = 100 * (best.bend or 0)
+    best.note = ("%s: strands strained by %.2g %% if they slip, %.2g %% if they stick"):format(best.note
+      or "no cycles", curves.strain[1] * bend, curves.strain[2] * bend)
+  elseif (curves.spread or 1) > 1 and best.value == best.value then
+    best.low, best.high = best.value / curves.spread, best.high or best.value * curves.spread
+  else
+    return
   end
+  best.share = true
+  best.note = ("%s; by the curves' spread %.3g to %.3g"):format(best.note or "no cycles", best.low, best.high)
+end
+
+local NONE = "its S-N curve is missing: nothing is known of the wire's strands; give fatigue = { curve = { { "
+  .. "range [N], cycles } } } or { bending = { { range [1/m], cycles } } }"
+
+local function value(entry, context)
+  local given = context.fatigue or { repeats = 1 }
+  local curves, source = curves_of(entry, given)
+  if not curves then return { value = 0 / 0, note = NONE } end
   local strength = strength_of(entry, given)
   if strength == false then
     return { value = 0 / 0, note = "mean = 'goodman' needs the wire's breaking load: give strength [N]" }
   end
-  local places, partial = worn.of(entry)
-  local best
-  if places then
-    best = of_steps(entry, given, places, strength)
-    if partial then worn.at_least(best, partial) end
-  elseif given.bending then
-    best = worn.missing(entry)
-  else
-    best = of_frames(entry, context, strength)
-  end
-  local from = ("S-N curve: %s"):format(given.flag and ("%s, %s"):format(given.source or "of the script",
-    given.flag) or given.source or "of the script, its source is not given")
+  local best, partial = at_curves(entry, context, with(curves, given), strength)
+  add_spread(best, entry, curves, given, strength)
+  if partial then worn.at_least(best, partial) end
+  local known = curves.flag and ", " .. curves.flag or curves.source and "" or ", its source is not given"
+  local from = ("S-N curve: %s%s"):format(source, known)
   best.note = best.note and best.note .. "; " .. from or from
   return best
 end

@@ -42,7 +42,10 @@ local function curve_of(row, run)
   return { name = row.object .. "." .. what, limit = limit }
 end
 
-local function micro(text) return (text:gsub(" u(%a)", " µ%1")) end
+-- Of numbers with their units, not of words that begin with u.
+local function micro(text)
+  return (text:gsub("(%d) u([mNsJWP]a?)%f[%A]", "%1 µ%2"))
+end
 
 local function shown(row)
   local texts = json.object {}

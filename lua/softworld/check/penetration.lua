@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Deepest penetration of all steps. Contact is a model of hard bodies: beyond a quarter of the thinnest
--- wire's radius its forces are not to be trusted.
+-- wire's radius its forces are not to be trusted. What there is of it is an error of the steps, which comes
+-- and goes with each of them: its bar is as large as the depth itself, at least.
 -- @module softworld.check.penetration
 local build = require "softworld.scene.build"
 
@@ -12,8 +13,8 @@ local function thinnest(scene)
   return least
 end
 
-return { name = "penetration", unit = "m", side = "max", on = "run", label = "deepest penetration",
-  missing = "allowed penetration",
+return { name = "penetration", vanishes = true, unit = "m", side = "max", on = "run",
+  label = "deepest penetration", missing = "allowed penetration",
   value = function(_, context)
     if #build.data(context.scene).obstacles == 0 then return nil end
     local depth, s, time = context.scene:penetration()

@@ -3,6 +3,7 @@
 -- @module softworld.check.wanted
 local cable = require "softworld.cable"
 local checks = require "softworld.checks"
+local lifecurve = require "softworld.wire.lifecurve"
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
 
@@ -16,13 +17,17 @@ wanted.landing = rows.list{
 }
 
 wanted.fatigue = rows.list{
-  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising" },
-  { "bending", "list", "1/m", "points { range of curvature, cycles endured }, ranges rising" },
+  { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising",
+    usual = "of the cable, else of its copper strands; not where the other curve is given" },
+  { "bending", "list", "1/m", "points { range of curvature, cycles endured }, ranges rising",
+    usual = "as that of tension" },
   { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
   { "mean", "choice", "-", "goodman: a range of tension counts as range / (1 - mean / strength)",
     choices = { "none", "goodman" }, default = "none" },
   { "strength", "number", "N", "of Goodman's rule", min = 0, above = true,
     usual = "the least breaking load" },
+  { "spread", "number", "-", "by this factor the curves' lives may be shorter or longer", min = 1,
+    usual = "1" },
   { "source", "text", "-", "where the curves are from" },
   { "flag", "choice", "-", "how well they are known", choices = cable.flags },
 }
@@ -48,36 +53,19 @@ wanted.vibration = rows.list{
     above = true, usual = 1e-4 },
 }
 
--- Ranges rise and cycles fall along the curve.
-local function read_curve(name, curve, unit)
-  local copy = {}
-  for i, point in ipairs(curve) do
-    local what = ("run:check: fatigue.%s[%d]"):format(name, i)
-    if type(point) ~= "table" then
-      error(("%s must be { range [%s], cycles }, got %s"):format(what, unit, checks.got(point)), 0)
-    end
-    copy[i] = { checks.number(what .. "[1]", point[1], 0, " " .. unit, 0, nil, true),
-      checks.number(what .. "[2]", point[2], 0, "", 0, nil, true) }
-    local before = copy[i - 1]
-    if before and not (copy[i][1] > before[1] and copy[i][2] < before[2]) then
-      error(("%s: a larger range is wanted than before, endured for fewer cycles"):format(what), 0)
-    end
-  end
-  if #copy < 2 then
-    error(("run:check: fatigue.%s has fewer than 2 points { range [%s], cycles }"):format(name, unit), 0)
-  end
-  return copy
-end
-
 local read = {}
 
 function read.fatigue(given)
-  if not (given.curve or given.bending) then
-    error("run:check: fatigue: a curve is missing: curve = { { range [N], cycles } } or bending = { { range "
-      .. "[1/m], cycles } }", 0)
+  for name, unit in pairs{ curve = "N", bending = "1/m" } do
+    given[name] = given[name] and lifecurve.read("run:check: fatigue." .. name, given[name], unit)
   end
-  given.curve = given.curve and read_curve("curve", given.curve, "N")
-  given.bending = given.bending and read_curve("bending", given.bending, "1/m")
+  if given.curve or given.bending then return end
+  for _, name in ipairs{ "source", "flag", "spread" } do
+    if given[name] then
+      error(("run:check: fatigue.%s is of a curve, and a curve is missing: curve = { { range [N], cycles } } "
+        .. "or bending = { { range [1/m], cycles } }"):format(name), 0)
+    end
+  end
 end
 
 -- A pair of numbers.

@@ -17,13 +17,13 @@ end
 --- A row's value where nothing was kept: it is not known.
 function worn.missing(entry)
   local note = worn.LINE[entry.object.model] and "it was not kept: " .. worn.HOW
-    or "it is not kept of a mesh of particles"
+    or "it is not kept of a mesh of particles; with model = 'rod' it is"
   return { value = 0, low = 0, high = math.huge, note = note }
 end
 
 --- Mark a value as the least that it may be, and say why.
 function worn.at_least(value, why)
-  value.low, value.high = value.value, math.huge
+  value.low, value.high = value.low or value.value, math.huge
   value.note = value.note and value.note .. "; " .. why or why
   return value
 end

@@ -70,14 +70,12 @@ end
 
 local EDGE = 8e-4 -- radius of the edges of zones, of the size of what is seen [-]
 
--- Zones by their edges, for they are seen through; found once, for they stay.
-local function add_zones(drawing, run, look)
+-- Zones by their edges, for they are seen through; found once.
+local function add_zones(drawing, run, frame, look)
   for _, z in ipairs(run.zones or {}) do
-    local ends, colour = look.shapes[z], povscene.colours[z.temperature and "heat" or "zone"]
-    if not ends then
-      ends = solid.place(solid.edges(z), z)
-      look.shapes[z] = ends
-    end
+    local pose, colour = solid.carried(z, frame), povscene.colours[z.temperature and "heat" or "zone"]
+    look.shapes[z] = look.shapes[z] or solid.edges(z)
+    local ends = pose and solid.place(look.shapes[z], pose) or {}
     if look.technique == "wireframe" then
       drawing:lines(ends, colour)
     else
@@ -204,7 +202,7 @@ end
 function picture.drawing(run, frame, look)
   local drawing = core.drawing()
   add_obstacles(drawing, run, frame, look)
-  add_zones(drawing, run, look)
+  add_zones(drawing, run, frame, look)
   add_wires(drawing, run, frame, look)
   add_particles(drawing, run, frame, look)
   return drawing

@@ -194,10 +194,10 @@ local function obstacle(add, o, pose, camera, size)
 end
 
 -- Seen through, for wires are to be seen in it.
-local function zone(add, z)
+local function zone(add, z, pose)
   triangles(add, z)
   add(format("no_shadow texture { pigment { %s transmit 0.75 } }\n%s }\n",
-    colour(povscene.colours[z.temperature and "heat" or "zone"]), matrix(z)))
+    colour(povscene.colours[z.temperature and "heat" or "zone"]), matrix(pose)))
 end
 
 -- Neighbours closer than a tenth of the radius are left out of the union.
@@ -360,7 +360,10 @@ function povscene.text(run, frame, look)
     local pose = (frame.obstacles or {})[i]
     if pose ~= false then obstacle(add, o, pose, look.camera, look.size) end
   end
-  for _, z in ipairs(run.zones or {}) do zone(add, z) end
+  for _, z in ipairs(run.zones or {}) do
+    local pose = solid.carried(z, frame)
+    if pose then zone(add, z, pose) end
+  end
   for i, points in ipairs(frame.wires) do
     local w = run.wires[i]
     local c, surface = w.color or wire_colours[(i - 1) % #wire_colours + 1], (frame.surfaces or {})[i]

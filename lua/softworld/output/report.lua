@@ -117,7 +117,8 @@ local function zones_of(page, run)
   local list = {}
   for i, z in ipairs(run.zones or {}) do
     list[i] = json.object{ name = z.name, kind = z.kind, temperature = z.temperature, at = z.position,
-      rotation = z.rotation, shape = add_shape(page, z) }
+      rotation = z.rotation, on = z.on and json.object{ slot = z.on.slot, at = z.on.position,
+        rotation = z.on.rotation }, shape = add_shape(page, z) }
   end
   return list
 end

@@ -52,6 +52,17 @@ function solid.place(vertices, pose)
   return out
 end
 
+--- Where a zone is in a frame: of its own, or with its obstacle, zone.on = { slot, position, rotation }.
+-- @treturn ?table pose; nil: its obstacle is not there
+function solid.carried(zone, frame)
+  if not zone.on then return zone end
+  local carrier = (frame.obstacles or {})[zone.on.slot + 1]
+  if not carrier then return nil end
+  local p, q = solid.pose(carrier)
+  local x, y, z = solid.rotate(q, table.unpack(zone.on.position))
+  return { position = { p[1] + x, p[2] + y, p[3] + z }, rotation = vec.multiply(q, zone.on.rotation) }
+end
+
 local FLAT = 0.999 -- cosine of the angle between two triangles up to which they are one face [-]
 
 local function normal_of(v, i, j, k)

@@ -109,20 +109,33 @@ export class Obstacle extends Posed {
 }
 
 /** A part of space that is watched: to be kept out of, or with a temperature. Seen through, and never in the way. */
-export class Zone extends Actor {
-  constructor(run, index, given) {
-    super(run, "zone", index, given.name, given.temperature === undefined ? "to be kept out of" : `${given.temperature} °C`);
+export class Zone extends Posed {
+  constructor(run, index, given, reader) {
+    super(run, "zone", index, given.name, given.temperature === undefined ? "to be kept out of" : `${given.temperature} °C`,
+      "obstacle", given.on ? given.on.slot : -1, reader);
     const color = given.temperature === undefined ? "#d63d3d" : "#e6941a";
     const mesh = shapeMesh(given.shape, solid(color));
     Object.assign(mesh.material, { transparent: true, opacity: 0.13, depthWrite: false, side: THREE.DoubleSide });
     mesh.castShadow = mesh.receiveShadow = false;
     this.group.add(mesh, new THREE.LineSegments(new THREE.EdgesGeometry(mesh.geometry, 35),
       new THREE.LineBasicMaterial({ color: new THREE.Color(color).convertSRGBToLinear(), transparent: true, opacity: 0.7 })));
-    const [x, y, z] = given.at, [w, a, b, c] = given.rotation;
-    this.group.position.set(x, y, z);
-    this.group.quaternion.set(a, b, c, w).normalize();
+    const { at, rotation: [w, a, b, c] } = given.on || given;
+    this.at = new THREE.Vector3(...at);
+    this.turn = new THREE.Quaternion(a, b, c, w).normalize();
+    this.group.position.copy(this.at);
+    this.group.quaternion.copy(this.turn);
+    this.carried = Boolean(given.on);
+    this.forces = undefined; // those are the obstacle's
   }
-  update(at, look, hidden) { this.show(true, hidden); }
+  /** With its obstacle, where it has one. */
+  update(at, look, hidden) {
+    const there = !this.carried || this.move(at);
+    if (there && this.carried) {
+      this.group.position.add(this.at.clone().applyQuaternion(this.group.quaternion));
+      this.group.quaternion.multiply(this.turn);
+    }
+    this.show(there, hidden);
+  }
 }
 
 /** Along the wire nearest to a point in the first frame in which something holds it. */

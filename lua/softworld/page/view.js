@@ -108,7 +108,7 @@ export class View {
       const actor = add(new Obstacle(run, i, o, reader, this.stage));
       if (!actor.plane && !actor.fixed && !o.part) this.addWay(actor, () => [actor.places]);
     });
-    run.zones.forEach((zone, i) => add(new Zone(run, i, zone)));
+    run.zones.forEach((zone, i) => add(new Zone(run, i, zone, reader)));
     run.holds.forEach((hold, i) => {
       const actor = add(new Hold(run, i, hold, reader, this.radius, up));
       this.addWay(actor, () => [actor.places]);

@@ -43,7 +43,8 @@ function trust.wanted(args) return type(checks.field(args, "tolerance")) == "tab
 --- How far the last of the values of a quantity may be off, one value per level, each
 -- level with edges and steps half as long as before.
 -- @tparam table q the quantity: plain or own = true when its order is not known; row = true: of a check,
---   which may be exactly its limit, so that equal values have no bar
+--   which may be exactly its limit, so that equal values have no bar; vanishes = true: hard bodies have none
+--   of it, so that it is as uncertain as it is large
 -- @tparam table values of the levels, coarsest first
 -- @tparam boolean contact does the wire touch anything, or were steps redone?
 -- @treturn number error, in the quantity's unit
@@ -54,9 +55,10 @@ function trust.estimate(q, values, contact)
   local last = quantity.distance(values[n - 1], values[n])
   local size = quantity.size(values[n]) -- infinite: the bend radius of a straight wire
   local floor = size < math.huge and not q.row and rounding * size or 0
+  local least = q.vanishes and size or 0
   if n == 2 then
     local rate = (q.plain or q.own or contact) and 2 or second_order
-    return safety * last / (rate - 1) + floor, rate
+    return math.max(safety * last / (rate - 1) + floor, least), rate
   end
   local before = quantity.distance(values[n - 2], values[n - 1])
   local first = n > 3 and quantity.distance(values[n - 3], values[n - 2]) or math.huge
@@ -77,7 +79,7 @@ function trust.estimate(q, values, contact)
     local to_come = before > last and last / (before / last - 1) or math.huge
     off = math.max(off, math.min(to_come, second_order * last))
   end
-  return safety * off + floor, math.max(rate, 1)
+  return math.max(safety * off + floor, least), math.max(rate, 1)
 end
 
 --- Is a quantity's bar so long on the last of k levels that no finer one of at most so many makes it short

@@ -9,16 +9,17 @@ local rows = require "softworld.rows"
 local solid = require "softworld.output.solid"
 
 rows.calls{
-  { "scene:zone", "{ shape =, at =, temperature = }", "a part of space that nothing touches: wires are to "
-    .. "keep out of it, or have its temperature [degC]; see help 'check'", "its name",
+  { "scene:zone", "{ shape =, at =, temperature =, on = }", "a part of space that nothing touches: wires are "
+    .. "to keep out of it, or have its temperature [degC]; see help 'check'", "its name",
     example = 'scene:zone { name = "oven", shape = "box", size = { 1, 1, 1 }, temperature = 90 }' },
 }
 
 local AROUND = 24     -- points around a round zone that is drawn
 local PIECE = 0.5     -- half of the square that is drawn of a half space [m]
 
--- What is drawn of a zone: its surface in its own axes, and where it is.
-local function look_of(args, name, shape, position, rotation)
+-- What is drawn of a zone: its surface in its own axes, and where it is. on: { slot = of the obstacle that
+-- it moves with, position =, rotation = in the axes of that }.
+local function look_of(args, name, shape, position, rotation, on)
   local surface
   if solid.flat(args) then
     local normal = checks.vector("zone: normal", args.normal or { 0, 0, 1 }, "-", 0)
@@ -27,7 +28,7 @@ local function look_of(args, name, shape, position, rotation)
     surface = solid.of_shape(shape, AROUND)
   end
   shape:close()
-  return { name = name, shape = "mesh", kind = args.shape, temperature = args.temperature,
+  return { name = name, shape = "mesh", kind = args.shape, temperature = args.temperature, on = on,
     position = position, rotation = rotation, vertices = surface.vertices, indices = surface.indices }
 end
 
@@ -41,11 +42,12 @@ local function make(scene, args)
     local mesh = meshfile.read(own.file)
     own.data, own.format, own.file = mesh.data, own.format or mesh.format, nil
   end
-  local fine, name, shape, position, rotation = pcall(core.zone, scene, own)
+  local fine, name, shape, position, rotation, slot, within, turned = pcall(core.zone, scene, own)
   if not fine then error((build.plain(name):gsub("^obstacle", "zone", 1)), 0) end
   local data = build.data(scene)
   data.zones = data.zones or {}
-  data.zones[#data.zones + 1] = look_of(own, name, shape, position, rotation)
+  data.zones[#data.zones + 1] = look_of(own, name, shape, position, rotation,
+    slot and { slot = slot, position = within, rotation = turned })
   return name
 end
 
