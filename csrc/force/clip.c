@@ -196,12 +196,16 @@ static int idle(const double *history) {
  * with half of it 2 % at twice the cost (spec/scene/clip_steps_spec) [-]. */
 static const double FOLLOWED = 1.0 / 16;
 
-/* Local u and v of the part of an edge that is in the clip's width, in its middle [m]. */
-static void middle_of(const sw_clip_walk *w, double out[2]) {
+/* The middle of the part of an edge that is in the clip's width, as a share of the edge [-]. */
+static double middle_of(const sw_clip_walk *w) {
   const double a = w->a[2], b = w->b[2], half = w->half;
   const double from = fmax(-half, fmin(half, a)), to = fmax(-half, fmin(half, b));
-  const double at = fabs(b - a) > 0 ? (0.5 * (from + to) - a) / (b - a) : 0.5;
-  for (int k = 0; k < 2; k++) out[k] = w->a[k] + at * (w->b[k] - w->a[k]);
+  return fabs(b - a) > 0 ? (0.5 * (from + to) - a) / (b - a) : 0.5;
+}
+
+/* Local u and v at a share of an edge [m]. */
+static void place_on(const sw_clip_walk *w, double share, double out[2]) {
+  for (int k = 0; k < 2; k++) out[k] = w->a[k] + share * (w->b[k] - w->a[k]);
 }
 
 static double oversteps(const void *args, const sw_field *f, const double *history,
@@ -216,9 +220,11 @@ static double oversteps(const void *args, const sw_field *f, const double *histo
   for (long e = sw_clip_find(&c, f, 0); e >= 0; e = sw_clip_find(&c, f, e + 1)) {
     sw_clip_walk was, is;
     double one[2], two[2];
-    if (!sw_clip_begin(&c, f, (size_t)e, &was) || !sw_clip_begin(&c, &after, (size_t)e, &is))
-      continue;
-    middle_of(&was, one), middle_of(&is, two);
+    if (!sw_clip_begin(&c, f, (size_t)e, &was)) continue;
+    const double middle = middle_of(&was);
+    const int stays =
+        sw_clip_begin(&c, &after, (size_t)e, &is); /* else it is torn out, or slides */
+    place_on(&was, middle, one), place_on(&is, stays ? middle_of(&is) : middle, two);
     if (fmax(one[0], two[0]) < low || fmin(one[0], two[0]) > high) continue;
     if (fmin(fabs(one[1]), fabs(two[1])) > beside) continue;
     most = fmax(most, fabs(two[0] - one[0]) / (FOLLOWED * high));

@@ -84,7 +84,7 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
   if (status == SW_OK && !newton->statics && hbar > first_step(s) && sw_scene_has_contact(s) &&
       thrown(p))
     status = sw_fail(err, SW_ENOCONV, "a loose mesh would be thrown far");
-  if (status == SW_OK && p->args->springs == SW_SPRING && sw_passing_too_far(s, p->y))
+  if (status == SW_OK && !p->args->stays && sw_passing_too_far(s, p->y))
     status = sw_fail(err, SW_ENOCONV, "a wire would spring past a clip");
   p->report->negative = r.negative;
   if (status != SW_OK) memcpy(system->tension, p->tension, system->edges * sizeof(double));
@@ -263,7 +263,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   }
   if (found(p, status)) return status;
   sw_rest_take_back(p->s, p->kept);
-  if (p->args->springs == SW_STAY && p->too_far) {
+  if (p->args->stays && p->too_far) {
     *p->too_far = 1;
     return sw_fail(err, SW_ENOCONV, "a wire may spring past a clip");
   }

@@ -82,7 +82,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
   const int shortest = t1 - t0 <= 1.5 * how->passing; /* but for rounding */
-  args.springs = !start->x ? SW_FALL : shortest || !halvings ? SW_SPRING : SW_STAY;
+  args.stays = start->x && !shortest && halvings;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
   const sw_status status =

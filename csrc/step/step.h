@@ -61,14 +61,10 @@ sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double unti
                            int (*interrupted)(void), sw_observer *observer, sw_run_report *report,
                            sw_error *err);
 
-/* They go where they would; there, looked after on their way past clips; or not at all, for a
- * shorter way there may be found to have one. */
-enum { SW_FALL, SW_SPRING, SW_STAY };
-
 typedef struct sw_settle_args {
   double tolerance;    /* largest node shift of the last iteration [m] */
   long max_iterations; /* [-] */
-  int springs;         /* what wires do that find no rest near by, SW_FALL, ... */
+  int stays; /* 1: wires that find no rest near by go nowhere, for a shorter way may have one */
 } sw_settle_args;
 extern const sw_params sw_settle_params;
 
