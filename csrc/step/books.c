@@ -16,6 +16,8 @@
 /* Energy that steps gained, as a share of the energy in play: above the first an event, above the
  * second a failure [-]. */
 static const double REMARK = 0.02, FAILURE = 0.05;
+/* Share of it that is from nowhere without being gained: a remark [-]. */
+static const double UNKNOWN = 0.05;
 
 /* A held point is off its hold by more than rounding [m]. */
 static const double JUMP = 1e-9;
@@ -249,6 +251,17 @@ static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
                 "%zu steps were %s, the worst at t = %.6g s", r->count, what, r->time);
 }
 
+/* Energy from nowhere that no step gained: work or losses that the steps do not know. */
+static void tell_unknown(sw_scene *s) {
+  const sw_ledger *l = &sw_scene_books(s)->sums;
+  const double share = l->play > 0 ? l->gap / l->play : 0.0;
+  if (!(share > UNKNOWN)) return;
+  sw_scene_tell(s, "energy", "", NAN, share,
+                "%.3g J come from nowhere, %.2g %% of what was in play: work of holds is not known "
+                "that well, nor are their forces and moments; smaller steps know more",
+                l->gap, 100.0 * share);
+}
+
 enum { FEW = 2 }; /* steps redone that are not worth a word */
 
 sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
@@ -258,7 +271,10 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   tell_retries(s, "accepted although they made energy, because smaller ones did too", &l->accepted);
   if (l->redone.count > FEW && (double)l->redone.count > 0.01 * (double)l->steps)
     tell_retries(s, "redone, more than 1 % of all, because they made energy", &l->redone);
-  if (!(share > REMARK)) return SW_OK;
+  if (!(share > REMARK)) {
+    tell_unknown(s);
+    return SW_OK;
+  }
   if (!(share > FAILURE)) {
     sw_scene_tell(s, "energy", "", NAN, share,
                   "steps made %.3g J from nowhere, %.2g %% of what was in play; smaller steps show "
