@@ -19,6 +19,7 @@
 #include "system/part.h"
 #include "system/rail.h"
 #include "system/spin.h"
+#include "system/start.h"
 #include "system/strain.h"
 #include "system/system.h"
 #include "system/twist.h"
@@ -394,35 +395,6 @@ static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newto
   return 1;
 }
 
-/* Newton starts from the free flight yhat. Where that turns an edge over or
- * halves it, the start may lie on the wrong side of the edge's own length, and
- * the solve could end in a wire folded through itself. Counts
- * the edges that keep less than this share of their length along themselves [-]. */
-static const double LEAST_ALIGNMENT = 0.4;
-
-SW_HOT
-static long count_turned(size_t m, const double *restrict x, const double *restrict y) {
-  long turned = 0;
-  for (size_t e = 0; e < m; e++) {
-    const double ex = x[3 * e + 3] - x[3 * e], ey = x[3 * e + 4] - x[3 * e + 1];
-    const double ez = x[3 * e + 5] - x[3 * e + 2];
-    const double along = ex * (y[3 * e + 3] - y[3 * e]) + ey * (y[3 * e + 4] - y[3 * e + 1]) +
-                         ez * (y[3 * e + 5] - y[3 * e + 2]);
-    turned += !(along >= LEAST_ALIGNMENT * (ex * ex + ey * ey + ez * ez));
-  }
-  return turned;
-}
-
-static sw_status check_start(const sw_system *s, const double *y, sw_error *err) {
-  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
-    const size_t at = 3 * body->first_node;
-    if (count_turned(body->plan->edges, s->x + at, y + at) ||
-        (body->plan->web && sw_web_turned(body, s->x + at, y + at, LEAST_ALIGNMENT)))
-      return sw_fail(err, SW_ENOCONV, "an edge would turn over within the step");
-  }
-  return SW_OK;
-}
-
 static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_error *err) {
   const double h = statics ? 0.0 : stage->hbar;
   sw_parts_begin(s);
@@ -436,7 +408,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
     }
   sw_rails_begin(s, stage, statics);
   if (statics) sw_lead_begin(s, stage);
-  if (!statics) SW_TRY(check_start(s, stage->y, err));
+  if (!statics) SW_TRY(sw_start_check(s, stage->y, err));
   sw_spin_begin_stage(s, mass_rate(stage));
   if (s->coupling.begin_stage)
     SW_TRY(s->coupling.begin_stage(s->coupling.user, s, stage->time, stage->first, err));
