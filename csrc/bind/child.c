@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "bind/bind_motion.h"
 
@@ -34,7 +35,8 @@ lsw_self lsw_check_self(lua_State *L, const lsw_class *c) { return check_at(L, 1
 sw_handle lsw_check_child_of(lua_State *L, int index, const lsw_class *c, const sw_scene *scene,
                              const char *what) {
   if (!lsw_test(L, index, c))
-    luaL_error(L, "%s expects a %s of the scene, got %s", what, c->name,
+    luaL_error(L, "%s expects %s %s of the scene, got %s", what,
+               strchr("aeiou", *c->name) ? "an" : "a", c->name,
                lua_isnoneornil(L, index) ? "nothing" : lsw_describe(L, index));
   const lsw_self child = check_at(L, index, c);
   if (child.scene != scene) luaL_error(L, "%s: this %s belongs to another scene", what, c->name);

@@ -365,7 +365,7 @@ describe("a zone on an obstacle", function()
     end
   end)
 
-  for words, on in pairs{ ["expects a obstacle of the scene, got number 3"] = 3, ["got table"] = {} } do
+  for words, on in pairs{ ["expects an obstacle of the scene, got number 3"] = 3, ["got table"] = {} } do
     it("refuses what is none: " .. words, function()
       local scene = sw.scene{}
       local fine, why = pcall(scene.zone, scene, { shape = "sphere", radius = 1, on = on })

@@ -3,14 +3,9 @@
 local sw = require "softworld"
 local core = sw.core
 
-local R = 0.0025
+local rod = require "spec.model.rod"
 
-local function rod(scene, more)
-  local args = { name = "w", E = 5e6, density = 1500, radius = R, from = { 0, 0, 0 }, to = { 0.6, 0, 0 },
-    segments = 24, model = "auto" }
-  for key, value in pairs(more or {}) do args[key] = value end
-  return scene:wire(args)
-end
+local R = rod.radius
 
 local function fails(f, ...)
   local fine, why = pcall(f)
@@ -24,7 +19,7 @@ local function follow(hold, points, duration) hold:follow { points = points, dur
 local function hung(duration, tolerance, more, settled)
   local scene = sw.scene { name = "hung" }
   scene:force { kind = "damping", mass = 5 }
-  local w = rod(scene, more)
+  local w = rod.wire(scene, more)
   scene:clamp(w, { s = 0 })
   local right = scene:clamp(w, { s = 0.6, name = "right" })
   if settled ~= false then scene:settle() end
@@ -38,7 +33,7 @@ local function turned(friction, settled)
   local scene = sw.scene { name = "turned" }
   scene:force { kind = "damping", mass = 5 }
   scene:obstacle { name = "table", shape = "plane", friction = friction }
-  local w = rod(scene, { from = { 0, 0, R }, to = { 0.4, 0, R } })
+  local w = rod.wire(scene, { from = { 0, 0, R }, to = { 0.4, 0, R } })
   local hand = scene:clamp(w, { s = 0, name = "hand" })
   if settled then scene:settle() end
   hand:follow { points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, duration = 1,
@@ -50,8 +45,8 @@ end
 local function crossed(gap, down)
   local scene = sw.scene { name = "crossed" }
   scene:force { kind = "damping", mass = 5 }
-  local a = rod(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
-  local b = rod(scene, { name = "b", from = { 0, -0.2, gap }, to = { 0, 0.2, gap } })
+  local a = rod.wire(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
+  local b = rod.wire(scene, { name = "b", from = { 0, -0.2, gap }, to = { 0, 0.2, gap } })
   for i, s in ipairs { 0, 0.4 } do
     scene:clamp(a, { s = s, name = "a" .. i })
     scene:clamp(b, { s = s, name = "b" .. i }):follow { points = { { 0, 0, 0 }, { 0, 0, -down } },
@@ -78,7 +73,7 @@ describe("model = 'auto'", function()
         min_bend_radius = { relative = 0.05 } })
       local scene = sw.scene()
       scene:force { kind = "damping", mass = 5 }
-      local w = rod(scene, { model = "rod", rolls = true })
+      local w = rod.wire(scene, { model = "rod", rolls = true })
       scene:wire_contact {}
       scene:clamp(w, { s = 0 })
       local right = scene:clamp(w, { s = 0.6, name = "right" })
@@ -123,7 +118,7 @@ describe("model = 'auto'", function()
     local wires = {}
     for i, name in ipairs { "a", "b" } do
       local x = 0.1 * (i - 1)
-      wires[i] = rod(scene, { name = name, from = { x, 0, 0 }, to = { x + 0.3, 0.3, 0 } })
+      wires[i] = rod.wire(scene, { name = name, from = { x, 0, 0 }, to = { x + 0.3, 0.3, 0 } })
       scene:clamp(wires[i], { s = 0 })
     end
     local run = scene:run { duration = 0.1, tolerance = { { name = "place", value = 1e-3, unit = "m",
@@ -135,7 +130,7 @@ describe("model = 'auto'", function()
       local a = 2 * math.pi * i / 20
       path[#path + 1] = { 0.05 * math.cos(a), 0.05 * math.sin(a), 0.03 * a / (2 * math.pi) }
     end
-    local w = rod(coil, { path = path, rest = "path", segments = 96 })
+    local w = rod.wire(coil, { path = path, rest = "path", segments = 96 })
     coil:clamp(w, { s = 0 })
     run = coil:run { duration = 0.1, tolerance = { tip = 1e-3 } }
     assert.equal("none", run.model.contact, tostring(run:why()))
@@ -147,7 +142,7 @@ describe("model = 'auto'", function()
     local scene = sw.scene()
     scene:force { kind = "damping", mass = 5 }
     scene:obstacle { shape = "plane", friction = 0.3 }
-    local w = rod(scene, { from = { 0, 0, R }, to = { 0.6, 0, R } })
+    local w = rod.wire(scene, { from = { 0, 0, R }, to = { 0.6, 0, R } })
     scene:clamp(w, { s = 0, name = "hand" }):follow { duration = 2,
       points = { { 0, 0, R }, { 0.05, 0.1, 0.12 } } }
     local run = scene:run { duration = 2, tolerance = { ["hand.force"] = 1e-12 } }
@@ -166,7 +161,7 @@ describe("model = 'auto'", function()
 
   it("keeps what the script has decided", function()
     local scene = sw.scene()
-    local w = rod(scene, { rolls = true })
+    local w = rod.wire(scene, { rolls = true })
     scene:clamp(w, { s = 0 })
     scene:wire_contact {}
     local run = scene:run { duration = 0.05, model = "auto", quasistatic = true, tolerance = { tip = 0.01 } }
@@ -182,7 +177,7 @@ describe("model = 'auto'", function()
     local function carry(force)
       local scene = sw.scene { name = "carry" }
       scene:force { kind = "damping", mass = 8 }
-      local w = rod(scene, { E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0.003 },
+      local w = rod.wire(scene, { E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0.003 },
         to = { 0.24, 0, 0.003 } })
       local hand = scene:gripper { name = "hand", pads = { width = 0.012, friction = 0.6, opening = 0.009 } }
       scene:obstacle { name = "table", shape = "plane", friction = 0.2 }
@@ -204,7 +199,7 @@ describe("model = 'auto'", function()
     local scene = sw.scene { name = "soft" }
     scene:obstacle { name = "edge", shape = "cylinder", radius = 0.01, length = 0.2, at = { 0.2, 0, -0.0126 },
       rotation = { math.cos(math.pi / 4), math.sin(math.pi / 4), 0, 0 }, friction = 0 }
-    local w = rod(scene, { E = 2e4, to = { 0.4, 0, 0 } })
+    local w = rod.wire(scene, { E = 2e4, to = { 0.4, 0, 0 } })
     for i, s in ipairs { 0, 0.4 } do
       scene:clamp(w, { s = s }):follow { points = { { 0, 0, 0 }, { i == 1 and -0.05 or 0.05, 0, -0.06 } },
         relative = true, duration = 1 }
@@ -236,7 +231,7 @@ describe("model = 'auto'", function()
   -- Poses cannot tell that the wire is crushed: what cannot be checked is not met.
   it("is not met where the dearer model cannot be computed", function()
     local scene = sw.scene()
-    local w = rod(scene, { E = 1e4 })
+    local w = rod.wire(scene, { E = 1e4 })
     scene:clamp(w, { s = 0 })
     follow(scene:clamp(w, { s = 0.6 }), { { 0.6, 0, 0 }, { 40, 0, 0.05 } }, 0.01)
     local run = scene:run { duration = 0.3, tolerance = { tip = 0.01 } }
@@ -281,7 +276,7 @@ describe("model = 'auto'", function()
   -- A process that fails is the script's: its error comes as it is, and the scene is as before.
   it("passes on errors of processes, and puts the scene back", function()
     local scene = sw.scene()
-    local w = rod(scene)
+    local w = rod.wire(scene)
     scene:clamp(w, { s = 0 })
     scene:process(function(p)
       p:wait(0.02)
@@ -297,7 +292,7 @@ describe("model = 'auto'", function()
 
   it("refuses what cannot be chosen", function()
     local scene = sw.scene()
-    local w = rod(scene)
+    local w = rod.wire(scene)
     scene:clamp(w, { s = 0 })
     fails(function() scene:run { duration = 0.1 } end, "wire 'w' has model = 'auto'", "tolerance = {")
     fails(function() scene:run { duration = 0.1, model = "auto" } end, "needs to know what for")
@@ -310,7 +305,7 @@ describe("model = 'auto'", function()
     local hand = scene:gripper { name = "hand" }
     fails(function() hand:grasp(w, { s = 0.1, approach = "auto" }) end, "gripper 'hand'", "model = 'auto'")
     local plain = sw.scene()
-    plain:clamp(rod(plain, { model = "rod" }), { s = 0 })
+    plain:clamp(rod.wire(plain, { model = "rod" }), { s = 0 })
     fails(function() plain:run { duration = 0.01 }:why() end, "was not chosen", "model = 'auto'")
   end)
 
@@ -333,7 +328,7 @@ end)
 describe("tolerance = { relative = share }", function()
   it("is of the value", function()
     local scene = sw.scene()
-    local w = rod(scene, { model = "rod" })
+    local w = rod.wire(scene, { model = "rod" })
     scene:clamp(w, { s = 0 })
     local rest = scene:settle { tolerance = { min_bend_radius = { relative = 0.02 },
       { name = "sag", relative = 0.05, unit = "m", of = function() return -w:position(0.6)[3] end } } }
@@ -352,7 +347,7 @@ describe("core.redraw", function()
   local function swing(rolls, change)
     local scene = sw.scene()
     scene:obstacle { shape = "plane", friction = 0.3 }
-    local w = rod(scene, { model = "rod", rolls = rolls, from = { 0, 0, R }, to = { 0.4, 0, R } })
+    local w = rod.wire(scene, { model = "rod", rolls = rolls, from = { 0, 0, R }, to = { 0.4, 0, R } })
     local hand = scene:clamp(w, { s = 0 })
     if change then change(scene, w) end
     hand:follow { points = { { 0, 0, 0 }, { 0, 0.05, 0.05 } }, relative = true, duration = 0.3 }
@@ -367,7 +362,7 @@ describe("core.redraw", function()
 
   it("leaves a wire that has settled at rest, and holds as they hold", function()
     local scene = sw.scene()
-    local w = rod(scene, { model = "rod", EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3 })
+    local w = rod.wire(scene, { model = "rod", EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3 })
     local left = scene:clamp(w, { s = 0 })
     scene:clamp(w, { s = 0.6 })
     scene:settle()
@@ -405,7 +400,7 @@ describe("core.redraw", function()
 
   it("refuses what would lose twist, and meshes", function()
     local scene = sw.scene()
-    local w = rod(scene, { model = "rod" })
+    local w = rod.wire(scene, { model = "rod" })
     scene:clamp(w, { s = 0 })
     local right = scene:clamp(w, { s = 0.6 })
     right:follow { points = { { 0, 0, 0 }, { 0, 0, 0 } }, relative = true, duration = 0.1,

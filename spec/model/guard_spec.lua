@@ -4,14 +4,7 @@
 local sw = require "softworld"
 local core = sw.core
 
-local R = 0.0025
-
-local function rod(scene, more)
-  local args = { name = "w", E = 5e6, density = 1500, radius = R, from = { 0, 0, 0 }, to = { 0.6, 0, 0 },
-    segments = 24, model = "auto" }
-  for key, value in pairs(more or {}) do args[key] = value end
-  return scene:wire(args)
-end
+local rod = require "spec.model.rod"
 
 local function event_of(run, words)
   for _, e in ipairs(run.events) do
@@ -30,7 +23,7 @@ end
 local function sets_off(options, more)
   local scene = sw.scene { name = "off" }
   scene:force { kind = "damping", mass = 5 }
-  local w = rod(scene, options)
+  local w = rod.wire(scene, options)
   scene:clamp(w, { s = 0 })
   local right = scene:clamp(w, { s = 0.6, name = "right" })
   scene:settle()
@@ -73,7 +66,7 @@ describe("a run that chose its model", function()
   local function lifted(turn)
     local scene, count = sw.scene { name = "rub" }, 0
     scene:force { kind = "damping", mass = 5 }
-    local w = rod(scene)
+    local w = rod.wire(scene)
     scene:clamp(w, { s = 0, name = "left" })
     scene:clamp(w, { s = 0.6 }):follow { points = { { 0.6, 0, 0 }, { 0.5, 0, 0 } }, duration = 4,
       turn = turn and { axis = { 1, 0, 0 }, angle = turn } or nil }
@@ -108,8 +101,8 @@ describe("a run that chose its model", function()
   it("lets wires touch from where they come near", function()
     local scene, count = sw.scene { name = "near", gravity = { 0, 0, 0 } }, 0
     scene:force { kind = "damping", mass = 5 }
-    local a = rod(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
-    local b = rod(scene, { name = "b", from = { 0, -0.2, 0.1 }, to = { 0, 0.2, 0.1 } })
+    local a = rod.wire(scene, { name = "a", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 } })
+    local b = rod.wire(scene, { name = "b", from = { 0, -0.2, 0.1 }, to = { 0, 0.2, 0.1 } })
     for i, s in ipairs { 0, 0.4 } do scene:clamp(a, { s = s, name = "a" .. i }) end
     local held = { scene:clamp(b, { s = 0 }), scene:clamp(b, { s = 0.4 }) }
     scene:process(function(p)
@@ -131,7 +124,7 @@ end)
 describe("core.came_from", function()
   it("gives the speed of the way", function()
     local scene = sw.scene()
-    local w = rod(scene, { model = "rod", segments = 4 })
+    local w = rod.wire(scene, { model = "rod", segments = 4 })
     scene:clamp(w, { s = 0 })
     local before = w:positions()
     for i = 3, #before, 3 do before[i] = before[i] - 0.02 end
