@@ -378,6 +378,7 @@ sw_status sw_scene_build(sw_scene *s, sw_error *err) {
       drop(s);
       return status;
     }
+    sw_system_held_from_velocity(&s->system);
     inherit_twist(s);
     sw_scene_frame_in(s);
     s->built = 1;

@@ -153,7 +153,7 @@ static int mutual_fit(const sw_scene *s, const sw_live *p) {
 
 int sw_live_fits(const sw_scene *s, const sw_live *p) {
   sw_system *system = sw_scene_system(s);
-  const size_t n = 2 * system->freedoms + (system->strain ? system->edges : 0);
+  const size_t n = 2 * system->freedoms + (system->strain ? system->strains : 0);
   const int history = p->method && (p->method->flags & SW_INTEGRATOR_HISTORY);
   return p->state_size == system->state_size && p->history_size == (history ? n : 0) &&
          sw_contact_memory_fits(p->memory, p->memory_size, system->nodes,

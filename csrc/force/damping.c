@@ -137,6 +137,10 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 
 static double axial_time(const void *args) { return ((const damping_args *)args)->stiffness; }
 
+static double viscosity(const void *args, const sw_plan *plan) {
+  return ((const damping_args *)args)->stiffness * plan->beam.EI;
+}
+
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *h) {
   const double eta = ((const damping_args *)args)->stiffness * f->plan->beam.EI;
   return sw_dashpot_clamp_moment(eta, f, h);
@@ -149,5 +153,6 @@ const sw_force_class sw_force_damping = {
     .params = SW_PARAMS("force damping", rows),
     .eval = eval,
     .axial_time = axial_time,
+    .viscosity = viscosity,
     .clamp_moment = clamp_moment,
 };

@@ -2,6 +2,7 @@
 #include "force/dashpot.h"
 
 #include "base/simd.h"
+#include "state/clamp.h"
 
 static sw_vec tangent_of(const sw_field *f, size_t e) {
   return sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
@@ -102,9 +103,17 @@ void sw_dashpot_hinges(double eta, sw_field *f) {
 
 /* How fast the edge falls behind the hold, about axes across the edge [rad/s]. */
 static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
-  const size_t at = 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
-  const sw_vec held = sw_cross(sw_load(f->hold_directors + at), sw_load(f->hold_turns + at));
-  const sw_vec rate = sw_sub(held, rotation_of(f, h->edge)), t = tangent_of(f, h->edge);
+  const size_t c = (size_t)(h - f->plan->clamps);
+  const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h)), t = tangent_of(f, h->edge);
+  const sw_vec turn = sw_vec_at(f->hold_turns, (size_t)h->hold);
+  const double spin = sw_dot(turn, d); /* does not count, see dashpot.h */
+  if (f->clamp_past || f->clamp_rate) {
+    const sw_vec away = f->clamp_past
+                            ? sw_scale(sw_sub(t, sw_vec_at(f->clamp_past, c)), f->velocity_rate)
+                            : sw_vec_at(f->clamp_rate, c);
+    return sw_cross(sw_madd(away, sw_cross(d, t), spin), t);
+  }
+  const sw_vec rate = sw_sub(sw_madd(turn, d, -spin), rotation_of(f, h->edge));
   return sw_madd(rate, t, -sw_dot(rate, t));
 }
 

@@ -68,6 +68,10 @@ typedef struct sw_force_class {
    * NULL = it has none. */
   double (*axial_time)(const void *args);
 
+  /* Dashpots in bending, clamps' hinges included: their moment per rate of curvature [N m2 s];
+   * NULL = it has none. */
+  double (*viscosity)(const void *args, const sw_plan *plan);
+
   /* Moment that a clamp hinge puts on the wire [N m]; NULL = none. */
   sw_vec (*clamp_moment)(const void *args, const sw_field *field, const sw_clamp_hinge *hinge);
 

@@ -29,11 +29,17 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
+static double viscosity(const void *args, const sw_plan *plan) {
+  (void)plan;
+  return ((const viscous_args *)args)->eta;
+}
+
 const sw_force_class sw_force_viscous_bend = {
     .name = "viscous_bend",
     .summary = "bending moment in proportion to the rate of curvature",
     .flags = SW_FORCE_DISSIPATIVE | SW_FORCE_POWER,
     .params = SW_PARAMS("force viscous_bend", rows),
     .eval = eval,
+    .viscosity = viscosity,
     .clamp_moment = clamp_moment,
 };

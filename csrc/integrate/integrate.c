@@ -41,8 +41,8 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
   p->newton = DYNAMIC_NEWTON;
   const int explicit_ = !(method->flags & SW_INTEGRATOR_IMPLICIT);
   const size_t arrays = explicit_ ? 3 + SW_EXTRA : 9, m = system->edges;
-  const int strains = !explicit_ && system->strain;
-  double *w = sw_alloc(arrays * p->n + (strains ? 9 : 4) * m, sizeof *w);
+  const size_t strains = !explicit_ && system->strain ? system->strains : 0;
+  double *w = sw_alloc(arrays * p->n + 5 * strains + 4 * m, sizeof *w);
   if (!w) return SW_ENOMEM;
   p->work = w;
   double **const implicit_arrays[] = {&p->xhat, &p->vhat, &p->y[0], &p->w[0], &p->y[1],
@@ -64,16 +64,16 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_sy
   p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
   if (!strains) return SW_OK;
   p->strain_before = w + arrays * p->n; /* beside vp: both go to snapshots */
-  p->tension = p->strain_before + m, p->strain_past = p->tension + m;
-  p->strain[0] = p->strain_past + m, p->strain[1] = p->strain[0] + m;
-  p->strain_rate = p->strain[1] + m;
-  p->first = p->strain_rate + m;
+  p->tension = p->strain_before + strains, p->strain_past = p->tension + m;
+  p->strain[0] = p->strain_past + strains, p->strain[1] = p->strain[0] + strains;
+  p->strain_rate = p->strain[1] + strains;
+  p->first = p->strain_rate + strains;
   p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
   return SW_OK;
 }
 
 size_t sw_stepper_history(const sw_stepper *p, const sw_system *s) {
-  return 2 * p->n + (p->strain_before ? s->edges : 0);
+  return 2 * p->n + (p->strain_before ? s->strains : 0);
 }
 
 void sw_stepper_free(sw_stepper *p) {
@@ -125,7 +125,7 @@ static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw
 /* The same for strains; the stage begins with the guess that they change as fast as before. */
 static void prepare_strains(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
                             double hbar, double *guess) {
-  const size_t m = s->edges;
+  const size_t m = s->strains;
   combine(m, row->xn, s->strain, row->xv * hbar, s->strain_rate, p->strain_past);
   if (row->x1 != 0) add(m, row->x1, p->strain[0], p->strain_past);
   if (row->xp != 0) add(m, row->xp, p->strain_before, p->strain_past);
@@ -133,7 +133,7 @@ static void prepare_strains(const sw_stepper *p, const sw_stage_row *row, const 
 }
 
 static void find_rates(const sw_stepper *p, const sw_system *s, double hbar, const double *strain) {
-  combine(s->edges, 1.0 / hbar, strain, -1.0 / hbar, p->strain_past, p->strain_rate);
+  combine(s->strains, 1.0 / hbar, strain, -1.0 / hbar, p->strain_past, p->strain_rate);
 }
 
 static void book(sw_system *s, sw_booking booking) {
@@ -157,9 +157,10 @@ static sw_status go_onwards(sw_stepper *p, const sw_integrator *m, sw_system *s,
   extend(p->n, m->reach, s->v, p->w[0]);
   if (m->keeps > 0) extend(p->n, m->keeps, s->a, p->a);
   book(s, (sw_booking){.first = m->reach}); /* it has one stage */
+  sw_system_keep_loads(s);
   extend(s->edges, m->reach, p->tension, s->tension);
-  if (p->strain_past) extend(s->edges, m->reach, s->strain, p->strain[0]);
-  if (p->strain_past && m->keeps > 0) extend(s->edges, m->reach, s->strain_rate, p->strain_rate);
+  if (p->strain_past) extend(s->strains, m->reach, s->strain, p->strain[0]);
+  if (p->strain_past && m->keeps > 0) extend(s->strains, m->reach, s->strain_rate, p->strain_rate);
   return sw_system_place_holds(s, end, p->y[0], p->w[0], NULL, err);
 }
 
@@ -196,6 +197,8 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
     prepare_stage(p, row, s, hbar);
     if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
     const sw_stage stage = {.time = t + row->time * h,
+                            .from = m->flags & SW_INTEGRATOR_ONWARDS ? t : 0,
+                            .to = m->flags & SW_INTEGRATOR_ONWARDS ? t + h : 0,
                             .hbar = hbar,
                             .inertia = row->inertia,
                             .first = row->x1,
@@ -268,6 +271,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
   const sw_integrator *m = p->plastic             ? sw_integrator_find("implicit-euler")
                            : p->restart || uneven ? p->start
                                                   : p->method;
+  if (p->restart) SW_TRY(sw_system_held_anew(s, t, err));
   SW_TRY(implicit_trial(p, m, s, t, h, err));
   if (p->wants_error && m->error[0] != 0) p->error = embedded_error(p, m, s, h);
   return SW_OK;
@@ -281,15 +285,15 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
   if (p->xp && (p->method->flags & SW_INTEGRATOR_HISTORY)) {
     memcpy(p->xp, s->x, p->n * sizeof(double));
     memcpy(p->vp, s->v, p->n * sizeof(double));
-    if (p->strain_past) memcpy(p->strain_before, s->strain, s->edges * sizeof(double));
+    if (p->strain_past) memcpy(p->strain_before, s->strain, s->strains * sizeof(double));
   }
   sw_system_follow(s, p->trial_x);
   memcpy(s->x, p->trial_x, p->n * sizeof(double));
   memcpy(s->v, p->trial_v, p->n * sizeof(double));
   if (p->trial_a) memcpy(s->a, p->trial_a, p->n * sizeof(double));
   if (p->strain_past) {
-    memcpy(s->strain, p->trial_strain, s->edges * sizeof(double));
-    memcpy(s->strain_rate, p->strain_rate, s->edges * sizeof(double));
+    memcpy(s->strain, p->trial_strain, s->strains * sizeof(double));
+    memcpy(s->strain_rate, p->strain_rate, s->strains * sizeof(double));
   }
   if (p->method->flags & SW_INTEGRATOR_IMPLICIT) {
     memcpy(s->turning, p->turning, sizeof p->turning);

@@ -79,8 +79,8 @@ struct sw_stepper {
   double *y[SW_STAGES_MAX], *w[SW_STAGES_MAX]; /* stage positions and velocities */
   double *a;                                   /* acceleration of the last stage */
   double *xp, *vp;                             /* state before last */
-  /* axial strains (edges): where the stage's rates count from, stages', rates of the last stage,
-   * of the state before last; NULL without axial dashpots [-], [1/s] */
+  /* strains (of the system's number): where the stage's rates count from, stages', rates of the
+   * last stage, of the state before last; NULL without dashpots [-], [1/s] */
   double *strain_past, *strain[SW_STAGES_MAX], *strain_rate, *strain_before;
   double *tension; /* saved for a rejected step (edges) */
   /* axial forces times time since the step's start, of stages (edges); mean over the last step, or

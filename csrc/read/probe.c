@@ -36,10 +36,11 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->v = at->velocities ? at->velocities : system->v + 3 * b->first_node;
   /* from positions and velocities, not the solver's own unknowns */
   f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
+  f->clamp_past = f->clamp_rate = NULL;
   f->gravity = system->gravity;
   f->hold_directors = system->directors_now;
   f->hold_normals = system->normals_now;
-  f->hold_turns = system->directors_rate;
+  f->hold_turns = system->turns;
   f->cautious = 0;
   sw_body_begin(b);
   if (b->spin_block) {

@@ -46,9 +46,13 @@ typedef struct sw_field {
   const double *strain_rate; /* (m) [1/s] */
 
   const double *hold_directors; /* (holds x 2 x 3) directors of the holds [-] */
-  const double *hold_turns;     /* the same size: rates of the directors [1/s] */
-  int cautious;                 /* iterations do not converge: overestimate stiffness that jumps */
-  const double *history;        /* of the force that is evaluated, or NULL */
+  const double *hold_turns;     /* (holds x 3) how fast the holds turn [rad/s] */
+  /* The same of edges at clamps, (clamps x 3): while a stage is solved, where they pointed to that
+   * their rate counts from, as turned along with the hold; at a state, how fast they turn away
+   * from it. NULL: rates are those of the velocities [-], [1/s] */
+  const double *clamp_past, *clamp_rate;
+  int cautious;          /* iterations do not converge: overestimate stiffness that jumps */
+  const double *history; /* of the force that is evaluated, or NULL */
 
   /* twist of the plan's spans; NULL when there is none */
   const double *twist;     /* (spans) total twist at this evaluation [rad] */

@@ -75,7 +75,9 @@ static double work_of_holds(sw_scene *s, double t1, int changed) {
     if (same_pose(&sw_scene_books(s)->holds[k].pose, to)) continue;
     sw_vec force, moment;
     sw_system_reaction(system, (int)k, to->p, &force, &moment);
-    const bounds b = work_of(&sw_scene_books(s)->holds[k], to, force, moment, changed);
+    /* a stage's load within the step is its mean already */
+    const bounds b =
+        work_of(&sw_scene_books(s)->holds[k], to, force, moment, changed || system->loads_kept);
     sw_scene_books(s)->step.holds += b.mean;
     most += b.most;
   }

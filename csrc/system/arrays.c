@@ -26,7 +26,8 @@ sw_status sw_system_grow_state(sw_system *s, size_t more, double **added) {
   double *state = sw_alloc(s->state_size + more, sizeof *state); /* zeros */
   if (!state) return SW_ENOMEM;
   memcpy(state, s->state, s->state_size * sizeof *state);
-  if (s->strain) s->strain = state + (s->strain - s->state), s->strain_rate = s->strain + s->edges;
+  if (s->strain)
+    s->strain = state + (s->strain - s->state), s->strain_rate = s->strain + s->strains;
   if (s->even) {
     s->even = state + (s->even - s->state);
     s->between = s->even + s->edges, s->turning = s->between + s->edges;

@@ -52,6 +52,10 @@ void sw_system_forget_turning(sw_system *system);
 void sw_system_strain_from_state(sw_system *system);
 /* The velocities were given and are exact: rates of strain of a body as they have them. */
 void sw_system_rate_from_velocity(sw_system *system, size_t body);
+/* The same of held nodes and of edges at clamps, with the holds as last placed. */
+void sw_system_held_from_velocity(sw_system *system);
+/* A step starts anew at time t: where these are. */
+sw_status sw_system_held_anew(sw_system *system, double t, sw_error *err);
 
 /* Set the axial forces to what the state's edge lengths give: for explicit
  * methods, which do not solve for them. */

@@ -25,6 +25,8 @@ typedef struct sw_body {
   size_t first_node, first_edge; /* place in the system's arrays */
   double EA, EA_push;            /* axial stiffness pulled and pushed [N] */
   double axial_time; /* axial dashpots: EA times this and the rate of strain is their force [s] */
+  size_t first_clamp, kept_clamps; /* of those with dashpots, in the system's strains; how many */
+  double viscosity; /* dashpots in bending: their moment per rate of curvature [N m2 s] */
   sw_term *terms;
   size_t term_count;
   sw_field field;

@@ -28,6 +28,7 @@ typedef struct sw_held_node {
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
   sw_vec own_force; /* inertia minus forces before the last solve [N] */
   sw_vec reaction;  /* force on the wire needed to hold it [N] */
+  size_t kept;      /* its place in the system's strains, or 0: it is not there */
   size_t next;      /* number of its body's next one + 1, or 0; as of a stage */
 } sw_held_node;
 

@@ -6,6 +6,7 @@
 #include "base/each.h"
 #include "base/interrupt.h"
 #include "system/spin.h"
+#include "system/strain.h"
 
 /* Where what is followed from step to step lies in the state. */
 static double *followed(const sw_system *s) { return s->tension + s->edges; }
@@ -42,9 +43,10 @@ static void aim(sw_system *s, sw_body *b, int lumped) {
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
-  f->hold_turns = s->directors_rate;
+  f->hold_turns = s->turns;
   f->strain_past = f->strain = NULL;
   f->strain_rate = b->axial_time > 0 && s->strain_rate ? s->strain_rate + b->first_edge : NULL;
+  sw_strain_show_rates(s, b);
   f->tension = lumped ? NULL : s->tension + b->first_edge;
   f->twist = b->has_twist ? s->twist + b->first_span : NULL;
   sw_field_geometry(f);
@@ -117,7 +119,10 @@ static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, 
 
 sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *err) {
   *out = (sw_powers){0};
+  memcpy(s->velocity, s->v, 3 * s->nodes * sizeof *s->velocity);
+  sw_strain_show_held_rates(s, s->velocity);
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
+    b->field.v = s->velocity + 3 * b->first_node;
     SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       double power;
       if (!has_power(term->cls)) continue;
@@ -130,6 +135,7 @@ sw_status sw_system_powers(sw_system *s, double time, sw_powers *out, sw_error *
       else
         out->given += power;
     }
+    b->field.v = s->v + 3 * b->first_node;
   }
   return SW_OK;
 }

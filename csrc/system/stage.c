@@ -119,10 +119,11 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->strain_past = rates ? s->strain_past + b->first_edge : NULL;
   f->strain = rates ? s->strain_now + b->first_edge : NULL;
   f->strain_rate = NULL;
+  sw_strain_show_past(s, b);
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
-  f->hold_turns = s->directors_rate;
+  f->hold_turns = s->turns;
   sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
   SW_TRY(eval_terms(b, err));
@@ -149,6 +150,7 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
     for (size_t k = s->bodies[b].held; k; k = s->held[k - 1].next)
       if (s->held[k - 1].slides)
         sw_system_held_velocity(s, &s->held[k - 1], s->velocity + 3 * s->held[k - 1].node);
+  if (!statics) sw_strain_show_held(s, stage->y, rate, s->velocity);
   if (!statics) sw_rails_velocity(s, stage, s->velocity);
 }
 
@@ -354,14 +356,16 @@ static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stag
 }
 
 /* An update by the share u of an edge, along it or across, leaves a hinge's moment wrong by about
- * EI u^2 / l: it is linear in the update, the edges are not. Of soft wires the limit of rotation
- * sees to that; of stiff ones that are turned fast it was a thousand times the moment of inertia.
+ * EI u^2 / l, dashpots included: it is linear in the update, the edges are not. Of soft wires the
+ * limit of rotation sees to that; of stiff ones that are turned fast it was a thousand times the
+ * moment of inertia.
  */
 static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton) {
   for (size_t k = s->part; k < s->part_end && !newton->statics; k++) {
     const sw_body *b = &s->bodies[k];
     const sw_plan *p = b->plan;
-    const double hinge = p->beam.EI * (double)p->edges / p->length;
+    const double stiff = p->beam.EI + b->viscosity / stage->hbar;
+    const double hinge = stiff * (double)p->edges / p->length;
     const double arm = MOMENT_NOISE * p->beam.mass * p->length * p->length;
     const double weight = arm * sw_norm(sw_load(s->gravity)), u = newton->accept_rotation;
     double largest = 0;
@@ -370,7 +374,8 @@ static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_new
       const double *d = s->delta + 3 * (b->first_node + e), r = b->field.reciprocal[e];
       largest = fmax(largest, sw_norm2(sw_sub(sw_load(d + 3), sw_load(d))) * r * r);
     }
-    if (largest <= LEAST_UPDATE * LEAST_UPDATE || hinge * largest <= weight) continue;
+    if (stiff * largest <= p->beam.EI * LEAST_UPDATE * LEAST_UPDATE || hinge * largest <= weight)
+      continue;
     if (hinge * largest > weight + arm * fastest(s, b, stage)) return 1;
   }
   return 0;
@@ -400,12 +405,16 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
   sw_parts_begin(s);
   for (size_t i = 0; i < s->freedoms; i++)
     stage->y[i] = s->yhat[i] = stage->xhat[i] + h * stage->vhat[i];
-  SW_TRY(sw_system_place_holds(s, stage->time, stage->y, stage->v, stage->a, err));
+  s->from = stage->from, s->to = stage->to;
+  const sw_status status = sw_system_place_holds(s, stage->time, stage->y, stage->v, stage->a, err);
+  s->from = s->to = 0;
+  SW_TRY(status);
   for (size_t k = 0; k < s->held_count; k++)
     for (size_t c = 0; c < 3; c++) {
       const size_t i = 3 * s->held[k].node + c;
       s->yhat[i] = stage->y[i] - h * h / inertia_of(stage) * (stage->a ? stage->a[i] : 0.0);
     }
+  sw_strain_place(s);
   sw_rails_begin(s, stage, statics);
   if (statics) sw_lead_begin(s, stage);
   if (!statics) SW_TRY(sw_start_check(s, stage->y, err));
@@ -447,6 +456,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   }
   sw_bridges_react(s);
   sw_rails_finish(s, stage);
+  sw_strain_finish(s, stage->y);
 }
 
 /* Spins without inertia may have no equilibrium near by, as when a flat wire on edge is
@@ -529,6 +539,7 @@ static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *new
 sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                           sw_stage_report *report, sw_error *err) {
   *report = (sw_stage_report){0};
+  s->loads_kept = 0;
   if (stage->strain_past) sw_strain_begin_stage(s, stage);
   const sw_status status = solve(s, stage, newton, report, err);
   sw_strain_end_stage(s);
@@ -545,10 +556,11 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->time = t;
     f->velocity_rate = 0;
     f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
+    f->clamp_past = f->clamp_rate = NULL;
     f->gravity = s->gravity;
     f->hold_directors = s->directors_now;
     f->hold_normals = s->normals_now;
-    f->hold_turns = s->directors_rate;
+    f->hold_turns = s->turns;
     f->x = x + 3 * body->first_node;
     f->v = v + 3 * body->first_node;
     sw_field_clear(f);

@@ -38,6 +38,7 @@ void sw_system_free(sw_system *system) {
   sw_free(system->rail_room);
   sw_free(system->directors);
   sw_free(system->hold_states);
+  sw_free(system->loads);
   sw_free(system->state);
   sw_free(system->pull_block);
   sw_free(system->work);
@@ -75,8 +76,9 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
       held += s->bodies[b].plan->held[i] != SW_FREE;
   s->hold_count = hold_count;
   s->held = sw_alloc(held, sizeof *s->held);
-  s->directors = sw_alloc(30 * hold_count, sizeof(double));
+  s->directors = sw_alloc(27 * hold_count, sizeof(double));
   s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
+  s->loads = sw_alloc(hold_count, sizeof *s->loads);
   s->state_size = 3 * s->freedoms + s->edges + s->span_count + 4 * hold_count;
   const size_t frames = s->state_size;
   for (size_t b = 0; b < s->body_count; b++) {
@@ -89,11 +91,12 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   const size_t kept = sw_factors_room(s);
   double *w = sw_alloc(3 * s->freedoms + kept + s->edges + s->follow_size, sizeof(double));
   s->work = w;
-  if (!s->held || !s->directors || !s->hold_states || !s->state || !w) return SW_ENOMEM;
+  if (!s->held || !s->directors || !s->hold_states || !s->loads || !s->state || !w)
+    return SW_ENOMEM;
   s->directors_now = s->directors + 6 * hold_count;
-  s->directors_rate = s->directors + 12 * hold_count;
-  s->normals = s->directors + 18 * hold_count;
-  s->normals_now = s->directors + 24 * hold_count;
+  s->normals = s->directors + 12 * hold_count;
+  s->normals_now = s->directors + 18 * hold_count;
+  s->turns = s->directors + 24 * hold_count;
   sw_system_lay_out(s);
   s->yhat = w;
   s->delta = s->yhat + s->freedoms;
@@ -131,6 +134,7 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
   if (cls->commit) b->is_kinked = 1;
   if (!(cls->flags & SW_FORCE_INNER) || (cls->flags & SW_FORCE_EXPLICIT)) b->needs_velocity = 1;
   if (cls->axial_time) b->axial_time += cls->axial_time(term->args);
+  if (cls->viscosity && !b->plan->web) b->viscosity += cls->viscosity(term->args, b->plan);
   return SW_OK;
 }
 
@@ -188,18 +192,30 @@ static void place_node(const sw_hold_state *h, sw_vec local, double *x, double *
   if (a) sw_store(a, sw_add(h->a, sw_add(sw_cross(h->alpha, arm), sw_cross(h->omega, spin))));
 }
 
+static sw_status place_hold(sw_system *s, size_t k, double t, sw_error *err) {
+  sw_hold_state *at = &s->hold_states[k], from, to;
+  SW_TRY(s->coupling.place(s->coupling.user, (int)k, t, at, err));
+  if (!(s->to > s->from)) return SW_OK;
+  SW_TRY(s->coupling.place(s->coupling.user, (int)k, s->from, &from, err));
+  SW_TRY(s->coupling.place(s->coupling.user, (int)k, s->to, &to, err));
+  const double share = (t - s->from) / (s->to - s->from);
+  const sw_vec turn = sw_quat_log(sw_quat_mul(to.pose.q, sw_quat_conj(from.pose.q)));
+  at->pose.p = sw_madd(from.pose.p, sw_sub(to.pose.p, from.pose.p), share);
+  at->pose.q = sw_quat_mul(sw_quat_exp(sw_scale(turn, share)), from.pose.q);
+  return SW_OK;
+}
+
 sw_status sw_system_place_holds(sw_system *s, double t, double *x, double *v, double *a,
                                 sw_error *err) {
   for (size_t k = 0; k < s->hold_count; k++) {
-    SW_TRY(s->coupling.place(s->coupling.user, (int)k, t, &s->hold_states[k], err));
+    SW_TRY(place_hold(s, k, t, err));
     s->fastest_turn = fmax(s->fastest_turn, sw_norm(s->hold_states[k].omega));
+    sw_store(s->turns + 3 * k, s->still ? sw_v(0, 0, 0) : s->hold_states[k].omega);
     for (size_t side = 0; side < 2; side++) {
       const size_t at = 3 * (2 * k + side);
       const sw_vec d = sw_rotate(s->hold_states[k].pose.q, sw_load(s->directors + at));
       sw_store(s->directors_now + at, d);
       sw_store(s->normals_now + at, sw_rotate(s->hold_states[k].pose.q, sw_load(s->normals + at)));
-      sw_store(s->directors_rate + at,
-               s->still ? sw_v(0, 0, 0) : sw_cross(s->hold_states[k].omega, d));
     }
   }
   SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
@@ -234,11 +250,19 @@ static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
 
 void sw_system_reaction(const sw_system *s, int hold, sw_vec point, sw_vec *force, sw_vec *moment) {
   sw_hold_load sum = {.force = {0, 0, 0}};
+  int rail = 0;
   SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     if (h->hold != hold) continue;
+    rail |= h->rail != 0;
     const sw_vec arm = sw_sub(sw_load(s->x + 3 * h->node), point);
     sum.force = sw_add(sum.force, h->reaction);
     sum.moment = sw_add(sum.moment, sw_cross(arm, h->reaction));
+  }
+  if (s->loads_kept && !rail) {
+    *force = s->loads[hold].force;
+    *moment =
+        sw_add(s->loads[hold].moment, sw_cross(sw_sub(s->hold_states[hold].pose.p, point), *force));
+    return;
   }
   add_clamp_moments(s, hold, &sum);
   *force = sum.force;
@@ -256,6 +280,11 @@ void sw_system_hold_loads(const sw_system *s, sw_hold_load *out) {
   add_clamp_moments(s, -1, out);
 }
 
+void sw_system_keep_loads(sw_system *s) {
+  sw_system_hold_loads(s, s->loads);
+  s->loads_kept = 1;
+}
+
 /* --- read-outs of the state -------------------------------------------------- */
 
 static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
@@ -265,9 +294,10 @@ static void aim(sw_system *s, sw_body *b, const double *x, const double *v) {
   f->gravity = s->gravity;
   f->hold_directors = s->directors_now;
   f->hold_normals = s->normals_now;
-  f->hold_turns = s->directors_rate;
+  f->hold_turns = s->turns;
   f->strain = f->strain_past = NULL;
   f->strain_rate = b->axial_time > 0 ? s->strain_rate + b->first_edge : NULL;
+  sw_strain_show_rates(s, b);
 }
 
 /* 1: its geometry is still that of the trial that became the state. */
@@ -297,6 +327,7 @@ static int is_kinked(const sw_body *b) {
 
 void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
+  s->loads_kept = 0;
   s->factor_hbar = 0;
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].is_kinked = is_kinked(&s->bodies[b]);
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;
@@ -328,6 +359,7 @@ void sw_system_axial_from_state(sw_system *s) {
   }
   sw_system_strain_from_state(s);
   for (size_t b = 0; b < s->body_count; b++) sw_system_rate_from_velocity(s, b);
+  sw_system_held_from_velocity(s);
 }
 
 /* Sum of m v.v / 2 and of what neighbours have with each other. */

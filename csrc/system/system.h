@@ -36,12 +36,15 @@ struct sw_system {
   size_t held_count;
   double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now;         /* the same in world coordinates at the stage */
-  double *directors_rate;        /* and how fast they turn [1/s] */
+  double *turns;                 /* (holds x 3) how fast they turn [rad/s] */
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
   double fastest_turn;           /* of a hold in this step so far [rad/s] */
+  double from, to;               /* to > from: see sw_stage [s] */
   int still;                     /* 1: holds count as standing, whatever they follow (statics) */
   int rough;                  /* 1: the last update turned edges too far to be the stage's last */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
+  struct sw_hold_load *loads; /* (hold_count) of the last stage about the holds' places, if */
+  int loads_kept;             /* 1: the state is not that stage's but goes on from it */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
   const double *dead; /* (nodes x 3) forces on nodes besides, as those of inertia; or NULL [N] */
@@ -64,8 +67,11 @@ struct sw_system {
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
-  /* (edges) axial strain and its rate; NULL when no force has axial dashpots [-], [1/s] */
+  /* (strains) axial strain of edges, then of each body's kept clamps where the edge points to, in
+   * the hold's coordinates, then places of held nodes; and the rates of all, by the method; NULL
+   * when no force has dashpots [-], [m], [1/s], [m/s] */
   double *strain, *strain_rate;
+  size_t strains, first_kept; /* their number; where held nodes begin */
   /* (edges) axial forces as read out, where they are not those of the state, and between stages,
    * before they go on to the step's end [N] */
   double *even, *between;
@@ -85,6 +91,8 @@ struct sw_system {
    * an update; axial forces of the state with the dashpots' [-], [-], [N] */
   const double *strain_past;
   double *strain_now, *strain_new, *pull;
+  double *clamps_now; /* (first_kept - edges) of kept clamps, in world coordinates: the stage's past
+                         directions, or a state's rates [-], [1/s] */
   void *pull_block;
   double *factor_at; /* (freedoms) positions for which the factors were made, where they may
                         serve again [m] */
@@ -103,7 +111,11 @@ typedef struct sw_newton {
 } sw_newton;
 
 typedef struct sw_stage {
-  double time;        /* at the stage's end [s] */
+  double time; /* at the stage's end [s] */
+  /* to > from: the state goes on from the stage, as from `from` to it, to `to`. Holds are then
+   * placed on the straight way between their poses at both, and wires come out where these are: had
+   * a hold that gathers speed its pose of the stage's time, a stiff wire would be bent [s]. */
+  double from, to;
   double hbar;        /* [s] */
   double inertia;     /* mass acts as so many times itself: of methods that take forces and
                          accelerations at different times; 0 is as 1 [-] */
@@ -113,7 +125,7 @@ typedef struct sw_stage {
   double *y;          /* out: positions [m] */
   double *v;          /* out: velocities [m/s] */
   double *a;          /* out: accelerations, or NULL [m/s2] */
-  /* where there are axial dashpots (edges): strain rate = (strain - strain_past)/hbar; without
+  /* where there are dashpots (strains): strain rate = (strain - strain_past)/hbar; without
    * them, and in statics, NULL [-] */
   const double *strain_past;
   double *strain; /* in: a guess, out: of the solved stage [-] */
@@ -214,6 +226,9 @@ typedef struct sw_hold_load {
   sw_vec force, moment; /* [N], [N m] */
 } sw_hold_load;
 void sw_system_hold_loads(const sw_system *system, sw_hold_load *out);
+/* The state will be further on than the stage that was solved last, where wire and holds are not
+ * in balance: the stage's loads go on to be told. */
+void sw_system_keep_loads(sw_system *system);
 
 /* Kinetic energy of the state with consistent (implicit) masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);
