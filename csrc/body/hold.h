@@ -28,6 +28,8 @@ sw_status sw_scene_check_holds(const sw_scene *scene, sw_error *err);
 sw_link_wire sw_scene_link_wire(const sw_scene *scene, size_t wire);
 /* A state was accepted, and the scene has its time: meshes and holds follow. */
 void sw_scene_follow_holds(sw_scene *scene);
+/* What slides of the wire was given another speed: its holds know it. */
+void sw_scene_take_rails(sw_scene *scene, size_t wire);
 /* Plans back to the meshes, before these are read. */
 void sw_scene_undo_holds(sw_scene *scene);
 /* Way and force of a hold through which wire goes, see sw_hold_acts. */

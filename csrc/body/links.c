@@ -41,6 +41,14 @@ void sw_scene_follow_holds(sw_scene *s) {
   }
 }
 
+void sw_scene_take_rails(sw_scene *s, size_t wire) {
+  SW_EACH(hold, h, s) {
+    if (!h->alive || h->wire != wire || !h->cls->hold->rail) continue;
+    const sw_link_wire w = sw_scene_link_wire(s, wire);
+    h->cls->hold->undo(h, &w);
+  }
+}
+
 void sw_scene_undo_holds(sw_scene *s) {
   SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->undo) continue;

@@ -4,6 +4,7 @@
 
 #include "body/body.h"
 #include "body/build.h"
+#include "body/hold.h"
 #include "body/touching.h"
 #include "read/extremes.h"
 #include "read/kept_frames.h"
@@ -94,7 +95,9 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
     sw_store(system->v + k, sw_add(v, sw_cross(omega, arm)));
   }
   sw_rails_launch(system, h.slot, v, omega, about);
+  sw_scene_take_rails(s, h.slot);
   sw_system_rate_from_velocity(system, h.slot);
+  sw_system_held_from_velocity(system);
   sw_system_forget_turning(system);
   for (size_t e = 0; b->roll_block && e < b->plan->edges; e++)
     system->v[3 * system->nodes + b->first_roll + e] =

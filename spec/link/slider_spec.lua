@@ -79,6 +79,7 @@ describe("a slider", function()
         if name == "before" then wire:set_velocity(slope) end
         local slider = scene:slider(wire, { s = 0.05, direction = slope })
         if name == "after" then wire:set_velocity(slope) end
+        t.near(1, select(2, slider:place()), 1e-12, "speed before the first step")
         local before = scene:snapshot()
         local run = scene:run{ duration = 0.1, dt = 0.01 }
         assert.is_true(run.ok, run.reason)
