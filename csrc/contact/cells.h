@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Things that are near each other: points and edges of bodies, in cells of a grid. */
+/* Points and edges of bodies in the cells of a grid, kept in a hash table: only things in
+ * neighbouring cells are compared. */
 #ifndef SW_CONTACT_CELLS_H
 #define SW_CONTACT_CELLS_H
 
-#include "contact/cell.h"
 #include "contact/meet.h"
+
+typedef struct sw_grid_cell {
+  int32_t x, y, z;
+} sw_grid_cell;
 
 /* A point (node == end), or an edge or segment. In the system's arrays. */
 typedef struct sw_thing {
   uint32_t node, end, body, next; /* next: in its cell's list + 1 */
-  sw_cell at;
+  sw_grid_cell at;
 } sw_thing;
 
 typedef struct sw_cells {
