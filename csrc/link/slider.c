@@ -22,8 +22,7 @@ static const sw_param rows[] = {
      "the path's last point is followed by the first; false: it stops at both ends"},
     {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, SW_PARAM_CHANGES, NULL,
      offsetof(sw_hold_args, friction), "Coulomb coefficient along the rail"},
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_hold_args),
 };
 
 /* How far from the curve the wire may be when it is put on it, of the edges there: it is moved
