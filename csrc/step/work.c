@@ -160,8 +160,7 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
   if (h->cls->hold->rail && logged) w->moment = moment_of_rail(&h->slider, &w->pose, w->force);
   if (!sw_hold_passes(h)) return;
   const sw_hold_way now = sw_hold_way_of(s, h, sw_scene_time(s), logged ? NULL : system->x);
-  w->fed = now.way;
-  w->drive = logged ? h->feed.drive : now.force;
+  w->fed = now.way, w->drive = now.force;
 }
 
 sw_status sw_ledger_note_workers(sw_scene *s, int logged) {
