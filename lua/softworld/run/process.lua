@@ -205,13 +205,7 @@ local fields = { wake = true, watching = true, begun = true, between = true, ins
   failed = true, traceback = true }
 
 --- Names of methods and fields, for completion at the prompt.
-function Process.__names()
-  local names = { "time", "scene", "number" }
-  for name in pairs(Process) do
-    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
-  end
-  return names
-end
+function Process.__names() return methods.names(Process, { "time", "scene", "number" }) end
 
 --- p.time is that of the scene [s].
 function Process:__index(key)

@@ -9,6 +9,7 @@ local document = require "softworld.run.document"
 local go = require "softworld.run.go"
 local kept = require "softworld.run.kept"
 local ledger = require "softworld.run.ledger"
+local methods = require "softworld.methods"
 local place = require "softworld.place"
 local refine = require "softworld.run.refine"
 local remarks = require "softworld.remarks"
@@ -152,13 +153,7 @@ local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "eva
   "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels", "model" }
 
 --- Names of methods and fields, for completion at the prompt.
-function Run.__names()
-  local names = table.move(fields, 1, #fields, 1, {})
-  for name in pairs(Run) do
-    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
-  end
-  return names
-end
+function Run.__names() return methods.names(Run, fields) end
 
 for name, value in pairs(Run) do
   if type(value) == "function" and name:sub(1, 2) ~= "__" then Run[name] = build.placed(value) end
