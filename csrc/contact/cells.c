@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 
-/* Of a place that is far away or nowhere too, so that cells beside it have numbers. */
+/* Finite for places far away or not a number, so that the cells beside have numbers. */
 static int32_t number_of(double x) { return (int32_t)fmax(-1e9, fmin(1e9, floor(x))); }
 
 /* The cell of a place [m]. */
@@ -19,13 +19,13 @@ static int is_same(sw_grid_cell a, sw_grid_cell b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* One of d = 0 to 26: the cell itself is number 13. */
+/* Number d = 0 to 26 of the cells around; 13 is the cell itself. */
 enum { NEIGHBOURS = 27 };
 static sw_grid_cell beside(sw_grid_cell c, int d) {
   return (sw_grid_cell){c.x + d % 3 - 1, c.y + d / 3 % 3 - 1, c.z + d / 9 - 1};
 }
 
-/* Its list in a table of this size, a power of two. */
+/* Its list in a table of this size, a power of 2. */
 static size_t bucket(sw_grid_cell c, size_t size) {
   const uint32_t h =
       (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u;
@@ -48,7 +48,8 @@ static double longest2(const sw_body *b, const double *x) {
   return most;
 }
 
-/* Width of a cell: the gap that is looked for, and what a thing's middle may be off [m]. */
+/* Width of a cell: the gap of the search plus the largest distance of a thing from its middle [m].
+ */
 static double width_of(const sw_mutual *m, const sw_system *s, double reach) {
   double radius = 0, length2 = 0, far = 0;
   for (size_t k = 0; k < s->body_count; k++) {
