@@ -76,6 +76,7 @@ typedef struct sw_hold {
   sw_clamp_give give[2];  /* likewise */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   size_t node, number;    /* first node in the wire's plan, among the system's; while built */
+  size_t rail;            /* among the system's rails, if its class has one; while built */
   sw_feed feed;           /* of a class that feeds */
   sw_slider slider;       /* of one with a rail */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
