@@ -278,8 +278,8 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
-/* Depth that a hold imposes: no force takes a node out that is held inside of an obstacle. Its part
- * on the segment beside [m]. */
+/* Where a node is held inside of an obstacle no force takes the wire out of it: what that leaves of
+ * depth on the segment beside it [m]. */
 static double imposed(const sw_system *s, const sw_candidate *k, const sw_touch *t,
                       const double *y) {
   const sw_body *b = &s->bodies[k->body];
@@ -292,7 +292,7 @@ static double imposed(const sw_system *s, const sw_candidate *k, const sw_touch 
   return (first ? 1.0 - at : at) * fmax(0.0, k->skin - there);
 }
 
-/* The depth that a touch leaves alone in this step. */
+/* How much of its depth a touch leaves alone in this step. */
 static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                     const sw_memory *m, const double *y, sw_touch *t) {
   const sw_web *web = s->bodies[k->body].plan->web;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Axial strains and their rates, kept in the state where forces have axial dashpots. Over a step,
- * nodes' velocities do not give the change of length of an edge that turns: an edge of length l
- * that turns by theta seems to grow by l theta^2/2, a large false force at a cable's axial
- * stiffness. The strain of the mixed Newton method is right. */
+/* Axial strains and their rates, kept in the state where forces have axial dashpots. The change
+ * of length of an edge that turns cannot be told from its nodes' velocities over a step: an edge
+ * of length l that turns by theta seems to get l theta^2/2 longer, which with a cable's axial
+ * stiffness is a force that is not there. The strain of the mixed Newton knows better. */
 #ifndef SW_SYSTEM_STRAIN_H
 #define SW_SYSTEM_STRAIN_H
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mechanical system for integrators: all wires' nodes in flat arrays, their forces, the holds,
- * and couplings to the outside (contact). Two views: an implicit stage M (y - yhat)/hbar^2 = f(y,
- * (y - xhat)/hbar, t), solved by the mixed Newton method, and accelerations with lumped masses for
- * explicit schemes. */
+/* The mechanical system that integrators advance: all wires' nodes in flat
+ * arrays, the forces on them, the holds, and whatever couples them to the
+ * outside (contact). It offers two views: an implicit stage
+ * M (y - yhat)/hbar^2 = f(y, (y - xhat)/hbar, t), solved by the mixed Newton,
+ * and plain accelerations with lumped masses for explicit schemes. */
 #ifndef SW_SYSTEM_SYSTEM_H
 #define SW_SYSTEM_SYSTEM_H
 
@@ -16,11 +17,11 @@ typedef struct sw_counters {
   size_t newton;      /* matrix solves since start [-] */
   size_t solves;      /* the same, each body's own [-] */
   size_t evaluations; /* force evaluations since start [-] */
-  size_t looks;       /* boxes and entries that contact's searches have looked at [-] */
+  size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
 } sw_counters;
 
-/* Values of sw_system.rough, in statics: an update too large to be made, from which touches learn;
- * and one that is made if they agree. */
+/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it;
+ * and one that is made if they agree to it. */
 enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
@@ -38,22 +39,22 @@ struct sw_system {
   double *directors_rate;        /* and how fast they turn [1/s] */
   double *normals, *normals_now; /* the same: the wire's normals at the holds */
   double fastest_turn;           /* of a hold in this step so far [rad/s] */
-  int still; /* 1: holds count as standing, even those that follow something (statics) */
-  int rough; /* 1: the last update turned edges too far to be the stage's last */
+  int still;                     /* 1: holds count as standing, whatever they follow (statics) */
+  int rough;                  /* 1: the last update turned edges too far to be the stage's last */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
-  const double *dead; /* (nodes x 3) additional forces on nodes, as of inertia; or NULL [N] */
+  const double *dead; /* (nodes x 3) forces on nodes besides, as those of inertia; or NULL [N] */
   sw_coupling coupling;
   struct sw_bridges *bridges; /* between bodies, or NULL while there never were any */
   struct sw_rail *rails;      /* of held nodes that keep on curves (see system/rail.h), or NULL */
   double *rail_room;
   struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
   sw_counters counters;
-  double factor_hbar;   /* step size of the bodies' factors, made in this step; 0: none [s] */
-  int factor_solves;    /* solves with old factors in a row in this stage [-] */
-  int goes_on;          /* 1: the present iterate uses them too */
-  double factor_first;  /* relative change of edges by the first of these [-] */
+  double factor_hbar;   /* bodies' factors are of this step, made for it; 0: there are none [s] */
+  int factor_solves;    /* with factors of before, one after another in this stage [-] */
+  int goes_on;          /* 1: the iterate that is being solved goes on with them */
+  double factor_first;  /* change of edges by the first of these, of their length [-] */
   double factor_update; /* and by the last one [-] */
 
   /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
@@ -73,8 +74,8 @@ struct sw_system {
   size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
   double *aside;      /* (follow_size) room for them */
 
-  /* The last accepted trial, until sw_system_refresh: evaluated fields belong to it and need no new
-   * measuring. NULL at any other time. */
+  /* The trial that was accepted last, until sw_system_refresh: fields that are judged are of it and
+   * need no measuring. NULL at any other time. */
   const double *judged;
 
   /* work space of a stage (freedoms) */
@@ -85,7 +86,8 @@ struct sw_system {
   const double *strain_past;
   double *strain_now, *strain_new, *pull;
   void *pull_block;
-  double *factor_at; /* (freedoms) positions of the factors, where they may serve again [m] */
+  double *factor_at; /* (freedoms) positions for which the factors were made, where they may
+                        serve again [m] */
   void *work;
 };
 
@@ -103,8 +105,8 @@ typedef struct sw_newton {
 typedef struct sw_stage {
   double time;        /* at the stage's end [s] */
   double hbar;        /* [s] */
-  double inertia;     /* factor on the mass, for methods with forces and accelerations at different
-                         times; 0 means 1 [-] */
+  double inertia;     /* mass acts as so many times itself: of methods that take forces and
+                         accelerations at different times; 0 is as 1 [-] */
   double first;       /* share of the step's first stage in xhat [-] */
   const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
   const double *vhat; /* (nodes x 3): acceleration = inertia (velocity - vhat)/hbar [m/s] */
@@ -145,8 +147,8 @@ sw_status sw_system_add_histories(sw_system *system);
  * SW_ENOMEM. */
 sw_status sw_system_add_bridge(sw_system *system, size_t i, size_t j, const double k[9]);
 
-/* Before a step: pairs of nodes that may be bridged in it, listed anew from begin_plan on. The
- * matrix and its order then do not depend on earlier steps. */
+/* Before a step: between which nodes there may be bridges in it, anew from begin_plan on, so
+ * that the matrix is made for them and that its order does not depend on earlier steps. */
 sw_status sw_system_begin_plan(sw_system *system);
 sw_status sw_system_plan_bridge(sw_system *system, size_t i, size_t j);
 
@@ -166,9 +168,9 @@ void sw_system_measure_frames(sw_system *system, size_t body);
 /* Bring a body's twist or frames up to its field's tangents. */
 void sw_system_measure(sw_system *system, sw_body *body);
 
-/* As sw_body_solves_again (system/body.h), for all bridged bodies: 1, they can be solved again; the
- * change of the solution by forces (of the system's nodes x 3), those on other bodies set to zero;
- * the system's delta becomes the last solution. */
+/* As sw_body_solves_again (system/body.h), of all bodies that bridges tie together: 1, they can be
+ * solved again; by how much forces (of the system's nodes x 3) change the solution, those of other
+ * bodies to zero; the system's delta is the last one. */
 int sw_bridges_solves_again(const sw_system *system);
 void sw_bridges_solve_again(sw_system *system, double *more);
 void sw_bridges_take_solution(sw_system *system);
@@ -195,8 +197,9 @@ void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, 
 /* Let the wires of body b resist twist: makes work space. SW_ENOMEM. */
 sw_status sw_system_enable_twist(sw_system *system, size_t body);
 
-/* The state will become positions x, with holds as last placed: update the values that are followed
- * from step to step (twist, frames). Call before x is copied to the state. */
+/* The state is about to become positions x, with the holds as last placed: take
+ * over what has to be followed from step to step (twist, frames). Call before copying x
+ * to the state. */
 void sw_system_follow(sw_system *system, const double *x);
 
 /* Bring every field's geometry up to the state (system->x). */
