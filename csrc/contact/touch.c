@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch with an obstacle: how it begins an iterate, from its memory of earlier steps and of the
- * iterate before. */
+/* What a touch remembers, of the steps before and of the iterate before. */
 #include <math.h>
 #include <string.h>
 
@@ -209,8 +208,9 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
   return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
 }
 
-/* A new touch has moved freely, so it slides first. A long spring does not make a rolling wire
- * slide: on a curved surface its shift and turn are predicted too roughly. */
+/* What only now begins to touch has been moving freely: it slides first. A wire that has been
+ * rolling is not called a slide for a long spring: on a curved surface both its shift and its
+ * turn are predicted less exactly than that. */
 static void begin_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *last, const double *y, sw_touch *t) {
   sw_press *press = &t->press;
