@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "system/spin.h"
 
-/* Places in the state of the values that are followed from step to step. */
+/* Where what is followed from step to step lies in the state. */
 static double *followed(const sw_system *s) { return s->tension + s->edges; }
 
 void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double *v,
@@ -28,7 +28,7 @@ void sw_system_look_back(sw_system *s, const sw_glance *g) {
   memcpy(followed(s), s->aside, s->follow_size * sizeof *s->aside);
 }
 
-/* Terms without an energy tell their power. */
+/* Of what has no energy the power is told. */
 static int has_power(const sw_force_class *cls) {
   return (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN)) != 0;
 }
@@ -103,7 +103,7 @@ static double power_of(const sw_field *f) {
   return sum;
 }
 
-/* Some terms know their power better than force times velocity: see field.h. */
+/* Some know it better than their forces and the velocities tell: see field.h. */
 static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, sw_error *err) {
   const int knows = (term->cls->flags & SW_FORCE_POWER) != 0;
   f->want = knows ? SW_WANT_POWER : SW_WANT_FORCE;

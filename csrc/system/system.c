@@ -214,8 +214,7 @@ void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, doubl
   place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
 }
 
-/* Add the moments of clamps with a hold (-1: all) on directions to out, of each hold or of this
- * one. */
+/* Adds what clamps that have a hold (-1: all) do to directions to out, of each hold or of this. */
 static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];
@@ -331,7 +330,7 @@ void sw_system_axial_from_state(sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++) sw_system_rate_from_velocity(s, b);
 }
 
-/* Sum of m v.v / 2, with the consistent mass between neighbours. */
+/* Sum of m v.v / 2 and of what neighbours have with each other. */
 SW_HOT
 static double kinetic_of_nodes(size_t n, const double *own, const double *next, const double *v) {
   sw_spread sums = {{{0}}};
