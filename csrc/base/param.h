@@ -53,6 +53,20 @@ typedef struct sw_params {
 #define SW_PARAMS(object_name, table) \
   { object_name, table, sizeof(table) / sizeof((table)[0]) }
 
+/* A row whose field has its name; of a number, of a vector, and that of an object's name. */
+#define SW_NUMBER_ROW(args, field, unit, def, min, max, flags, doc) \
+  { #field, SW_PARAM_NUMBER, unit, def, min, max, flags, NULL, offsetof(args, field), doc }
+#define SW_VECTOR_ROW(args, field, unit, def, flags, doc)                                        \
+  {                                                                                              \
+#field, SW_PARAM_VECTOR, unit, def, -HUGE_VAL, HUGE_VAL, flags, NULL, offsetof(args, field), \
+        doc                                                                                      \
+  }
+#define SW_NAME_ROW(args)                                               \
+  {                                                                     \
+    "name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(args, name), \
+        "name used in messages and series"                              \
+  }
+
 /* Write every row's default into args. */
 void sw_params_default(const sw_params *params, void *args);
 

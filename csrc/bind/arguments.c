@@ -199,58 +199,57 @@ void lsw_changes(lua_State *L, int index, const char *object, const sw_params *p
   }
 }
 
-/* Pushes nil for what was not given, is not limited or is read by the binding itself. */
-static void push_value(lua_State *L, const sw_param *row, const void *args) {
-  const char *place = (const char *)args + row->offset;
+static void push_number(lua_State *L, const char *place) {
   double x;
-  long whole;
+  memcpy(&x, place, sizeof x);
+  if (isfinite(x)) lua_pushnumber(L, x);
+}
+
+static void push_integer(lua_State *L, const char *place) {
+  long x;
+  memcpy(&x, place, sizeof x);
+  lua_pushinteger(L, x);
+}
+
+static int flag_at(const char *place) {
   int flag;
+  memcpy(&flag, place, sizeof flag);
+  return flag;
+}
+
+static void push_vector(lua_State *L, const char *place) {
   sw_vec v;
+  memcpy(&v, place, sizeof v);
+  if (!isnan(v.x)) lsw_push_vector(L, v);
+}
+
+static void push_rotation(lua_State *L, const char *place) {
   sw_quat q;
+  memcpy(&q, place, sizeof q);
+  if (!isnan(q.w)) lsw_push_quaternion(L, q);
+}
+
+/* Nothing for what was not given, is not limited or is read by the binding itself. */
+static void push_value(lua_State *L, const sw_param *row, const char *place) {
   switch (row->type) {
-    case SW_PARAM_NUMBER:
-      memcpy(&x, place, sizeof x);
-      if (!isfinite(x))
-        lua_pushnil(L);
-      else
-        lua_pushnumber(L, x);
-      break;
-    case SW_PARAM_INTEGER:
-      memcpy(&whole, place, sizeof whole);
-      lua_pushinteger(L, whole);
-      break;
-    case SW_PARAM_BOOLEAN:
-    case SW_PARAM_CHOICE:
-      memcpy(&flag, place, sizeof flag);
-      if (row->type == SW_PARAM_BOOLEAN)
-        lua_pushboolean(L, flag);
-      else
-        lua_pushstring(L, row->choices[flag]);
-      break;
+    case SW_PARAM_NUMBER: push_number(L, place); break;
+    case SW_PARAM_INTEGER: push_integer(L, place); break;
+    case SW_PARAM_BOOLEAN: lua_pushboolean(L, flag_at(place)); break;
+    case SW_PARAM_CHOICE: lua_pushstring(L, row->choices[flag_at(place)]); break;
     case SW_PARAM_TEXT: lua_pushstring(L, place); break;
-    case SW_PARAM_VECTOR:
-      memcpy(&v, place, sizeof v);
-      if (isnan(v.x))
-        lua_pushnil(L);
-      else
-        lsw_push_vector(L, v);
-      break;
-    case SW_PARAM_ROTATION:
-      memcpy(&q, place, sizeof q);
-      if (isnan(q.w))
-        lua_pushnil(L);
-      else
-        lsw_push_quaternion(L, q);
-      break;
-    case SW_PARAM_OTHER: lua_pushnil(L); break;
+    case SW_PARAM_VECTOR: push_vector(L, place); break;
+    case SW_PARAM_ROTATION: push_rotation(L, place); break;
+    case SW_PARAM_OTHER: break;
   }
 }
 
 void lsw_push_values(lua_State *L, const sw_params *params, const void *args) {
   lua_createtable(L, 0, (int)params->count);
   for (size_t i = 0; i < params->count; i++) {
-    push_value(L, &params->rows[i], args);
-    lua_setfield(L, -2, params->rows[i].name);
+    const sw_param *row = &params->rows[i];
+    const int top = lua_gettop(L);
+    push_value(L, row, (const char *)args + row->offset);
+    if (lua_gettop(L) > top) lua_setfield(L, -2, row->name);
   }
 }
 

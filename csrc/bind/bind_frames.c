@@ -38,6 +38,14 @@ static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame,
   }
 }
 
+static void push_frame_wires(lua_State *L, const sw_scene *scene, size_t frame) {
+  push_frame_bodies(L, scene, frame, 0);
+}
+
+static void push_frame_particles(lua_State *L, const sw_scene *scene, size_t frame) {
+  push_frame_bodies(L, scene, frame, 1);
+}
+
 /* Of each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
 static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
   size_t count, around;
@@ -84,53 +92,70 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
   }
 }
 
-/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
- * tools, energy }, or nil past the end. */
-int lsw_scene_frame(lua_State *L) {
-  const sw_scene *scene = lsw_check_scene(L);
-  const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
+static void push_frame_obstacles(lua_State *L, const sw_scene *scene, size_t frame) {
   const float *p;
-  int held;
-  if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
-  const size_t frame = (size_t)i - 1;
-  lua_createtable(L, 0, 9);
-  lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
-  push_frame_bodies(L, scene, frame, 0);
-  lua_setfield(L, -2, "wires");
-  push_frame_values(L, scene, frame);
-  lua_setfield(L, -2, "values");
-  push_frame_surfaces(L, scene, frame);
-  lua_setfield(L, -2, "surfaces");
-  push_frame_bodies(L, scene, frame, 1);
-  lua_setfield(L, -2, "particles");
+  int there;
   lua_newtable(L);
-  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &held)) != NULL; o++) {
-    if (held)
+  for (size_t o = 0; (p = sw_scene_frame_obstacle(scene, frame, o, &there)) != NULL; o++) {
+    if (there)
       push_pose(L, p);
     else
       lua_pushboolean(L, 0);
     lua_rawseti(L, -2, (lua_Integer)o + 1);
   }
-  lua_setfield(L, -2, "obstacles");
+}
+
+static void push_frame_holds(lua_State *L, const sw_scene *scene, size_t frame) {
+  const float *p;
+  int held;
   lua_newtable(L);
   for (size_t h = 0; (p = sw_scene_frame_hold(scene, frame, h, &held)) != NULL; h++) {
     push_pose(L, p);
     lsw_set_flag(L, "held", held);
     lua_rawseti(L, -2, (lua_Integer)h + 1);
   }
-  lua_setfield(L, -2, "holds");
+}
+
+static void push_frame_tools(lua_State *L, const sw_scene *scene, size_t frame) {
+  const float *p;
   lua_newtable(L);
   for (size_t k = 0; (p = sw_scene_frame_tool(scene, frame, k)) != NULL; k++) {
     push_pose(L, p);
     lua_rawseti(L, -2, (lua_Integer)k + 1);
   }
-  lua_setfield(L, -2, "tools");
+}
+
+static void push_frame_energy(lua_State *L, const sw_scene *scene, size_t frame) {
   const double *e = sw_scene_frame_energy(scene, frame);
   lua_createtable(L, 0, SW_FRAME_ENERGIES);
   lsw_set_number(L, "kinetic", e[0]);
   lsw_set_number(L, "elastic", e[1]);
   lsw_set_number(L, "gravity", e[2]);
-  lua_setfield(L, -2, "energy");
+}
+
+static const struct {
+  const char *name;
+  void (*push)(lua_State *L, const sw_scene *scene, size_t frame);
+} parts[] = {{"wires", push_frame_wires},         {"values", push_frame_values},
+             {"surfaces", push_frame_surfaces},   {"particles", push_frame_particles},
+             {"obstacles", push_frame_obstacles}, {"holds", push_frame_holds},
+             {"tools", push_frame_tools},         {"energy", push_frame_energy}};
+
+enum { PARTS = sizeof parts / sizeof parts[0] };
+
+/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
+ * tools, energy }, or nil past the end. */
+int lsw_scene_frame(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
+  if (i < 1 || (size_t)i > sw_scene_frames(scene)) return 0;
+  const size_t frame = (size_t)i - 1;
+  lua_createtable(L, 0, 1 + PARTS);
+  lsw_set_number(L, "t", sw_scene_frame_time(scene, frame));
+  for (int k = 0; k < PARTS; k++) {
+    parts[k].push(L, scene, frame);
+    lua_setfield(L, -2, parts[k].name);
+  }
   return 1;
 }
 

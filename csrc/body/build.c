@@ -257,7 +257,7 @@ static sw_status put_holds(sw_scene *s, sw_rail *rails) {
     sw_held_node node = {.body = h->wire, .hold = number, .slides = sw_hold_passes(h)};
     sw_body_class_of(&s->wires[h->wire])->add_held(b, h, node, &s->system);
     if (h->cls->hold->rail) {
-      h->slider.rail = rail_count;
+      h->rail = rail_count;
       h->cls->hold->rail(h, &rails[rail_count]);
       rails[rail_count++].held = s->system.held_count - 1;
     }

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "body/build.h"
+#include "body/hold.h"
 #include "contact/mutual.h"
 #include "link/hold.h"
 #include "link/spool.h"
@@ -23,14 +24,19 @@ static const double LEAST_LEFT = 0.2;
 static const double LARGEST_SHARE = 0.4; /* of an edge, fed in one step [-] */
 enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and another hold */
 
+/* Paid out so long after now [m]. */
+static double fed_at(const sw_scene *s, const sw_hold *hold, double later) {
+  return sw_hold_way_of(s, hold, sw_scene_time(s) + later, NULL).way;
+}
+
 double sw_feed_step(const sw_scene *s, double h) {
   SW_EACH(hold, o, s) {
     if (!o->alive || !sw_hold_passes(o)) continue;
-    const double most = LARGEST_SHARE * o->feed.size, now = sw_feed_at(o, sw_scene_time(s)).fed;
-    double way = fabs(sw_feed_at(o, sw_scene_time(s) + h).fed - now);
+    const double most = LARGEST_SHARE * o->cls->hold->guide(o)->size, now = fed_at(s, o, 0);
+    double way = fabs(fed_at(s, o, h) - now);
     for (int i = 0; way > most && i < 60; i++) { /* in even parts: a tiny one would be a kick */
       h /= fmin(64, ceil(way / most));
-      way = fabs(sw_feed_at(o, sw_scene_time(s) + h).fed - now);
+      way = fabs(fed_at(s, o, h) - now);
     }
   }
   return h;
@@ -41,7 +47,7 @@ sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err
   double most = -1;
   SW_EACH(hold, o, s) {
     if (!o->alive || !sw_hold_passes(o)) continue;
-    const double speed = fabs(sw_feed_at(o, sw_scene_time(s)).speed);
+    const double speed = fabs(sw_hold_way_of(s, o, sw_scene_time(s), NULL).speed);
     if (speed > most) most = speed, fastest = o;
   }
   if (!fastest) return sw_fail(err, SW_ENOCONV, "%s", refused);
@@ -56,6 +62,7 @@ sw_status sw_feed_too_fast(const sw_scene *s, const char *refused, sw_error *err
 typedef struct guide {
   const sw_scene *s;
   sw_hold *h;
+  sw_guide *own;
   sw_mesh *m;
   int side;
   sw_vec director, normal; /* of the wire in the guide [-] */
@@ -104,7 +111,7 @@ static sw_quat edge_turn(const guide *g, size_t e) {
 static sw_vec rest_between(const guide *g, size_t e) {
   if (!g->m->rest) return sw_v(0, 0, 0);
   const sw_vec along = sw_sub(sw_vec_at(g->m->rest, e + 1), sw_vec_at(g->m->rest, e));
-  const sw_quat held = sw_spool_at(&g->h->feed.shape, g->h->s1).q;
+  const sw_quat held = sw_spool_at(&g->own->shape, g->h->s1).q;
   const sw_quat edge =
       sw_spool_turn(sw_unit_or(along, sw_spool_tangent(held)), sw_vec_at(g->m->rest_normal, e));
   return turn_between(held, edge);
@@ -123,21 +130,19 @@ static void put_normal(const guide *g, size_t e, sw_quat q) {
 }
 
 /* Unstressed length of the first edge with its spare, and the place that holds it. */
-static double *spare_of(const guide *g) { return &g->h->feed.spare[g->side > 0]; }
+static double *spare_of(const guide *g) { return &g->own->spare[g->side > 0]; }
 
-static double fed_length(const guide *g) {
-  return (g->h->feed.label - g->h->s1) * g->h->feed.outward;
-}
+static double fed_length(const guide *g) { return (g->own->label - g->h->s1) * g->own->outward; }
 
 static double true_length(const guide *g) {
   double spare[2];
-  sw_feed_spare(&g->h->feed, fed_length(g), spare);
+  sw_guide_spare(g->own, fed_length(g), spare);
   return edge_length(g, 0) + spare[g->side > 0];
 }
 
 static void set_length(guide *g, double length) {
   *spare_of(g) = length - edge_length(g, 0);
-  g->h->feed.spare_fed[g->side > 0] = fed_length(g);
+  g->own->spare_fed[g->side > 0] = fed_length(g);
 }
 
 static sw_vec node_at(const guide *g, long k) { return sw_vec_at(g->m->x, (size_t)inner(g, k)); }
@@ -176,7 +181,7 @@ static void shift_nodes(const guide *g, long first, sw_vec delta) {
   const long most = (long)fmin(REACH, (double)g->left - (double)first);
   long reach = 0;
   while (reach < most && !touches(g, first + reach)) reach++;
-  if (reach < LEAST_REACH || !(sw_norm(delta) < LARGEST_SHIFT * g->h->feed.size)) return;
+  if (reach < LEAST_REACH || !(sw_norm(delta) < LARGEST_SHIFT * g->own->size)) return;
   sw_vec old = node_at(g, first + reach), now = old;
   for (long k = first + reach - 1; k >= first; k--) {
     const size_t i = (size_t)inner(g, k), e = g->side > 0 ? i : i - 1;
@@ -217,7 +222,7 @@ static beside look(const guide *g) {
  * than the chord that was there; the feed holds the difference back again. */
 static sw_status add_node(guide *g) {
   sw_mesh *m = g->m;
-  const double size = g->h->feed.size;
+  const double size = g->own->size;
   const beside b = look(g);
   const sw_vec from = node_at(g, 0);
   const double stretch = sw_dist(from, node_at(g, 1)) / true_length(g);
@@ -228,7 +233,7 @@ static sw_status add_node(guide *g) {
   g->left++;
   const size_t node = edge + 1, at = g->side > 0 ? edge : edge + 1, beyond = 2 * edge + 1 - at;
   if (m->rest) {
-    sw_spool_node(m, &g->h->feed.shape, node);
+    sw_spool_node(m, &g->own->shape, node);
     m->twist[node] = 0;
   }
   const sw_vec here = sw_madd(b.bend, b.change, (b.first - size) / b.first);
@@ -262,7 +267,7 @@ static void take_node(guide *g) {
   sw_mesh_remove(m, (size_t)inner(g, 1));
   g->left--;
   const size_t face = (size_t)inner(g, 0), edge = g->side > 0 ? face : face - 1;
-  if (m->rest) sw_spool_node(m, &g->h->feed.shape, face);
+  if (m->rest) sw_spool_node(m, &g->own->shape, face);
   sw_plan_clamp_lengths(b.first + b.second, edge_length(g, 1), &v0, &v1);
   const sw_quat q = bent_turn(g, edge, sw_scale(b.bend, v0));
   const sw_vec t = sw_scale(sw_spool_tangent(q), g->side);
@@ -279,11 +284,11 @@ static int needs(const sw_scene *s, const guide *g, double change) {
   const sw_hold *next;
   const double now = edge_length(g, 0), then = now + change, second = edge_length(g, 1);
   if (!(now > 0)) return FINE; /* no wire there: the spool's side */
-  if (now > LONGEST * g->h->feed.size) return ADD;
-  if (!(then < SHORTEST * (second > 0 ? second : g->h->feed.size))) return FINE;
+  if (now > LONGEST * g->own->size) return ADD;
+  if (!(then < SHORTEST * (second > 0 ? second : g->own->size))) return FINE;
   const size_t left = edges_left(s, g, &next);
   if (left > (next ? LEAST_HELD : LEAST_FREE)) return TAKE;
-  return then < LEAST_LEFT * g->h->feed.size ? EMPTY : FINE;
+  return then < LEAST_LEFT * g->own->size ? EMPTY : FINE;
 }
 
 static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
@@ -301,8 +306,12 @@ static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
 
 /* The guide's side of hold h; directions are as the holds were last placed. */
 static guide guide_of(sw_scene *s, sw_hold *h, int side, const sw_vec *axes) {
-  guide g = {
-      .s = s, .h = h, .m = &sw_scene_wire_in(s, h->wire)->mesh, .side = side, .director = axes[0]};
+  guide g = {.s = s,
+             .h = h,
+             .own = h->cls->hold->guide(h),
+             .m = &sw_scene_wire_in(s, h->wire)->mesh,
+             .side = side,
+             .director = axes[0]};
   g.normal = g.m->rest ? axes[1] : sw_perpendicular(axes[0]);
   return g;
 }
@@ -313,7 +322,7 @@ static sw_status tend(sw_scene *s, sw_hold *h, double fed, int edit, const sw_ve
   for (int side = -1; side < 2; side += 2) {
     guide g = guide_of(s, h, side, axes);
     for (int i = 0; i < 8; i++) { /* a few where the mesh was uneven */
-      const int need = needs(s, &g, fed * side * h->feed.outward);
+      const int need = needs(s, &g, fed * side * g.own->outward);
       if (need == FINE) break;
       if (need == EMPTY) return say_empty(s, &g, err);
       *wanted = 1;
@@ -334,7 +343,7 @@ static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted
   static const sw_vec looking[2] = {{1, 0, 0}, {0, 1, 0}};
   SW_EACH(hold, h, s) {
     if (!h->alive || !sw_hold_passes(h)) continue;
-    const double fed = sw_feed_at(h, t).fed - sw_feed_at(h, sw_scene_time(s)).fed;
+    const double fed = sw_hold_way_of(s, h, t, NULL).way - fed_at(s, h, 0);
     SW_TRY(tend(s, h, fed, axes != NULL, axes ? axes + 2 * h->number : looking, wanted, err));
   }
   return SW_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A place of what meets another thing, and how it changes along there: of a wire's segment or
- * curve, of an edge between particles, or a node alone. */
+/* A place where a body meets another one, and its derivatives along the body. It lies on a segment
+ * or curve of a wire, on an edge between particles, or it is a node. */
 #ifndef SW_CONTACT_BOW_H
 #define SW_CONTACT_BOW_H
 
@@ -9,7 +9,7 @@
 typedef struct sw_bow {
   sw_mean spot;
   double
-      slope[SW_MEAN_MOST]; /* derivatives of the shares by the place, in edges; the sum is 0 [-] */
+      slope[SW_MEAN_MOST]; /* derivatives of the shares by the place in edges; their sum is 0 [-] */
 } sw_bow;
 
 /* On the chord from a node to another one, or that node alone. */
@@ -25,7 +25,7 @@ static inline sw_bow sw_bow_around(size_t before, double v) {
   return (sw_bow){sw_mean_around(before, v), {v - 1.0, 1.0 - 2.0 * v, v}};
 }
 
-/* From one of its nodes to the next, of what nodes have (n x 3). */
+/* From one of its nodes to the next, in an array of nodes (n x 3). */
 static inline sw_vec sw_bow_edge(const double *x, const sw_bow *b, int k) {
   return sw_sub(sw_vec_at(x, b->spot.node[k + 1]), sw_vec_at(x, b->spot.node[k]));
 }
@@ -37,13 +37,13 @@ static inline sw_vec sw_bow_along(const double *x, const sw_bow *b) {
   return sw_madd(sw_scale(before, -b->slope[0]), sw_bow_edge(x, b, 1), b->slope[2]);
 }
 
-/* The second one; of the shares, 1, -2, 1 [m]. */
+/* Its second derivative; those of the shares are 1, -2, 1 [m]. */
 static inline sw_vec sw_bow_bend(const double *x, const sw_bow *b) {
   if (b->spot.count < 3) return sw_v(0, 0, 0);
   return sw_sub(sw_bow_edge(x, b, 1), sw_bow_edge(x, b, 0));
 }
 
-/* Places of two things: that of the first one less that of the second one, of what nodes have. */
+/* The first place less the second one, in an array of nodes (n x 3). */
 static inline sw_vec sw_bows_apart(const double *x, const sw_bow bow[2]) {
   return sw_sub(sw_mean_of(x, 0, &bow[0].spot), sw_mean_of(x, 0, &bow[1].spot));
 }

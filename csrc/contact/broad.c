@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Obstacles by where they are. Those that stand and those that may move have a tree each over the
- * boxes in which a step may meet them. Unbounded ones are always looked at, and all where there are
- * few. What is found is in the order of the obstacles, as if all had been looked at. */
+/* Finds the obstacles near a place. One tree holds those that stand, another those that may move,
+ * each with the box that a step may reach. Unbounded obstacles are always looked at; so are all
+ * where there are few. Results are in the order of the obstacles, as from a search of all. */
 #include "contact/broad.h"
 
 #include <math.h>
@@ -13,10 +13,9 @@
 #include "contact/touch.h"
 
 enum { FEW = 8 }; /* obstacles that need no tree [-] */
-/* A tree of boxes that go their own ways is made anew after so many steps [-]. */
+/* The tree of moving boxes is built again after this many steps [-]. */
 enum { MOST_REFITS = 32 };
-/* Turning faster than this over the square root of 3 in the step, an obstacle may meet anything
- * [rad]. */
+/* An obstacle that turns by more than this over sqrt(3) in the step may meet anything [rad]. */
 static const double FASTEST_TURN = 0.5;
 static const double EVERYWHERE = 1e300;  /* [m] */
 static const double ROUNDING = 1.000001; /* [-] */
@@ -98,16 +97,16 @@ static sw_bounds world_bounds(const sw_shape *shape, const sw_pose *pose) {
   return (sw_bounds){sw_sub(middle, reach), sw_add(middle, reach)};
 }
 
-/* How far a corner of the box is from p, at most. */
+/* The largest distance of a corner of the box from p. */
 static double farthest(const sw_bounds *b, sw_vec p) {
   return sw_norm(sw_v(fmax(fabs(b->max.x - p.x), fabs(b->min.x - p.x)),
                       fmax(fabs(b->max.y - p.y), fabs(b->min.y - p.y)),
                       fmax(fabs(b->max.z - p.z), fabs(b->min.z - p.z))));
 }
 
-/* The box in which an obstacle meets what is near it by at most a. Its material at x goes
- * (v + omega |x - p|) h in the step, and x is as near as that and a: solved for the largest reach,
- * that is factor (a + what is added to the box). */
+/* The box in which an obstacle meets things at most a away. Its material at x moves by (v + omega
+ * |x - p|) h in the step, and x is within a plus that way. Solved for the largest reach: factor (a
+ * + the margin of the box). */
 static sw_bounds swept(sw_broad *b, const sw_contact *c, size_t o) {
   const sw_contact_at *at = &c->start[o];
   const sw_bounds *box = &c->bounds[o];

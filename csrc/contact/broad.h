@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which obstacles are near a place, without looking at all of them. */
+/* The obstacles near a place, without a look at all of them. */
 #ifndef SW_CONTACT_BROAD_H
 #define SW_CONTACT_BROAD_H
 
@@ -16,7 +16,7 @@ typedef struct sw_contact_at {
 typedef struct sw_broad_group {
   sw_box_tree tree;
   int *member;      /* (count) their numbers, ascending */
-  sw_bounds *boxes; /* (count) where they may be met in the step */
+  sw_bounds *boxes; /* (count) that the step may reach */
   size_t count;
   int refits; /* of the tree since it was made [-] */
 } sw_broad_group;
@@ -31,8 +31,8 @@ typedef struct sw_broad {
   int *found;   /* (count) of the last search */
   size_t mover_count, aside_count;
   sw_bounds *boxes;        /* (count) room of the groups */
-  sw_broad_group group[2]; /* of those that stand, of those that may move */
-  int placed, sorted;      /* 1: those that stand are placed; all are in their groups */
+  sw_broad_group group[2]; /* of the obstacles that stand, of those that may move */
+  int placed, sorted;      /* 1: standing obstacles are placed, and each is in its group */
   double factor, omega;    /* of what turns, see swept [-], [rad/s] */
   double turning_time;     /* the step [s] */
 } sw_broad;
@@ -40,21 +40,20 @@ typedef struct sw_broad {
 sw_status sw_broad_new(sw_broad *broad, size_t count); /* SW_ENOMEM */
 void sw_broad_free(sw_broad *broad);
 
-/* Any obstacle may be elsewhere now, and may move. */
+/* Any obstacle may have moved, and may move. */
 void sw_broad_forget(sw_broad *broad);
-/* These do, by the owner's numbers; the others stand where they are now. */
+/* Only these may move, by the owner's numbers; the others stand where they are. */
 void sw_broad_know(sw_broad *broad, const sw_contact *c, sw_contact_moves_function moves);
 
-/* Place obstacles at time t: all when it is not known where those are that stand, else those that
- * may move. */
+/* Place obstacles at time t: all if the standing ones are not placed yet, else those that may move.
+ */
 sw_status sw_broad_place(sw_contact *c, double t, sw_contact_at *out, sw_error *err);
 
-/* With the obstacles placed at the step's start: boxes in which its wires may meet them. SW_ENOMEM,
- * SW_EINTR. */
+/* With obstacles at the step's start: the boxes that the step may reach. SW_ENOMEM, SW_EINTR. */
 sw_status sw_broad_update(sw_contact *c);
 
-/* Obstacles that may be as near as reach (besides their own way) to the box from low to high, in
- * their order; valid until the next search. Adds to *looks the boxes looked at. */
+/* Obstacles within reach of the box from low to high, besides their own way; in their order, valid
+ * until the next search. Adds the boxes looked at to *looks. */
 const int *sw_broad_near(sw_broad *broad, sw_vec low, sw_vec high, double reach, size_t *count,
                          size_t *looks);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What may touch what within a step, and how stiff new touches are. */
+/* Candidates of a step: a node or segment and an obstacle that it may touch; and the stiffness of
+ * new touches. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -15,7 +16,7 @@ static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
-static const double SKIN = 1.5;        /* radii: what is this near is always looked at [-] */
+static const double SKIN = 1.5;        /* radii: anything this near is a candidate [-] */
 
 static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
   return low.x > b->max.x || high.x < b->min.x || low.y > b->max.y || high.y < b->min.y ||
@@ -38,8 +39,7 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   return reserve * c->h * (sw_norm(v) + g * c->h) + SW_FLIGHT_LEAST;
 }
 
-/* Widest gap of each node at the step's start that can close within it, with reserve, but for what
- * obstacles do. */
+/* The widest gap of each node that can close in the step, without the motion of obstacles. */
 static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
   const double radius = b->plan->beam.radius;
   double *const reach = c->reach + b->first_node;
@@ -59,7 +59,7 @@ static double reach_of(const sw_contact *c, const sw_system *s, size_t node, siz
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
-/* Does the wire meet the candidate's obstacle with its smooth curve? */
+/* Does the smooth curve of the wire meet the candidate's obstacle? */
 static void find_smooth(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_plan *p = s->bodies[k->body].plan;
   if (p->web || p->beam.rolls) return;
@@ -95,13 +95,13 @@ static size_t other_end(const sw_plan *p, size_t i, int k) {
   return at < w->side_first[i + 1] ? w->side[at] : i;
 }
 
-/* Pads are met by particles alone where these lie close enough: between them the pad's edges would
- * come and go along one edge of the surface after the other, and take its force to and fro. */
+/* Only particles meet pads if they lie close enough. Else the pad's edges would leave and enter the
+ * surface's edges one by one, and the pad's force would jump. */
 static const double CLOSE = 3.0; /* rings along the pad's face, its x and z [-] */
 
-/* The same of a wire's line: nodes that lie just on a pad's edges come and go, and a whole
- * segment's share of the force with them. So pads with faces are met at places spread evenly, so
- * many along their width, that fade out over their edges. Pins are met at the nearest place. */
+/* The same for a line. A node at the edge of a pad comes and goes, and a whole segment's force with
+ * it. So a pad with faces has evenly spread samples, this many along its width, that fade out at
+ * its edges. Pins touch at the nearest place. */
 static const double SAMPLES = 12.0; /* [-] */
 enum { LEAST_SAMPLES = 2 };         /* of a segment [-] */
 
@@ -147,7 +147,7 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
 /* A node and the other ends of its segments. */
 typedef struct outlook {
   sw_vec x, low, high; /* the node's place, the box of all [m] */
-  double reach;        /* of the farthest reaching, without what obstacles do [m] */
+  double reach;        /* of the farthest reach, without the motion of obstacles [m] */
 } outlook;
 
 static outlook look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i) {
@@ -228,26 +228,27 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
   }
 }
 
-/* Touches of an object of particles are at least as stiff as this share of a bound on what holds
- * a particle: it may be without weight [-]. */
+/* Touches of an object of particles have at least this share of a bound on a particle's own
+ * stiffness, because it may have no weight [-]. */
 static const double HARD_SHARE = 1.0;
 
-/* A mesh shorter than so many radii is a slice, there for its section, which does not bend [-]. Its
- * touches are so many times as stiff as a solid section of its EA is against squeezing [-]. */
+/* A mesh shorter than this many radii is a slice: it stands for a section and does not bend [-].
+ * Its touches have this multiple of a solid section's stiffness against squeezing, for its EA [-].
+ */
 static const double SLICE = 1.0, HARDER = 100.0;
 /* Of a ring with a wall: as its wall times length over radius^3 [-]. */
 static const double HARDER_WALL = 1e5;
 
-/* Where objects of particles touch each other and wires: so many times as stiff as what holds a
- * particle to the others, so that no force makes it sink in deeper than a tenth of what the object
- * itself gives way by [-]. */
+/* Touches between objects of particles, and with wires, have this multiple of the stiffness that
+ * holds a particle. Then no force sinks it in by more than a tenth of the object's own compression
+ * [-]. */
 static const double HARDER_GRAIN = 10.0;
 
 double sw_contact_hardness(const sw_web *web, size_t particle) {
   return HARDER_GRAIN * web->behind[particle];
 }
 
-/* Force that a touch is to carry of the body [N]. */
+/* The part of the body's force that one touch carries [N]. */
 static double usual_force(const sw_plan *p, double weight) {
   const double L = p->length, r = p->beam.radius;
   if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
@@ -261,12 +262,11 @@ static double usual_force(const sw_plan *p, double weight) {
  * elements) [-]. */
 static const double SECTION = 2.0 * 0.084 / 0.2;
 
-/* With the force wanted a pad's samples sink in by about this [m]. */
+/* Depth of a pad's samples at the wanted force [m]. */
 static const double PRESSED_IN = 5e-6;
 
-/* A pad on a particle of a mesh is so many times as stiff as the section behind it: one that gave
- * way as much as that would be made stiffer in the middle of a squeeze, whose force would jump [-].
- */
+/* A pad on a particle of a mesh has this multiple of the section's stiffness. With one times it,
+ * the touch would be made stiffer during a squeeze, and its force would jump [-]. */
 static const double STIFFER = 3.0;
 
 static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
@@ -275,8 +275,8 @@ static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
   return STIFFER * SECTION * p->beam.EA / (M_PI * r * r) * p->web->along[particle];
 }
 
-/* A pad on a wire without a section: as soft as the section would be, and not stiffer than its
- * force needs. Rigid against rigid, no force could be set [N/m]. */
+/* A pad on a wire without a section is as soft as a section would be, and no stiffer than its force
+ * needs. Between rigid things no force could be set [N/m]. */
 static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge, double grips) {
   const double r = p->beam.radius;
   const double section = SECTION * p->beam.EA / (M_PI * r * r);
@@ -284,7 +284,7 @@ static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge
   return fmin(section * p->rest[edge] / k->samples, grips / (SAMPLES * PRESSED_IN));
 }
 
-/* Of a wire's new touches: for its weight or for what bends it, or as pads want it. */
+/* Stiffness of a wire's new touches, from its weight, its bending or the force of a pad. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
@@ -307,8 +307,8 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   }
 }
 
-/* Many nodes may begin to touch at once: lists that grow one by one would be copied again and
- * again. They are empty. */
+/* Empty lists with room for many touches at once. Lists that grow one by one would be copied often.
+ */
 static sw_status make_room(sw_contact *c) {
   const size_t n = c->candidate_count;
   SW_TRY(sw_grow_empty((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));

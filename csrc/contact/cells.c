@@ -1,9 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact/cells.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+
+/* Finite for places far away or not a number, so that the cells beside have numbers. */
+static int32_t number_of(double x) { return (int32_t)fmax(-1e9, fmin(1e9, floor(x))); }
+
+/* The cell of a place [m]. */
+static sw_grid_cell cell_of(double width, sw_vec p) {
+  const double r = 1.0 / width;
+  return (sw_grid_cell){number_of(p.x * r), number_of(p.y * r), number_of(p.z * r)};
+}
+
+static int is_same(sw_grid_cell a, sw_grid_cell b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Number d = 0 to 26 of the cells around; 13 is the cell itself. */
+enum { NEIGHBOURS = 27 };
+static sw_grid_cell beside(sw_grid_cell c, int d) {
+  return (sw_grid_cell){c.x + d % 3 - 1, c.y + d / 3 % 3 - 1, c.z + d / 9 - 1};
+}
+
+/* Its list in a table of this size, a power of 2. */
+static size_t bucket(sw_grid_cell c, size_t size) {
+  const uint32_t h =
+      (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u;
+  return (h * 2654435761u) >> 7 & (size - 1);
+}
 
 double sw_thing_radius(const sw_body *b) {
   return b->plan->web ? b->plan->web->skin : b->plan->beam.radius;
@@ -21,7 +48,8 @@ static double longest2(const sw_body *b, const double *x) {
   return most;
 }
 
-/* Width of a cell: the gap that is looked for, and what a thing's middle may be off [m]. */
+/* Width of a cell: the gap of the search plus the largest distance of a thing from its middle [m].
+ */
 static double width_of(const sw_mutual *m, const sw_system *s, double reach) {
   double radius = 0, length2 = 0, far = 0;
   for (size_t k = 0; k < s->body_count; k++) {
@@ -50,8 +78,8 @@ sw_status sw_cells_make(void **room, size_t *capacity, size_t most, double width
 void sw_cells_put(sw_cells *g, const double *x, uint32_t body, size_t node, size_t end) {
   sw_thing *t = &g->things[g->count++];
   *t = (sw_thing){.node = (uint32_t)node, .end = (uint32_t)end, .body = body};
-  t->at = sw_cell_of(g->width, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
-  uint32_t *head = &g->head[sw_cell_bucket(t->at, g->size)];
+  t->at = cell_of(g->width, sw_lerp(sw_vec_at(x, node), sw_vec_at(x, end), 0.5));
+  uint32_t *head = &g->head[bucket(t->at, g->size)];
   t->next = *head;
   *head = (uint32_t)g->count;
 }
@@ -82,10 +110,10 @@ sw_status sw_cells_fill(sw_mutual *m, const sw_system *s, double reach, int poin
 }
 
 sw_status sw_cells_around(const sw_cells *g, const sw_thing *t, sw_cells_visit meets, void *user) {
-  for (int d = 0; d < SW_CELL_NEIGHBOURS; d++) {
-    const sw_cell at = sw_cell_beside(t->at, d);
-    for (uint32_t m = g->head[sw_cell_bucket(at, g->size)]; m; m = g->things[m - 1].next)
-      if (sw_cell_same(g->things[m - 1].at, at)) SW_TRY(meets(user, t, &g->things[m - 1]));
+  for (int d = 0; d < NEIGHBOURS; d++) {
+    const sw_grid_cell at = beside(t->at, d);
+    for (uint32_t m = g->head[bucket(at, g->size)]; m; m = g->things[m - 1].next)
+      if (is_same(g->things[m - 1].at, at)) SW_TRY(meets(user, t, &g->things[m - 1]));
   }
   return SW_OK;
 }

@@ -179,7 +179,7 @@ sw_presses sw_contact_presses(const sw_contact *c) {
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
 
-/* The first touch of a node that is not before this one: they are in the order of nodes. */
+/* The first touch at or after this node: touches are in the order of nodes. */
 static size_t first_touch(const sw_contact *c, size_t node) {
   size_t i;
   SW_FIRST_NOT(c->touches[i].node < node, i, 0, c->touch_count);
@@ -231,7 +231,7 @@ double sw_contact_fastest(const sw_contact *c) {
   return fastest;
 }
 
-/* Is something still deeper inside than its force explains? */
+/* Is anything deeper inside than its force explains? */
 static int emerges(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++)
     if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;

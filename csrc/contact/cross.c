@@ -7,8 +7,7 @@
 #include "base/halving.h"
 #include "contact/touch.h"
 
-/* A segment that moves less than this share of its skin cannot get through
- * anything unseen [-]. */
+/* A segment that moves by less than this share of its skin cannot pass anything [-]. */
 static const double SAFE_SHIFT = 0.5;
 
 static int has_barrier(const sw_contact *c, const sw_barrier *new, size_t *looks) {
@@ -87,7 +86,7 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
   return 1;
 }
 
-/* How a part of a candidate from place to place crosses its obstacle, as if straight. */
+/* How a part of a candidate crosses its obstacle between two places, taken as straight. */
 typedef struct crossing {
   sw_closest hit;
   double when; /* share of the step [-] */
@@ -109,8 +108,8 @@ static int cross_part(const sw_contact *c, const sw_system *s, const sw_candidat
   return 1;
 }
 
-/* All that an obstacle may pass in the step, world. One that turns far goes through no straight way
- * between its places, as the swept test takes it. */
+/* The obstacle's bounds over the step, world. The swept test takes straight ways; a large turn has
+ * none. */
 static sw_bounds passed(const sw_contact *c, size_t o) {
   if (!c->broad.moves[o]) return c->bounds[o];
   const sw_bounds own = sw_shape_bounds(c->obstacles[o].shape);
@@ -130,7 +129,7 @@ static void widen(sw_bounds *b, sw_vec p) {
                 p.z > b->max.z ? p.z : b->max.z);
 }
 
-/* No way of the candidate's part of the wire, and of the smooth curve there, meets the obstacle. */
+/* The candidate's part of the wire and its smooth curve stay clear of the obstacle. */
 static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                       const double *x1) {
   const sw_body *b = &s->bodies[k->body];
@@ -148,8 +147,8 @@ static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidat
          way.max.y < box.min.y || way.min.z > box.max.z || way.max.z < box.min.z;
 }
 
-/* Of the two halves of the smooth curve's piece, what crosses first counts: a barrier holds it.
- * What goes round a peg would cut into that by such halves, and not by its edges. */
+/* The first crossing of the two halves of the curve's piece counts: a barrier holds it. A wire
+ * round a peg would cut in with such halves, but not with its edges. */
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
   crossing one, two;
   if ((k->smooth || c->broad.moves[k->obstacle]) && stays_away(c, s, k, x1)) return 0;

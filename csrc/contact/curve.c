@@ -6,14 +6,15 @@
 #include "contact/round.h"
 
 static const double QUARTER = 0.25;
-/* Lines closer to parallel than this have no foot, and nodes meet edges up to that, for they know
- * another tangent than the curve and no place may be left to neither [-]: squared sines. */
+/* Lines closer to parallel than this have no foot, and nodes meet edges up to that angle. The two
+ * limits overlap because a node's tangent differs from the curve's: no place is left out. Squared
+ * sines [-]. */
 static const double PARALLEL = 0.005, NEARLY = 0.02;
 enum { MOST_TURNS = 6 };                 /* of the search for the foot [-] */
 static const double SHARP_ENOUGH = 1e-9; /* of an edge [-] */
 static const double NO_LENGTH = 1e-6;    /* of an edge, squared [-] */
 
-/* A place of the curve and what its derivatives by u are there [m]. */
+/* A place on the curve with its derivatives by u there [m]. */
 typedef struct spot {
   sw_vec x, along, bend;
 } spot;
@@ -58,12 +59,12 @@ int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate
   const double one = out->starts ? 0 : off_middle(out->p[0], out->p[1], out->p[2]);
   const double two = out->ends ? 0 : off_middle(out->p[1], out->p[2], out->p[3]);
   out->bulge = sqrt(fmax(one, two)) / 8.0;
-  /* it is also looked at before its first node and behind its last one */
+  /* the search also covers the ends beyond its first and last node */
   const double beyond = QUARTER * sw_dist(out->p[1], out->p[2]);
   return sw_shape_meets(shape, out->p[1], out->p[2], reach + out->bulge + beyond);
 }
 
-/* Move a place to the curve's foot over its edge or corner. 0: it has none nearby. */
+/* Move a place to the curve's foot over its edge or corner. 0: no foot nearby. */
 static int find_foot(const sw_piece *c, sw_place *place, double low, double high) {
   double u = place->near.at;
   const sw_vec q = place->near.point, e = place->edge;
@@ -103,7 +104,7 @@ int sw_contact_goes_across(sw_vec along, sw_vec edge) {
   return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
 }
 
-/* Nodes meet faces, edges that the wire lies along and, at its ends, all. */
+/* Nodes meet faces, edges along the wire and, at the wire's ends, everything. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near) {
   const sw_body *b = &s->bodies[k->body];

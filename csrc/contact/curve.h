@@ -9,8 +9,8 @@
  * one. */
 typedef struct sw_piece {
   sw_vec p[4];      /* [m] */
-  int starts, ends; /* 1: the wire does so at p[1] or p[2] */
-  double bulge;     /* the curve stands off the nodes by so much, at most [m] */
+  int starts, ends; /* 1: the wire ends at p[1] or p[2] */
+  double bulge;     /* largest distance of the curve from the nodes [m] */
   const sw_shape *shape;
   double firm; /* as the candidate's [-] */
 } sw_piece;
@@ -21,10 +21,10 @@ typedef struct sw_place {
   sw_sharp sharp;
   sw_vec edge;  /* along it, or 0 [-] */
   sw_vec along; /* the curve there [-] */
-  sw_vec wire;  /* of one that is not sharp: where the wire is, likewise [m] */
+  sw_vec wire;  /* of a place without an edge: where the wire is, likewise [m] */
 } sw_place;
 
-/* Of a segment: those of its curve that are nearest, or all of its chord or of its samples. */
+/* Of a segment: the nearest places on its curve, or all on its chord, or its samples. */
 enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };
 typedef struct sw_places {
   size_t count;
@@ -32,12 +32,12 @@ typedef struct sw_places {
 } sw_places;
 _Static_assert(SW_PLACES_MOST + SW_CLOSEST_MAX <= SW_SAMPLES_MOST, "room for those of a chord");
 
-/* Where the candidate's wire is less than reach from its obstacle, with the system's nodes at x and
- * obstacles where `at` says: first along its smooth curve, sharp ones, then elsewhere [m]. */
+/* Places where the candidate's wire is within reach of its obstacle, with nodes at x and obstacles
+ * at `at`: first on edges and corners along its smooth curve, then elsewhere [m]. */
 void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_contact_at *at, const double *x, double reach, sw_places *list);
 
-/* A segment's piece with the system's nodes at x. 0: no edge or corner is less than reach away. */
+/* The curve's piece of a segment with nodes at x. 0: no edge or corner within reach. */
 int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_contact_at *at, const double *x, double reach, sw_piece *out);
 /* Its places less than reach away [m]. */
@@ -45,20 +45,20 @@ void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piec
                        double reach, sw_places *list);
 /* Where the piece's curve is, and its derivative by u [m]. */
 sw_vec sw_contact_curve(const sw_piece *piece, double u, sw_vec *along);
-/* A place on an edge or corner goes on to where it is on the piece. 0: it has none nearby. */
+/* Move a known place on an edge or corner to the piece. 0: no place nearby. */
 int sw_contact_follow(const sw_piece *piece, sw_place *place);
-/* 1: a node's nearest place is on an edge across the wire, which the segments meet. */
+/* 1: the node's nearest place is on an edge across the wire: its segments meet that. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near);
-/* Is a wire's direction across an edge's, not nearly along it? */
+/* Is the wire's direction across the edge, not along it? */
 int sw_contact_goes_across(sw_vec along, sw_vec edge);
 /* The place of a touch. */
 sw_place sw_contact_place_of(const sw_contact *c, const sw_touch *t);
-/* A place's normal in the world, that of a touch that has had this normal force for a while [N]: it
- * leans (contact/lean.h). */
+/* Normal of a place in the world, for a touch with this steady normal force [N]: it leans
+ * (contact/lean.h). */
 sw_vec sw_contact_leaning(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_place *place, double steady);
-/* The normal force that a touch has had for a while, after a step of h [N]. */
+/* The steady normal force of a touch after a step of h [N]. */
 double sw_contact_steady_force(const sw_system *s, const sw_touch *t, double h);
 
 #endif

@@ -6,18 +6,18 @@
 #include "contact/joined.h"
 #include "contact/meet.h"
 
-/* Two things that may touch, each a particle or a wire's node, or an edge of an object's surface or
- * a wire's segment. A point comes first. */
+/* A pair that may touch. Each is a particle, a wire's node, an edge of a surface or a wire's
+ * segment; a point comes first. */
 typedef struct sw_grain_pair {
   sw_ends of;
   double reach;  /* sum of the radii [m] */
   double usual;  /* stiffness of a new touch [N/m] */
   int held;      /* all nodes are: no force */
-  uint32_t last; /* number + 1 of its touch in the iterate before, or 0 */
+  uint32_t last; /* its touch in the iterate before: number + 1, or 0 */
 } sw_grain_pair;
 
 typedef struct sw_grains {
-  sw_mutual m;          /* first of all: a pointer to it is one to this */
+  sw_mutual m;          /* first member: a pointer to it points to this struct too */
   sw_joined *joined;    /* (bodies) of objects that touch themselves */
   sw_grain_pair *pairs; /* (m.pair_count) of this step, in order */
   size_t pair_capacity;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Objects of particles as what touches each other, and wires. */
+/* Contact of objects of particles, with each other and with wires. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -9,7 +9,7 @@
 
 static int is_loose(const sw_body *b) { return b->plan->web && !b->plan->web->per_ring; }
 
-/* Rules of two objects of particles, or of one and a wire that is a line. */
+/* Rules for two objects of particles, or for one and a wire that is a line. */
 static int take_rules(sw_mutual *m, const sw_system *s) {
   int any = 0;
   for (size_t i = 0; i < m->bodies; i++)
@@ -32,8 +32,8 @@ static void free_own(sw_mutual *m) {
 
 /* --- review ---------------------------------------------------------------------------- */
 
-/* How far nodes go astray of their free way in the step, which is all that was reckoned with [m].
- */
+/* Largest distance of a node from its free flight in the step; the search allowed for free flight
+ * only [m]. */
 static double stray(const sw_system *s, const double *x1, double h) {
   double most = 0;
   for (size_t i = 0; i < s->nodes; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What may touch in a step: particles, and particles and segments, that are near each other. */
+/* Pairs that may touch in a step: two particles, or a particle and a segment, near each other. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,18 +23,18 @@ static double stiffness_at(const sw_grains *g, const sw_system *s, uint32_t body
   return g->m.regime == SW_CONTACT_EXPLICIT ? own : fmax(own, sw_contact_hardness(p->web, i));
 }
 
-/* More than this near each other are of particles much closer than they should be [-]. */
+/* More pairs than this: particles lie much closer than they should [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-/* Which of two things is looked at, as what: a particle with all; a wire's node and edges of
- * surfaces; edges with each other and with segments. What is left out these do for it. */
+/* Which pairs are looked at: a particle with everything; a wire's node with edges of surfaces;
+ * edges with each other and with segments. These cover the rest. */
 static int counts(const sw_system *s, const sw_thing *t, const sw_thing *u) {
   const int points = (t->node == t->end) + (u->node == u->end);
   const int wires = !s->bodies[t->body].plan->web + !s->bodies[u->body].plan->web;
   return points == 2 ? wires == 0 : wires < 2;
 }
 
-/* Are they parts of one object that hang together? */
+/* Are they connected parts of one object? */
 static int is_one(const sw_grains *g, const sw_system *s, const sw_ends *e) {
   const uint32_t first = (uint32_t)s->bodies[e->body[0]].first_node;
   const uint32_t one[2] = {e->node[0], e->end[0]}, two[2] = {e->node[1], e->end[1]};
@@ -76,7 +76,7 @@ typedef struct search {
   const sw_system *s;
 } search;
 
-/* Points look for edges, of two alike the first one looks. */
+/* Points look for edges; of two alike the first one looks. */
 static sw_status meets(void *user, const sw_thing *t, const sw_thing *u) {
   const search *all = user;
   const int point = t->node == t->end, other = u->node == u->end;

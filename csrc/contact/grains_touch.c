@@ -14,7 +14,7 @@ static size_t first_memory(const sw_mutual *m, const sw_ends *e) {
   return i;
 }
 
-/* Of the same two; of a place on a wire the nearest one, up to a segment away. */
+/* Memory of the same pair; for a place on a wire the nearest memory, up to one segment away. */
 static const sw_met *recall(const sw_mutual *m, const sw_system *s, const sw_ends *e,
                             const double at[2]) {
   const int wire = e->node[1] != e->end[1] && !s->bodies[e->body[1]].plan->web;
@@ -64,7 +64,7 @@ static sw_rods rods_of(const double *x, const sw_ends *e) {
                    {sw_vec_at(x, e->node[1]), sw_vec_at(x, e->end[1])}};
 }
 
-/* Do they get through each other on the straight way from x0 to y? 1 with the place and the
+/* Do they pass through each other on the straight way from x0 to y? 1 with the place and the
  * direction just before. */
 static int passes(const double *x0, const double *y, const sw_grain_pair *k, double at[2],
                   sw_vec *normal) {
@@ -76,7 +76,7 @@ static int passes(const double *x0, const double *y, const sw_grain_pair *k, dou
   return 1;
 }
 
-/* Edges that part by less than this touch along their length: points do that [-]. */
+/* Edges closer to parallel than this touch along their length: their points see to that [-]. */
 static const double PARALLEL = 1e-3;
 
 static int crosses(const double *y, const sw_ends *k, double at[2]) {
@@ -94,9 +94,9 @@ static double along(const double *x, uint32_t point, uint32_t from, uint32_t to)
   return uu > 0 ? sw_dot(u, sw_sub(sw_vec_at(x, point), sw_vec_at(x, from))) / uu : 0.0;
 }
 
-/* Where the two touch; 0: that is for others to say. Edges cross within both. A point has its place
- * within an edge; a particle on a wire's segment at its first node too where the one before does
- * not reach, and beyond the wire's end. */
+/* The place of touch; 0: another pair has it. Edges cross within both. A point's place is within
+ * the edge. On a wire's segment it may also be the first node, if the segment before does not reach
+ * it, or the wire's end. */
 static int owns(const sw_system *s, const double *y, const sw_ends *k, double at[2]) {
   const sw_body *b = &s->bodies[k->body[1]];
   const uint32_t point = k->node[0], from = k->node[1], to = k->end[1];

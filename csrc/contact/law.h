@@ -21,7 +21,7 @@ typedef struct sw_press {
   double lag_before, force_before; /* both, one iterate earlier; 0 = not known [N] */
   sw_vec normal;                   /* of the push [-] */
   sw_vec carried; /* how far the anchor slid in the step until this stage began, by its rule [m] */
-  sw_vec pulls;   /* friction that the iterate begins with, over what it can be, against it [-] */
+  sw_vec pulls;   /* share of its limit that friction has at the iterate's start, against it [-] */
   sw_vec trial;   /* tangential displacement from that anchor at this iterate [m] */
   sw_vec ahead;   /* statics: how far from that its friction is linearised, along the surface [m] */
   sw_vec tangential; /* friction force after the last solve [N] */
@@ -31,12 +31,12 @@ typedef struct sw_press {
   int alternations;  /* of normal_force - lag until the last iterate [-] */
   int by_place;      /* 1: friction's direction is that of the place, no unknown of its own */
   int reversals;     /* then: of the slide in this stage, or where a static solve is dragged [-] */
-  double off;        /* friction that the last solve reckoned with, less that of the law [N] */
+  double off;        /* friction of the last solve less that of the law [N] */
   int active;        /* pushes in this iterate */
   int let_go;        /* 1: not active in the next iterate, whatever its gap */
   int take_on;       /* 1: active in the next iterate, whatever its gap */
   int opened;        /* it pushed, until its solution */
-  double lift;       /* then: the force that takes its pull away [N] */
+  double lift;       /* then: the force that cancels its pull [N] */
   int spare;         /* so often it stays active though the last solve pulled [-] */
   int sliding;       /* assumed in this iterate */
   int next_sliding;  /* as the last solve found it */
@@ -47,80 +47,77 @@ static inline double sw_press_grip(const sw_press *p) {
   return p->soft > 0 ? p->k / p->soft : p->k;
 }
 
-/* What a touch keeps of all that from step to step, whatever touches. */
+/* The memory of a touch between steps, the same for all kinds. */
 typedef struct sw_kept {
   double normal_force; /* 0: near, but without force [N] */
   double depth;        /* that goes with it [m] */
   double k;            /* to begin the next step with [N/m] */
-  double steady;       /* normal force that it has had for a while; so far, that at the end [N] */
-  double soft;         /* as above [-] */
-  sw_vec elastic;      /* displacement of friction's spring [m] */
+  double steady;  /* mean normal force of the last steps; when just kept, that at the end [N] */
+  double soft;    /* as above [-] */
+  sw_vec elastic; /* displacement of friction's spring [m] */
   int sliding;
 } sw_kept;
 
-/* At a step's end. usual: of a new touch, stiffer: from the next iterate on [N/m]. It goes on as
- * stiff as it was, for a change would be a kick, but one that was made stiffer than it has to be
- * gives way slowly. */
+/* At a step's end. usual: stiffness of a new touch, stiffer: from the next iterate on [N/m]. A
+ * touch keeps its stiffness, because a change would be a kick; needless stiffness goes away slowly.
+ */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer);
-/* The other way round, as the force was over its depth: for what looks at an accepted state. */
+/* The other way round, with stiffness = force over depth: for a look at an accepted state. */
 void sw_kept_as_felt(sw_kept *kept);
 sw_press sw_press_felt(const sw_kept *kept);
 
-/* A touch that pushed after the last solve goes on in this iterate even if turning normals
- * have opened its gap a little: letting go of it would let the wires fall into each other.
- * The next solve tells. Nor does the first pull end a touch with spare ones. last: the same touch
- * in the iterate before, or NULL. */
+/* A touch that pushed after the last solve stays active in this iterate, even if turning normals
+ * have opened its gap a little. Else the wires would fall into each other. The next solve decides.
+ * Nor does the first pull end a touch with spare ones. last: the same touch in the iterate before,
+ * or NULL. */
 void sw_press_activate(sw_press *press, const sw_press *last);
 
-/* The normal force for friction to take as given, and whether it slides, by what is known: kept, at
- * the last accepted step, NULL if it did not press; last, in the iterate before, or NULL, which
- * counts when the touch goes on; else guess [N]. Taking just the last iterate's force may go to and
- * fro for ever, more at each turn where friction presses the touch: then by the secant through the
- * last two. */
+/* Sets the normal force that friction takes as given, and whether the touch slides. Sources: last,
+ * the iterate before, or NULL, used if goes_on; kept, the last accepted step, NULL if it did not
+ * press; else guess [N]. The last iterate's force alone may alternate for ever, and grow where
+ * friction presses the touch: then a secant through the last two is used. */
 void sw_press_resume(sw_press *press, const sw_kept *kept, const sw_press *last, int goes_on,
                      double guess);
 
-/* Friction begins at an iterate: k, lag and trial are set. known: 1 = it slides as sliding
- * says, 0 = find out. A predicted place says little about sticking, as a spring this stiff
- * calls every prediction a slide; but one stretched far beyond its limit does slide, were it
- * not stiffer than felt [N/m]. */
+/* Friction begins at an iterate: k, lag and trial are set. known: 1 = `sliding` holds, 0 = find
+ * out. With a stiff spring every prediction looks like a slide, so a prediction says little about
+ * sticking. A spring far beyond its limit does slide, were it no stiffer than felt [N/m]. */
 void sw_press_begin(sw_press *press, double friction, int known, double felt);
 
-/* A stage that begins from x0 + first (x1 - x0), where x1 is what the step's first stage led to,
- * begins from what the anchor slid in that stage just so: friction is against the speed at the
- * stage's end then, not against the way since the step's start, which would push a slide that stops
- * to and fro for ever. u: displacement from the anchor at the step's start [m]. last: the touch in
- * the iterate before, or NULL; same: that was of this stage. */
+/* Sets the friction spring of a stage that begins at x0 + first (x1 - x0), where x1 is the result
+ * of the step's first stage. The anchor begins with the same share of that stage's slip. So
+ * friction opposes the speed at the stage's end; if it opposed the way since the step's start, a
+ * slide that stops would alternate for ever. u: displacement from the anchor at the step's start
+ * [m]. last: the touch in the iterate before, or NULL; same: last is of this stage. */
 void sw_press_aim(sw_press *press, sw_vec u, const sw_press *last, int same, double first);
 
-/* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 =
- * explicit methods, which take all from this iterate. */
+/* Forces at this iterate. Returns the force, and its stiffness (upper half). lagged: 0 = explicit
+ * methods, where friction uses this iterate's normal force. */
 sw_vec sw_press_eval(sw_press *press, double friction, int lagged, double K[6]);
 
 /* Does it push and slide in this iterate? */
 int sw_press_slides(const sw_press *press, double friction);
 
-/* Friction of a sliding touch follows its normal force within the linearisation of an iterate. 1:
- * after an update by shift that is another one than it took as given, by more than what does not
- * keep an iteration going. force_scale: see below [N]. */
+/* Within an iterate's linearisation friction of a sliding touch follows its normal force. 1: after
+ * an update by shift the normal force differs from the one that friction used, by more than the
+ * tolerance of the iteration. force_scale: see below [N]. */
 int sw_press_lags(const sw_press *press, double friction, sw_vec shift, double force_scale);
-/* It then takes that one as given. Returns by how much that changes the force on the wire [N]. */
+/* Friction uses the new normal force. Returns the change of the force on the wire [N]. */
 sw_vec sw_press_follow(sw_press *press, double friction, sw_vec shift);
-/* The same in two parts: the normal force after an update by shift [N], and one that friction takes
- * as given instead. */
+/* The same in two parts: the normal force after an update by shift [N], and friction that uses a
+ * given one instead. */
 double sw_press_push(const sw_press *press, sw_vec shift);
 sw_vec sw_press_assume(sw_press *press, double friction, double force);
-/* Or the one of the iterate's first solve again, likewise. */
+/* Or friction uses that of the iterate's first solve again, likewise. */
 sw_vec sw_press_unfollow(sw_press *press, double friction);
-/* How far the normal force after an update is from the one that friction took as given [N]. */
+/* Difference of the normal force after an update and the one that friction used [N]. */
 double sw_press_off(const sw_press *press, double friction, sw_vec shift);
-/* Would the normal force pull after an update by shift? A touch that does is opened: it has no
- * force any more. */
+/* Would the touch pull after an update by shift? Then it opens and has no force. */
 int sw_press_pulls(const sw_press *press, sw_vec shift);
 /* Would the wire be inside after an update by shift? */
 int sw_press_sinks(const sw_press *press, sw_vec shift);
-/* Would the wire go through where nothing pushes after an update by shift? Such a touch is closed:
- * it has been moving freely and slides, with friction for the normal force to come. */
+/* Would the wire pass an inactive touch in an update by shift? Then the touch closes. It has moved
+ * freely, so it slides, with friction of the normal force to come. */
 int sw_press_closes(const sw_press *press, sw_vec shift);
 void sw_press_close(sw_press *press);
 /* Opened, does it stay open after an update by shift, with nothing left of its friction? */
@@ -129,49 +126,49 @@ int sw_press_opens(const sw_press *press, sw_vec shift, double force_scale);
 /* Does it touch as near as a script may place it? */
 int sw_press_lies(const sw_press *press);
 
-/* Is a depth where nothing touched before one that no touch gets into by itself? Then it was placed
- * there. first: nothing at all touched before. */
+/* No touch gets this deep by itself within a step: was it placed there? Nothing touched there
+ * before; first: nothing touched anywhere. */
 int sw_press_was_put(double depth, int first);
 
-/* Of a depth at the step's start, when the touch was last what is kept, or NULL. What was placed in
- * each other, or comes out of a barrier, is let out slowly, for within one step the whole depth
- * would turn into speed. */
+/* Splits a depth at the step's start. kept: memory of the touch, or NULL. Wires that were placed in
+ * each other, or that leave a barrier, come out slowly: within one step the depth would turn into
+ * speed. */
 typedef struct sw_left {
   double forgiven; /* the step leaves this alone [m] */
-  double let_out;  /* nothing explains this and the step ends it: 0 where it is no more than a gap's
-                      rounding, as of a wire that is laid on a table [m] */
+  double let_out;  /* unexplained depth that the step ends; 0 if it is only rounding, as of a wire
+                      laid on a table [m] */
 } sw_left;
 sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly);
 
-/* Forces after an update that shifted the touch; 1 = they agree with what the solve
- * assumed. force_scale: of the scene, forces far below which do not matter [N]. */
+/* Forces after an update that shifted the touch; 1 = they agree with the solve's assumptions.
+ * force_scale: of the scene; much smaller forces do not matter [N]. */
 int sw_press_update(sw_press *press, double friction, sw_vec shift, double force_scale);
 
-/* Friction of some touches after an update: how far off it is in all, and what it can be [N]. Many
- * touches may never agree one by one. 1: all of it is off by no more than that of one may be. */
+/* Friction of several touches after an update: its total error, and its total limit [N]. Many
+ * touches may never agree one by one. 1: the total error is within the tolerance of one touch. */
 typedef struct sw_rubbing {
   double off, most;
 } sw_rubbing;
 void sw_press_weigh(const sw_press *press, double friction, sw_rubbing *sum);
 int sw_press_enough(const sw_rubbing *sum);
-/* After so many updates of a stage that is what counts [-]. */
+/* The sum counts after this many updates of a stage [-]. */
 enum { SW_PATIENCE = 6 };
 
-/* Force on the wire that the last solve reckoned with, which is what moved it: it may differ from
- * that of the law by what does not keep an iteration going [N]. */
+/* Force on the wire in the last solve, which moved the wire. It differs from the law's force by no
+ * more than the tolerance of the iteration [N]. */
 sw_vec sw_press_borne(const sw_press *press, double friction);
 
-/* Does the last update leave the gap open where nothing pushed, and closed where it did? */
+/* After the last update, is the gap open where nothing pushed, and closed where a touch did? */
 int sw_press_apart(const sw_press *press);
 
-/* Is a step so short beside the nominal one that inertia alone keeps a depth where it was? Not in
- * statics: with short pseudo steps a scene would come to rest that deep, and the first step after
- * it turn the depth into speed. */
+/* Is a step so short beside the nominal one that inertia alone keeps a depth? Not in statics: short
+ * pseudo steps would leave the depth in the scene, and the first dynamic step would turn it into
+ * speed. */
 int sw_press_is_short(int statics, double h, double nominal);
 
-/* A touch that sinks in too deep gets stiffer: its stiffness from the next iterate on, or the
- * one it has [N/m]. usual: of a new touch. before: how deep the wire was at the step's start in
- * a short step, else negative [m]. forgiven: see above. */
+/* Stiffness from the next iterate on: higher for a touch that is too deep, else as it is [N/m].
+ * usual: of a new touch. before: depth at the step's start in a short step, else negative [m].
+ * forgiven: see above. */
 double sw_press_stiffer(const sw_press *press, double usual, double forgiven, double before);
 
 #endif

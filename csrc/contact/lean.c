@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-/* How much the tension keeps an edge from bending, and the most that a touch leans [-]. */
+/* Effect of the tension against an edge's bending, and the largest lean of a touch [-]. */
 static const double TAUT = 0.27, MOST_LEAN = 0.1;
-/* What bends between nodes follows the force after so many of its own times [-]. */
+/* Bending between nodes follows the force after this many of its own periods [-]. */
 static const double SLOWLY = 4.0;
 
 double sw_lean_of(const sw_system *s, const sw_body *b, double place, double force) {

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a wire bends between two nodes under a push is not in its smooth curve: it bends deeper in
- * the middle between them, and would be held there if a touch did not lean a little along it. */
+/* Under a push a wire bends deeper in the middle between two nodes, which its smooth curve does not
+ * show. That would hold it there, so a touch leans a little along the wire. */
 #ifndef SW_CONTACT_LEAN_H
 #define SW_CONTACT_LEAN_H
 
 #include "system/system.h"
 
-/* How much a push on a body leans along it, so many edges from its first node, where the force has
- * been this for a while [-], [N]. */
+/* Lean of a push along a body, this many edges from its first node, under this steady force [-],
+ * [N]. */
 double sw_lean_of(const sw_system *s, const sw_body *b, double place, double force);
 
-/* The force that it has been for a while, after a step of h [s]: steady before, now force [N]. */
+/* The steady force after a step of h [s]: steady before, force now [N]. */
 double sw_lean_steady(const sw_body *b, size_t edge, double steady, double force, double h);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A place of what has nodes, as a mean of some: of a wire's chord or smooth curve, of an edge
- * between particles, or one node alone. */
+/* A place on a body as a mean of nodes: on a wire's chord or smooth curve, on an edge between
+ * particles, or at a node. */
 #ifndef SW_CONTACT_MEAN_H
 #define SW_CONTACT_MEAN_H
 
@@ -41,7 +41,7 @@ static inline sw_mean sw_mean_curve(size_t first, size_t last, double s) {
   return sw_mean_around(first + (size_t)centre - 1, s - centre + 0.5);
 }
 
-/* The same mean of what nodes have (n x 3), the first of which has this number. */
+/* The mean in an array of nodes (n x 3); first: number of the array's first node. */
 static inline sw_vec sw_mean_of(const double *x, size_t first, const sw_mean *spot) {
   const sw_vec one = sw_vec_at(x, spot->node[0] - first);
   if (spot->count == 1) return one;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A place where two things meet: what it remembers, and whether it agrees with a solve. */
+/* A touch of two bodies: its memory, and whether it agrees with a solve. */
 #include "contact/meet.h"
 
 #include <math.h>
@@ -10,13 +10,13 @@
 
 /* --- one touch ------------------------------------------------------------------- */
 
-/* A tangential vector that went with normal from, taken along to normal to. */
+/* A tangential vector at normal from, carried to normal to. */
 static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
   const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
   return sw_madd(v, sw_add(from, to), -share);
 }
 
-/* How much of a place moves with nodes that nothing holds; *held: where it is held [-], [m]. */
+/* Share of a place that moves with free nodes; *held: the place of its held part [-], [m]. */
 static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec *held) {
   const sw_body *b = &s->bodies[t->of.body[side]];
   const uint32_t node = t->of.node[side], other = t->of.end[side];
@@ -28,16 +28,15 @@ static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec 
   return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
 }
 
-/* Where things are held side by side, their axes nearer than their radii, no force takes them
- * apart: what that leaves of depth beside the holds [m]. */
+/* Depth that holds impose: no force can part wires that are held closer than their radii [m]. */
 static double imposed(const sw_system *s, const sw_meet *t) {
   sw_vec a, b;
   const double one = free_share(s, t, 0, &a), share = fmax(one, free_share(s, t, 1, &b));
   return share < 1.0 ? (1.0 - share) * fmax(0.0, t->reach - sw_dist(a, b)) : 0.0;
 }
 
-/* What was placed in each other is let out slowly: within one step its way would turn into speed.
- */
+/* Wires that were placed in each other come out slowly: within one step the depth would turn into
+ * speed. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
   if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
   const double always = imposed(s, t);
@@ -58,16 +57,16 @@ static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *m
   return met && met->kept.normal_force > 0 ? met->kept.k : t->usual;
 }
 
-/* Where wires along each other pressed at the step's start they do so in the first iterate, unless
- * the prediction opens them by more: a depth far below what they move in a step says nothing of
- * whether they part. Crossings of a tight knot wander along both segments, and do not settle so. Of
- * the radii's sum [-]. */
+/* Wires along each other that pressed at the step's start press in the first iterate too, unless
+ * the prediction opens them by more than this. The depth is far below their motion in a step, so a
+ * prediction cannot tell whether they part. Crossings of a tight knot slide along both segments and
+ * would not settle. Of the sum of radii [-]. */
 static const double STILL_NEAR = 0.02;
 
-/* A force that turns with its normal is a stiffness below zero. From a predicted place, as deep as
- * a wire has flown in the step, it would be thousands of weights, and throw wires about: it is left
- * out until the last update shifted the touch by no more than this share of the radii [-]. What was
- * placed in each other, or is held so, is as deep as it looks; crossings of a knot wander. */
+/* A force that turns with its normal has negative stiffness. At a predicted place, as deep as a
+ * wire has flown in the step, it would be thousands of weights. So it is left out until the last
+ * update shifted the touch by at most this share of the radii [-]. Depth by placing or by holds is
+ * real; crossings of a knot slide. */
 static const double NEAR_SHIFT = 0.02;
 static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int pressed) {
   if (m->regime != SW_CONTACT_IMPLICIT || t->kind == SW_CROSSING || t->forgiven > 0) return 0;
@@ -75,9 +74,9 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
   return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
 }
 
-/* Of a touch that nothing is known of: by its depth, unless that is one of the prediction, which
- * would be thousands of weights. Friction then begins with nothing: with what would stop the
- * lighter wire there it pushes wires of a bundle about that only fall on each other [N]. */
+/* Normal force of a touch without a past: from its depth, but zero for a predicted depth, which
+ * would give thousands of weights. Friction then starts at zero. Enough friction to stop the
+ * lighter wire would push wires of a bundle about that only fall on each other [N]. */
 static double first_force(const sw_mutual *m, const sw_meet *t) {
   const int flown =
       m->regime == SW_CONTACT_IMPLICIT && !(t->forgiven > 0) && t->kind != SW_CROSSING;
@@ -125,8 +124,8 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   m->touch_count++;
 }
 
-/* Axes further apart than this have not just passed each other: in a knot, normals turn by
- * more than a right angle within two segments. Of the radii's sum [-]. */
+/* Axes further apart than this did not pass each other in this iteration; in a knot normals turn by
+ * more than a right angle within two segments. Of the sum of radii [-]. */
 static const double PASSED = 0.5;
 
 void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *distance) {
@@ -136,7 +135,7 @@ void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *dista
 
 /* --- after a solve ---------------------------------------------------------------- */
 
-/* Make touches that sink in too deep stiffer; 1 = there were some. */
+/* Stiffen touches that are too deep; 1 = some were. */
 static int stiffen(sw_mutual *m, const sw_system *s) {
   const int small = sw_press_is_short(m->regime == SW_CONTACT_STATIC, m->h, m->nominal);
   int any = 0;
@@ -150,8 +149,8 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   return any;
 }
 
-/* Of a body's touches, forces far below the largest one do not matter; of two bodies, what
- * does not matter to either. */
+/* Force scales. For a body, forces far below its largest touch do not matter; for two bodies, the
+ * smaller scale counts. */
 static void find_scales(sw_mutual *m) {
   for (size_t b = 0; b < m->bodies; b++) m->largest[b] = 0;
   for (size_t i = 0; i < m->touch_count; i++)
@@ -179,7 +178,7 @@ static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, doubl
   return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
 }
 
-/* Is what friction is off by little for each body? */
+/* Is the total error of friction small for each body? */
 static int rubs_enough(const sw_mutual *m) {
   if (m->regime != SW_CONTACT_IMPLICIT || m->updates <= SW_PATIENCE) return 0;
   for (size_t b = 0; b < m->bodies; b++)

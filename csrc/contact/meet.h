@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of contact of things with each other: a place where two of them meet, what is
- * remembered of it, and what all such places have in common. */
+/* Contact of bodies with each other, inside: a touch, its memory, and the functions of a finder of
+ * touches. */
 #ifndef SW_CONTACT_MEET_H
 #define SW_CONTACT_MEET_H
 
@@ -11,14 +11,14 @@
 #include "contact/mutual.h"
 #include "contact/spot.h"
 
-/* Two things that may touch, each a segment or edge from a node to its end, or a point, which is
- * its own end. In the system's arrays. */
+/* Two things that may touch. Each is a segment or edge from node to end, or a point with end =
+ * node. In the system's arrays. */
 typedef struct sw_ends {
   uint32_t node[2], end[2], body[2];
 } sw_ends;
 
-/* Where wires cross they touch at their nearest places; where they lie along each other, nodes of
- * both do at the places nearest to them. Particles meet as what crosses. */
+/* Crossing wires touch at their nearest places, and so do particles. Wires along each other touch
+ * at the nodes of both, at the places nearest to these. */
 typedef enum sw_meet_kind { SW_CROSSING, SW_NODE_OF_ONE, SW_NODE_OF_TWO } sw_meet_kind;
 
 typedef struct sw_meet {
@@ -30,16 +30,16 @@ typedef struct sw_meet {
   sw_bow bow[2];   /* as places that depend on nodes */
   int slides[2];   /* 1: the place there follows the nearest points */
   double firm[2];  /* how firmly it then keeps to the middle of each segment [-] */
-  int far;         /* 1: too far from its last place for its force to be known */
+  int far;         /* 1: too far from its last place for a known force */
   int barred;      /* kept on its side by a barrier */
-  int emerges;     /* they were placed in each other here, and still come out */
+  int emerges;     /* 1: placed in each other, and still coming out */
   double reach;    /* sum of the radii [m] */
   double usual;    /* stiffness of a new touch [N/m] */
   double stiffer;  /* its stiffness from the next iterate on [N/m] */
-  double aslant;   /* what a barrier's fixed normal takes off the distance [m] */
-  double forgiven; /* part of the true depth left out of the gap in this step [m] */
-  double let_out;  /* part of the true depth that nothing explains and this step ends [m] */
-  double steady;   /* normal force that it had had for a while at the step's start [N] */
+  double aslant;   /* distance lost by the fixed normal of a barrier [m] */
+  double forgiven; /* part of the true depth that this step leaves alone [m] */
+  double let_out;  /* unexplained part of the true depth that this step ends [m] */
+  double steady;   /* steady normal force at the step's start [N] */
   sw_vec square;   /* its normal, were it not leaning [-] */
   sw_press press;  /* its normal is towards the first */
 } sw_meet;
@@ -55,7 +55,7 @@ typedef struct sw_met {
   int smooth; /* 1: smooth curves met there */
 } sw_met;
 
-/* What pressed at the end of a stage and may have struck. */
+/* A touch that pressed at the end of a stage and may have struck. */
 typedef struct sw_hit {
   sw_bow bow[2];
   sw_vec normal;
@@ -67,19 +67,19 @@ typedef struct sw_finder {
   const char *name, *too_many; /* of messages */
   sw_status (*make)(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
   void (*free)(sw_mutual *mutual); /* what is its own */
-  /* What was found depends on what came before, which is another thing now. NULL: it does not. */
+  /* The last search is not valid any more: positions changed by hand. NULL: searches are
+   * independent. */
   void (*forget)(sw_mutual *mutual);
   /* Choose those that may touch in the step. */
   sw_status (*choose)(sw_mutual *mutual, sw_system *system);
   /* Find this iterate's touches at positions y. */
   sw_status (*find)(sw_mutual *mutual, const sw_system *system, const double *y);
-  /* Choose among more when some were missed in a step to x1: 1 = it is to be redone, -1 = out of
-   * memory. */
+  /* Choose more pairs if a step to x1 met others: 1 = redo the step, -1 = out of memory. */
   int (*widen)(sw_mutual *mutual, sw_system *system, const double *x1, double h);
-  /* 1 = some would get through each other and are kept on their sides from now on; -1 = they would
-   * although they were: only a smaller step helps. NULL: touches see to that. */
+  /* 1 = some would pass each other; barriers keep them on their sides from now on. -1 = some pass
+   * in spite of barriers: take a smaller step. NULL: touches prevent that. */
   int (*cross)(sw_mutual *mutual, const sw_system *system, const double *x1);
-  /* 1 = a step to x1 leaves some deeper in each other than it may. */
+  /* 1 = a step to x1 makes some deeper than allowed. */
   int (*cuts)(const sw_mutual *mutual, const sw_system *system, const double *x1);
   /* Before touches of a step are remembered. NULL: there is nothing to do. */
   void (*note)(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch, sw_met *out);
@@ -95,13 +95,13 @@ struct sw_mutual {
   double first;            /* share of the step's first stage in what this one begins from [-] */
   int updates;             /* of the stage so far [-] */
   double *base;            /* (bodies) stiffness for the forces of each [N/m] */
-  double *largest;         /* (bodies) normal force that its friction takes as given [N] */
+  double *largest;         /* (bodies) largest normal force that friction uses [N] */
   sw_rubbing *rubbing;     /* (bodies) of each one's touches, after an update */
   double rate2;            /* stiffness per mass [1/s2] */
-  double fall;             /* that gravity closes in the step, with reserve [m] */
-  double least_reserve;    /* gap up to which all are chosen in this step [m] */
+  double fall;             /* fall by gravity in the step, with reserve [m] */
+  double least_reserve;    /* gap up to which all pairs are chosen in this step [m] */
   size_t pair_count;       /* of those chosen */
-  size_t barrier_count;    /* of what keeps some on their sides for the rest of the step */
+  size_t barrier_count;    /* barriers, for the rest of the step */
   sw_meet *touches, *last; /* of this iterate and of the one before, in the order of pairs */
   size_t touch_count, touch_capacity, last_count, last_capacity;
   void *grid; /* work of the search for what is near */
@@ -125,42 +125,41 @@ static inline const sw_pair_rule *sw_mutual_rule(const sw_mutual *m, const uint3
 /* Choose anew what may touch in the step. */
 sw_status sw_mutual_choose(sw_mutual *mutual, sw_system *system);
 
-/* Order of what may touch: below 0 when p comes first. */
+/* Order of pairs: below 0 if p comes first. */
 int sw_ends_order(const sw_ends *p, const sw_ends *q);
 /* 1: all nodes are held. */
 int sw_ends_held(const sw_system *system, const sw_ends *e);
-/* The fastest that nodes of both go against each other [m/s]. */
+/* The largest relative speed of nodes of both [m/s]. */
 double sw_ends_speed(const sw_system *system, const sw_ends *e);
 
-/* A new touch, all zero, that is not in the list yet; or NULL: there is no room. */
+/* A new touch, all zero, not in the list yet; NULL: out of memory. */
 sw_meet *sw_meet_new(sw_mutual *mutual);
-/* It is in the list, with all that its place tells; gap and normal at positions y. met, last: what
- * it was at the step before and in the iterate before, or NULL. */
+/* Put it into the list, with everything that follows from its place; gap and normal at positions y.
+ * met: memory of the last step, last: the iterate before, or NULL. */
 void sw_meet_add(sw_mutual *mutual, const sw_system *system, const double *y, sw_meet *t,
                  double gap, sw_vec normal, const sw_met *met, const sw_meet *last);
-/* Axes that have got through each other within the iteration are told by the remembered normal,
- * which turns theirs and the distance round. */
+/* If axes passed each other within the iteration, the remembered normal tells: it turns the normal
+ * and the sign of the distance. */
 void sw_meet_side(const sw_met *m, double reach, sw_vec *normal, double *distance);
-/* Places nearer than this share of the radii's sum are in the list of touches, so that what begins
- * to touch finds its state of the iterate before [-]. */
+/* Places with a gap below this share of the sum of radii are listed, so that a new touch finds its
+ * state of the iterate before [-]. */
 #define SW_LISTED_GAP 0.25
 
-/* Add a touch's force on the first thing, and its opposite on the second one, at positions y; K
- * (upper half) is its stiffness, NULL = no stiffness wanted. */
+/* Add a touch's force to the first body and its opposite to the second one, at positions y; K
+ * (upper half): stiffness, NULL = not wanted. */
 sw_status sw_meet_push(sw_system *system, const sw_meet *touch, const double *y, sw_vec force,
                        const double *K);
-/* The same of a force on one body alone, at a place of it. */
+/* The same of a force on one body at a place. */
 void sw_meet_push_one(sw_body *body, const sw_mean *at, sw_vec force, const double *K);
 
 /* Nearest points of two segments: places along them, distance returned [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
 
-/* How fast a place is passed through in a step of h, beyond just being reached [m/s]. */
+/* Closing speed of a place in a step of h, beyond the speed that just reaches contact [m/s]. */
 double sw_meet_excess(const sw_system *system, const sw_bow bow[2], double reach, sw_vec normal,
                       double h);
-/* The second derivative of half the squared distance by a place along a wire [m2]: of its slope
- * squared, its bend along the distance, and how firmly it keeps to the middle of its edge [m2],
- * [m2], [-]. */
+/* The second derivative of half the squared distance by the place along a wire [m2]: from its slope
+ * squared [m2], its bend along the distance [m2] and its firmness [-]. */
 double sw_meet_rise(double along2, double bends, double firm);
 
 #endif

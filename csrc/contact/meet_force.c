@@ -44,7 +44,7 @@ static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
     for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
 }
 
-/* The touch of a node does nothing to the other node of its segment. */
+/* A touch at a node has no effect on the other node of the segment. */
 static int takes_part(const blocks *b, const int slides[2], int i) {
   return b->w[i] != 0 || slides[side_of(b, i)];
 }

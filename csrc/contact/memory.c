@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What contact with obstacles keeps between steps, and what is done with that. */
+/* Memory of contact with obstacles between steps. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -8,9 +8,9 @@
 #include "base/alloc.h"
 #include "contact/curve.h"
 
-/* Chords round a peg press more and less from step to step; friction there goes by a mean over some
- * of them. With half as many a wire's swing through a ring (spec/shape/torus_spec) is three times
- * as sensitive to rounding, with one four times; twice as many are no better [-]. */
+/* Chords round a peg press more and less from step to step, so friction uses a mean over some
+ * steps. With half as many, a wire's swing through a ring (spec/shape/torus_spec) is three times as
+ * sensitive to rounding, with one four times; twice as many are no better [-]. */
 static const double MEAN_STEPS = 8.0;
 
 static double steady_force(const sw_contact *c, const sw_system *s, const sw_touch *t) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the contact of things with each other, memory between steps, read-outs. */
+/* Life of contact between bodies: steps, memory, read-outs. */
 #include "contact/mutual.h"
 
 #include <math.h>
@@ -79,7 +79,8 @@ double sw_ends_speed(const sw_system *s, const sw_ends *e) {
 
 /* --- steps ----------------------------------------------------------------------- */
 
-/* What forces a body may press with: its weight; of a wire, that of bending it, its tension. */
+/* Scale of the forces that a body may press with: its weight; for a wire also its bending force and
+ * tension. */
 static double force_of(const sw_system *s, const sw_body *b) {
   const sw_plan *p = b->plan;
   double force = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
@@ -152,10 +153,9 @@ sw_status sw_mutual_eval(sw_mutual *m, sw_system *s, const double *y, unsigned w
 
 /* --- review ------------------------------------------------------------------------- */
 
-/* A step that meets what it did not touch before is redone by implicit Euler: things reach each
- * other within it and go on together, whatever their stiffness, and the integrator never sees the
- * shock that would make it bounce. They do not rebound. How many places strike: once in a step, for
- * the one that does not bounce deals with all of them. */
+/* A step with new touches is redone by implicit Euler. The bodies reach each other within it and go
+ * on together at any stiffness; the integrator sees no shock, and nothing rebounds. Counts the
+ * striking places, once in a step: the redone step deals with all of them. */
 static size_t strikes(const sw_mutual *m, const sw_system *s, double h) {
   size_t count = 0;
   for (size_t i = 0; i < m->hit_count && !m->struck; i++) {
@@ -298,7 +298,7 @@ static int in_order(const void *p, const void *q) {
   return one->at[0] < two->at[0] ? -1 : 1;
 }
 
-/* What two things are now; 0: they are gone. */
+/* Numbers of two things now; 0: they are gone. */
 static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) {
   for (int k = 0; k < 2; k++) {
     const size_t node = new_node[e->node[k]], end = new_node[e->end[k]];
@@ -309,7 +309,7 @@ static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) 
   return 1;
 }
 
-/* What is remembered is what touches, until a step looks: for read-outs. */
+/* For read-outs the memory stands for the touches until a step looks. */
 static sw_status show(sw_mutual *m, const sw_met *met) {
   sw_meet *t = sw_meet_new(m);
   if (!t) return SW_ENOMEM;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of things that have nodes with each other: of wires with wires and with themselves, and
- * of objects of particles with wires, with each other and with themselves. The law is that of
- * contact with obstacles. Two kinds of finders (pairs_near.c, grains.c) say where such things touch
- * and how the places depend on nodes; the life of a touch is the same one. What two things do to
- * each other stays in the matrix as links between their nodes. */
+/* Contact between bodies: wires with wires and themselves, objects of particles with wires, each
+ * other and themselves. The law is that of obstacles. Two finders (pairs_near.c, grains.c) give the
+ * places of touch and their dependence on nodes; the rest is common. The effect on both bodies
+ * stays in the matrix as bridges between their nodes. */
 #ifndef SW_CONTACT_MUTUAL_H
 #define SW_CONTACT_MUTUAL_H
 
@@ -25,17 +24,17 @@ typedef struct sw_pair_rule {
  * round rods. Wires that cross touch where their smooth curves are nearest, or their segments;
  * nearly parallel segments touch at each other's nodes. SW_ENOMEM. */
 sw_status sw_pairs_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
-/* Objects of particles with each other and with what is not a mesh of rings. A particle is a ball
- * of the object's radius, a wire a chain of round rods. Particles that something joins, or that
- * have a partner in common, do not touch. What lies between particles is no surface: a wire thinner
- * than the gaps between balls gets through. *out = NULL: nothing of that kind. SW_ENOMEM. */
+/* Objects of particles with each other and with wires that are lines. A particle is a ball of the
+ * object's radius, a wire a chain of round rods. Joined particles, and those with a common partner,
+ * do not touch. There is no surface between balls: a thin wire passes the gaps. *out = NULL: no
+ * such rule. SW_ENOMEM. */
 sw_status sw_grains_new(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
-/* Another one with the same rules and memory, to look ahead with; *out, NULL before, is the
- * caller's to free also when this fails. SW_ENOMEM. */
+/* A copy with the same rules and memory, for a look ahead. The caller frees *out, NULL before, also
+ * on failure. SW_ENOMEM. */
 sw_status sw_mutual_copy(const sw_mutual *mutual, const sw_system *system, sw_mutual **out);
 void sw_mutual_free(sw_mutual *mutual); /* NULL is allowed */
 
-/* Nothing is near enough to touch in this step. */
+/* 1: nothing can touch in this step. */
 int sw_mutual_idle(const sw_mutual *mutual);
 
 /* These do what those of sw_contact do. */
@@ -45,13 +44,13 @@ void sw_mutual_begin_stage(sw_mutual *mutual, double first);
 sw_status sw_mutual_begin_look(sw_mutual *mutual, sw_system *system, sw_error *err);
 sw_status sw_mutual_eval(sw_mutual *mutual, sw_system *system, const double *y, unsigned want,
                          sw_error *err);
-/* As sw_contact_refine, with what linked bodies touch besides (contact; NULL: nothing). */
+/* As sw_contact_refine, with all touches of bridged bodies; contact: those with obstacles, NULL:
+ * none. */
 void sw_mutual_refine(sw_mutual *mutual, sw_contact *contact, sw_system *system);
 int sw_mutual_settled(sw_mutual *mutual, sw_system *system, const double *delta);
-/* Will wires (of sw_pairs_new) strike in a step of size h that begins now, as far as velocities
- * tell? */
+/* By velocities, will wires (of sw_pairs_new) strike in a step of size h from now? */
 int sw_pairs_expect(const sw_mutual *pairs, const sw_system *system, double h);
-/* dull: the trial was one that does not bounce, whatever struck. */
+/* dull: the trial does not rebound. */
 sw_contact_verdict sw_mutual_review(sw_mutual *mutual, sw_system *system, const double *x1,
                                     double h, int dull);
 /* 1 = solve again. */
@@ -69,7 +68,7 @@ const void *sw_mutual_seen(const sw_mutual *mutual, size_t *bytes);
 sw_status sw_mutual_set_seen(sw_mutual *mutual, const void *seen, size_t bytes,
                              const sw_system *system);
 size_t sw_mutual_layout(void); /* as sw_contact_layout */
-/* new_node, new_body: what those of the memory are now; SIZE_MAX: they are gone. */
+/* new_node, new_body: present numbers; SIZE_MAX: gone. */
 sw_status sw_mutual_inherit(sw_mutual *mutual, const void *memory, size_t bytes,
                             const size_t *new_node, const size_t *new_body);
 

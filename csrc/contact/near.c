@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a candidate's wire is near its obstacle, whatever of it is met: its node, its samples, its
- * chord or its smooth curve. */
+/* Places of a candidate near its obstacle: of its node, samples, chord or smooth curve. */
 #include "contact/round.h"
 
-/* The one behind the last, whose `near` is filled, belongs to the list; the wire is there. */
+/* Append the place after the last, whose `near` is filled; wire: where the wire is. */
 static void take(sw_places *list, sw_vec wire) {
   sw_place *place = &list->place[list->count++];
   place->sharp = SW_SHARP_NOT;
   place->edge = sw_v(0, 0, 0), place->wire = wire;
 }
 
-/* The nearest place to a point, which is that far along the candidate's segment. */
+/* The nearest place to a point of the candidate's segment, `at` along it. */
 static void near_point(const sw_shape *shape, sw_vec wire, double at, double reach,
                        sw_places *list) {
   sw_closest *near = &list->place[list->count].near;

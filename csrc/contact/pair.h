@@ -9,10 +9,10 @@
 typedef struct sw_near {
   uint32_t one, two;
   uint32_t body[2];
-  double distance; /* of the axes at the step's start, or less [m] */
+  double distance; /* distance of the axes at the step's start, or less [m] */
   double known;    /* when it was last measured [m] */
   double travel;   /* of the four nodes together until then [m] */
-  double bulge;    /* their smooth curves stand off them by so much together, as known then [m] */
+  double bulge;    /* largest distance of both smooth curves from their segments, together [m] */
 } sw_near;
 
 enum { SW_NO_PAIR = UINT32_MAX };
@@ -91,7 +91,7 @@ int sw_pairs_cuts(const sw_mutual *pairs, const sw_system *system, const double 
 
 /* The pairs were chosen: where each finds its neighbours and its memory. */
 void sw_pairs_match(sw_pairs *pairs);
-/* Of a place on two wires: the nearest one remembered, within a segment on both, or NULL. */
+/* The nearest memory to a place on two wires, within a segment on both, or NULL. */
 const sw_met *sw_pair_recall(const sw_pairs *pairs, const sw_pair *pair, const double at[2],
                              sw_meet_kind kind);
 /* The same touch in the iterate before, or NULL. */

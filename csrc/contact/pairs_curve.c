@@ -11,8 +11,8 @@
 #include "contact/lean.h"
 #include "contact/same.h"
 
-/* Wires whose radii together are below this share of their longest edge meet by curves, as on pegs
- * [-]. */
+/* Wires meet by curves if the sum of their radii is below this share of their longest edge, as on
+ * pegs [-]. */
 static const double ROUND = 0.9;
 /* Wires begin to cross where the sine of the angle between them is above the second one, and go on
  * until it is below the first: strands of a twisted pair lie along each other [-]. */
@@ -20,7 +20,7 @@ static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
-/* Do the wires meet by chords wherever they do? One answer for all their segments. */
+/* Do the wires meet by chords everywhere? One answer for all their segments. */
 static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
   if (n->body[0] == n->body[1]) return 1; /* where it coils up it lies along itself at any angle */
   const double one = s->bodies[n->body[0]].plan->beam.radius;

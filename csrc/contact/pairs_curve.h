@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that cross meet by their smooth curves: chords would hold one that slides over another, as
- * they did over pegs (spec/contact/crossing_spec). */
+/* Crossing wires meet by their smooth curves: chords would hold one that slides over another, as on
+ * pegs (spec/contact/crossing_spec). */
 #ifndef SW_CONTACT_PAIRS_CURVE_H
 #define SW_CONTACT_PAIRS_CURVE_H
 

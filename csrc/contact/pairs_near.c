@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which segments are near each other. A list of all pairs within a generous reach is kept
- * as long as no node has moved by half of what the reach has to spare; it is found with
- * a grid of cells in which only neighbours are compared. */
+/* Segments near each other. The list holds all pairs within a generous reach; it is valid until a
+ * node has moved by half of the spare reach. A grid of cells finds it. */
 #include <math.h>
 #include <string.h>
 
@@ -40,8 +39,8 @@ static double widest_radius(const sw_pairs *p, const sw_system *s) {
   return widest;
 }
 
-/* A wire bent as tightly as its radius allows meets itself after pi radii of its length;
- * what is nearer along it is not looked at, nor are neighbours. */
+/* Bent as tightly as its radius allows, a wire meets itself after pi radii of length; nearer pairs
+ * and neighbours are skipped. */
 static int apart_along(const sw_system *s, const sw_near *n) {
   if (n->body[0] != n->body[1]) return 1;
   const sw_body *b = &s->bodies[n->body[0]];
@@ -56,7 +55,7 @@ double sw_pair_radii(const sw_system *s, const uint32_t body[2]) {
 /* So near a join wires do not touch each other; of the radii's sum along both [-]. */
 static const double AT_A_JOIN = 4.0;
 
-/* More pairs than this near each other are of segments much shorter than the wire is thick [-]. */
+/* More pairs than this: segments are much shorter than the wire is thick [-]. */
 static const size_t MOST_NEAR = 30000000;
 
 /* A search for those near each other. */
@@ -185,8 +184,8 @@ static double lighter_mass(const sw_system *s, const sw_near *n) {
               segment_mass(&s->bodies[n->body[1]], n->two));
 }
 
-/* Gap up to which a pair is chosen: a share of its radii, what gravity and its speed (or a
- * larger one) can close in the step. */
+/* Gap up to which a pair is chosen: a share of its radii, plus what gravity and its speed, or a
+ * larger one, close in the step. */
 static double reserve_of(const sw_pairs *p, double reach, double fast) {
   const double reserve = SW_LISTED_GAP * reach + p->m.fall + SW_RESERVE * p->m.h * fast;
   return reserve > p->m.least_reserve ? reserve : p->m.least_reserve;
@@ -207,9 +206,9 @@ static double fastest(const sw_system *s) {
   return sqrt(most);
 }
 
-/* Segments further apart than they come in the step and this are no part of the matrix until they
- * touch: zeros of a bundle's second neighbours made its factor twice as long. Of the radii's
- * sum [-]. */
+/* Pairs with a wider gap than their approach in the step and this are not in the matrix until they
+ * touch: the zeros of a bundle's second neighbours made the factor twice as long. Of the sum of
+ * radii [-]. */
 static const double TO_BRIDGE = .03;
 
 /* Of curves, those of the place at the step's start. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which touch of the iterate before, or of the step before, goes on in one of this iterate. Nodes
- * of wires that lie along each other are often beside nodes, and the last nanometre says which of
- * two segments has the nearest place: the touch of a node is the same one on either. */
+/* Which touch of the last iterate or step goes on in one of this iterate. Nodes of parallel wires
+ * often lie beside nodes, and rounding decides which of two segments has the nearest place: a
+ * node's touch on either is the same one. */
 #include <math.h>
 
 #include "contact/pair.h"

@@ -16,8 +16,8 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
   return sw_mean_of(x, 0, &bow.spot);
 }
 
-/* Parts of a half edge are so many that none stands off its curve by more than this share of the
- * radii's sum, where that does not take more of them than this [-]. */
+/* A half edge is split so that no part stands off its curve by more than this share of the sum of
+ * radii, into at most this many parts [-]. */
 static const double STRAIGHT = 0.1;
 enum { MOST_PARTS = 8 };
 

@@ -9,10 +9,9 @@
 typedef struct sw_rods {
   sw_vec a[2], b[2];
 } sw_rods;
-/* Do they get through each other on the straight way from one place to another? Goes on by what
- * they cannot have come nearer in the meantime, so that nothing is missed; but those that start too
- * near are not looked for. 1 with the place, the direction from b to a just before, and when [-].
- * reach: sum of the radii [m]. */
+/* Do they pass each other on the straight way from one place to another? Advances by safe steps, so
+ * that nothing is missed; pairs that start too near are skipped. 1 with the place, the direction
+ * from b to a just before, and the time [-]. reach: sum of the radii [m]. */
 int sw_rods_sweep(const sw_rods *from, const sw_rods *to, double reach, double at[2],
                   sw_vec *normal, double *when);
 

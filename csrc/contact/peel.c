@@ -1,28 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a wire lifts off. A solve in which the last touches of a row should have been free shows
- * a pull at the end and, next to it, a push: the couple that bends the wire there as if it were
- * clamped. Letting go of what pulls moves the end by one touch, and a fine mesh needs as many
- * solves as nodes lift off. But the wire is free up to where its bending moment vanishes, and that
- * moment is the one of the forces beyond, known from this solve. */
+/* Where a wire lifts off. If the last touches of a row should be free, a solve shows a pull at the
+ * end and a push beside it: the couple of a clamp. Releasing the pull moves the end by one touch,
+ * so a fine mesh would need one solve per node. But the wire is free up to where its bending moment
+ * vanishes, and this solve tells that moment from the forces beyond. */
 #include <math.h>
 #include <stdint.h>
 
 #include "contact/touch.h"
 
-/* After so many updates of a stage an end moves by half as much as the time before, for it may go
- * to and fro; after so many more this is left to the law of each touch [-]. */
+/* After this many updates of a stage an end moves by half its last way, as it may alternate; after
+ * this many more each touch decides for itself [-]. */
 enum { EASY_UPDATES = 10, MOST_UPDATES = 40 };
 
-/* Of a length that is inside of the obstacle; a rigid one asks for a third, one that gives way for
- * more [-]. */
+/* Share of a length that lies inside of the obstacle: a third if rigid, more if soft [-]. */
 static const double LAID = 0.4;
 
 enum { ANY, PRESSING };
 
 static double place(const sw_touch *t) { return (double)t->node + t->at; }
 
-/* The next touch along the wire in the direction of dir, not more than a segment away; SIZE_MAX:
- * there is none, the row ends. */
+/* The next touch along the wire in direction dir, at most one segment away; SIZE_MAX: the row ends.
+ */
 static size_t neighbour(const sw_contact *c, size_t i, int dir, int which) {
   const sw_touch *t = &c->touches[i];
   for (size_t j = i + (size_t)dir; j < c->touch_count; j += (size_t)dir) {
@@ -45,7 +43,7 @@ static double arc(const sw_system *s, const sw_touch *t) {
   return along[i] + t->at * (along[e] - along[i]);
 }
 
-/* How much of the wire is free beyond touch i: up to the next one, a hold or the wire's end [m]. */
+/* Free length of the wire beyond touch i: up to the next touch, a hold or the wire's end [m]. */
 static double free_length(const sw_contact *c, const sw_system *s, size_t i, int outwards) {
   const sw_touch *t = &c->touches[i];
   const sw_body *b = &s->bodies[t->body];
@@ -61,7 +59,7 @@ static double free_length(const sw_contact *c, const sw_system *s, size_t i, int
   return fabs(p->s[node] - arc(s, t));
 }
 
-/* From the end i of a row inwards, at most as far as the wire is free already. */
+/* From the end i of a row inwards, by no more than the free length. */
 static void peel(sw_contact *c, const sw_system *s, size_t i, int inwards) {
   const double share = pow(0.5, fmax(0.0, c->updates - EASY_UPDATES));
   double force = 0, moment = 0, left = share * free_length(c, s, i, -inwards);
@@ -77,8 +75,8 @@ static void peel(sw_contact *c, const sw_system *s, size_t i, int inwards) {
   }
 }
 
-/* Pressed in next to the end i of a row, by what bends it there as if clamped: where the wire would
- * be straight it lies down, and that is a share of the length inside of the obstacle. */
+/* Beyond the row's end i the wire is pressed in by the couple of a clamp. Without it the wire would
+ * lie down there, over a share of the length inside of the obstacle. */
 static void lay(sw_contact *c, const sw_system *s, size_t i, int outwards) {
   const size_t first = neighbour(c, i, outwards, ANY);
   size_t at = first, end = i;
@@ -107,7 +105,7 @@ static void end_of_row(sw_contact *c, const sw_system *s, size_t i, int outwards
   if (next != SIZE_MAX && !sw_press_apart(&c->touches[next].press)) lay(c, s, i, outwards);
 }
 
-/* Where the update is not made, its gaps tell what is to press. */
+/* If the update is not made, its gaps tell which touches press. */
 static void take_on(sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++) {
     sw_press *p = &c->touches[i].press;

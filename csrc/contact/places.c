@@ -1,26 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the smooth curve of a wire is near edges and corners. It may come no nearer to any of them
- * than its radius, whatever is nearest beside it: so each counts, and none comes or goes as the
- * wire tilts. One that the curve passes on the wrong side tells that it cuts in: then places are
- * found as the way out of straight pieces that touch the curve, and moved to the curve's own foot.
- */
+/* Places of a wire's smooth curve near edges and corners. The curve may come no nearer to any of
+ * them than the wire's radius, so each counts, and none comes and goes as the wire tilts. A curve
+ * that passes one on the wrong side cuts in: then places are the ways out of straight pieces that
+ * touch the curve, moved to the curve's own feet. */
 #include <math.h>
 
 #include "contact/round.h"
 
-/* A wire that stands off its chords by less than this share of its radius is found by the chords
- * [-]. */
+/* Chords find a wire that stands off them by less than this share of its radius [-]. */
 static const double STRAIGHT = 0.02;
-/* Pieces go on beyond their ends by this share of an edge, so that none is missed between two [-].
+/* Pieces are this share of an edge longer at both ends, so that no place is missed between two [-].
  */
 static const double OVERLAP = 0.08;
 static const double QUARTER = 0.25;
 /* A normal may lean inward by this share of the angle between the faces at an edge [-]. */
 static const double LEAN = 0.3;
-/* A foot belongs to the segment that it is in, or so little beside [-]. */
+/* A foot belongs to a segment up to this far beyond its ends [-]. */
 static const double BESIDE = 0.02;
 
-/* A place known before is this one when the obstacle's are nearer than this share of the radius
+/* A known place is this one if both points of the obstacle are nearer than this share of the radius
  * [-]. */
 static const double SAME_POINT = 0.01;
 
@@ -45,9 +43,8 @@ static void take(sw_places *list, const sw_place *place) {
   if (place->near.gap < list->place[at].near.gap) list->place[at] = *place;
 }
 
-/* A place found along a line that turns from the curve's tangent there by more than this is looked
- * for again, along the tangent: which of two edges near each other touch is a matter of its tilt
- * [-]. */
+/* A place found along a line is looked for again along the curve's tangent there, if the two differ
+ * by more than this: the tilt decides which of two near edges touches [-]. */
 static const double TURNED = 0.01;
 
 static void along_tangent(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
@@ -113,8 +110,8 @@ typedef struct search {
   int doubt; /* 1: the curve passes an edge or corner on the wrong side */
 } search;
 
-/* Where the chord is nearest to a line, or to a point, where there is no direction along it. 0: the
- * curve stays too far off for a place. */
+/* The nearest place of the chord to a line, or to a point if along is zero. 0: the curve stays too
+ * far off. */
 static int begin_at(const search *q, const sw_ridge *r, double *u) {
   const sw_vec *p = q->piece->p, d = sw_sub(p[2], p[1]), w = sw_sub(p[1], r->from);
   const sw_vec across = sw_madd(d, r->along, -sw_dot(r->along, d));

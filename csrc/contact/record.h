@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What contact writes down of places: where something may touch, touches, and what is kept of them
- * from iterate to iterate and from step to step. Of this room only. */
+/* Records of contact: candidates, touches, and their memory between iterates and between steps. Of
+ * this room only. */
 #ifndef SW_CONTACT_RECORD_H
 #define SW_CONTACT_RECORD_H
 
@@ -24,15 +24,15 @@ typedef struct sw_candidate {
   size_t last, last_end;     /* matching range of the last iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
   int given;                 /* 1: it keeps that, however deep it gets */
-  int smooth;                /* 1: the wire is the smooth curve there, not its chords */
-  int round;                 /* 1: that on what is thin and round, chords elsewhere */
-  double firm;               /* then: how firmly it touches in the middle of its edge [-] */
-  double lone;               /* and how much it touches in one place, 0 to 1 [-] */
-  int samples; /* it touches at so many places, evenly along the segment; 0: at the nearest ones */
+  int smooth;                /* 1: the wire is its smooth curve there, not its chords */
+  int round;                 /* 1: its curve at a thin round obstacle, chords elsewhere */
+  double firm;               /* then: firmness of the touch in the middle of its edge [-] */
+  double lone;               /* and share of it in one place, 0 to 1 [-] */
+  int samples; /* number of touches, spread evenly along the segment; 0: at the nearest places */
 } sw_candidate;
 
-/* Feature of a touch that a barrier keeps on its side, and of one by which a wire's curve meets
- * what is round [-]. */
+/* Features that are no part of a shape: a touch kept by a barrier, and one of a wire's curve with a
+ * round obstacle [-]. */
 enum { SW_BEHIND_BARRIER = -1, SW_ON_CURVE = -2 };
 
 /* One place where a wire's surface is near an obstacle. */
@@ -44,26 +44,26 @@ typedef struct sw_touch {
   sw_mean spot;     /* the same as a mean of nodes */
   sw_sharp sharp;   /* of a smooth one: what it touches */
   sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
-  double steady;    /* normal force that it has had for a while [N] */
+  double steady;    /* steady normal force [N] */
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
-  double forgiven;  /* part of the true depth left out of the gap in this step [m] */
-  double let_out;   /* part of the true depth that nothing explains and this step ends [m] */
-  double hardened;  /* stored at once by its being stiffer than before, of a mesh [J] */
+  double forgiven;  /* part of the true depth that this step leaves alone [m] */
+  double let_out;   /* unexplained part of the true depth that this step ends [m] */
+  double hardened;  /* energy stored at once by a higher stiffness, of a mesh [J] */
   double usual;     /* of a new touch here [N/m] */
   double stiffer;   /* its stiffness from the next iterate on [N/m] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
-  double friction;  /* coefficient in this step: kinetic when it slid before [-] */
-  double slid;      /* way that it slid until the step's start, since it began to press [m] */
+  double friction;  /* coefficient in this step: kinetic if it slid before [-] */
+  double slid;      /* sliding way until the step's start, since it began to press [m] */
   sw_vec seen;      /* where the wire was at this evaluation, in the obstacle's coordinates [m] */
   size_t candidate; /* index of what it was made from */
   size_t stage;     /* in which it was found */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
 
-/* What pressed at the end of a stage and may have struck: of such a touch, what impacts need. A
- * touch is large, and a step in which many nodes land has as many of these in each stage. */
+/* A touch that pressed at the end of a stage and may have struck, as far as impacts need it. A
+ * touch itself is large, and many nodes may land in one step. */
 typedef struct sw_pressed {
   uint32_t node, other, body;
   int obstacle, segment;
@@ -82,8 +82,8 @@ typedef struct sw_memory {
   double at;
   sw_vec normal, point; /* the side: local [-], [m] */
   sw_kept kept;         /* vectors as above */
-  sw_vec seen;          /* where the wire was when that was found, local [m] */
-  double slid;          /* way that it slid since it began to press [m] */
+  sw_vec seen;          /* place of the wire then, local [m] */
+  double slid;          /* sliding way since it began to press [m] */
 } sw_memory;
 
 /* A crossing found by the swept test: the place is kept on its side of a plane
@@ -93,7 +93,7 @@ typedef struct sw_barrier {
   size_t node, other;
   double at;
   sw_vec normal, point; /* local [-], [m] */
-  uint32_t before;      /* the one before at its node + 1, or 0 */
+  uint32_t before;      /* the one before at its node: number + 1, or 0 */
 } sw_barrier;
 
 /* A touch whose impact was dealt with in this step. */
@@ -106,7 +106,7 @@ typedef struct sw_impact {
 
 /* When a touch would strike. */
 typedef struct sw_turn {
-  double meets, closes; /* after the step's start [s]; how fast its gap closes there [m/s] */
+  double meets, closes; /* after the step's start [s]; closing speed of its gap there [m/s] */
   size_t node;
   int obstacle;
   uint32_t touch; /* of those that pressed */
@@ -122,16 +122,16 @@ typedef struct sw_mark {
 /* Statics: where the search for the touches' states goes on from. */
 typedef struct sw_ahead {
   sw_vec shift; /* of the touch, from where the wires are [m] */
-  sw_vec force; /* on the wire there, that solves have reckoned with [N] */
+  sw_vec force; /* force on the wire there that the solves have used [N] */
 } sw_ahead;
 
 /* What an obstacle gets in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
-  sw_contact_load blows; /* impulse of impacts that changed velocities at the start [N s] */
+  sw_contact_load blows; /* impulse of impacts that changed the starting velocities [N s] */
   sw_contact_load trial; /* at the end of a trial [N] */
-  int busy;              /* 1: it is in the list of those that may get something */
+  int busy;              /* 1: in the list of loaded obstacles */
 } sw_contact_loads;
 
 /* A stage that is solved by parts: the part at hand. */

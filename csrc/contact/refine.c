@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches agree with the solution of an iterate's equations within its linearisation, where a solve
- * with the same factor does that: friction of what slides follows the normal force, touches that
- * would pull open, and those that would be gone through close. What is left to do after that is up
- * to the next iterate. */
+/* Makes the touches of one wire agree with an iterate's solution, by more solves with the same
+ * factor: friction follows the normal force, touches that pull open, touches that the wire passes
+ * close. The next iterate does the rest. */
 #include <math.h>
 #include <string.h>
 
@@ -12,13 +11,13 @@
 #include "contact/touch.h"
 #include "solve/dense.h"
 
-/* Touches opened and closed in an iterate, for more of them the next one costs less; passes over
- * them: after the quick ones they change one by one, for together they may go to and fro; and
- * solves for friction: the second one gets it right to a percent or so [-]. */
+/* Most touches opened and closed in an iterate: beyond them the next iterate is cheaper. Passes
+ * over them: after the quick ones touches change one by one, as together they may alternate. Solves
+ * for friction: the second one is right to a percent [-]. */
 enum { MOST_CHANGED = 12, QUICK_PASSES = 4, MOST_PASSES = 20, MOST_FOLLOW = 2 };
 
-/* A touch that is opened or closed: the force across that takes its pull away or is its push, and
- * what one of 1 N does. */
+/* A touch that is opened or closed: the normal force that cancels its pull or is its push, and the
+ * shift by 1 N of it. */
 typedef struct changed {
   size_t touch;
   int closes, on; /* on 0: it has been put back */
@@ -54,7 +53,7 @@ static sw_vec place(const refined *r, const sw_touch *t, const double *x) {
   return sw_mean_of(x, r->body->first_node, &t->spot);
 }
 
-/* Share of a force at a touch that its nodes get, to free nodes here and to held ones' holds. */
+/* Spread a force at a touch over its nodes: to free nodes here, to the holds of held ones. */
 static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, int held) {
   const size_t from = r->body->first_node;
   for (size_t e = 0; e < t->spot.count; e++) {
@@ -83,7 +82,7 @@ static int lags(const refined *r) {
   return 0;
 }
 
-/* How far normal forces are from those that friction took as given [N]. */
+/* Total difference between normal forces and those that friction used [N]. */
 static double off(const refined *r) {
   double sum = 0;
   for (size_t i = r->first; i < r->end; i++) {
@@ -93,7 +92,7 @@ static double off(const refined *r) {
   return sum;
 }
 
-/* Friction follows the normal forces; back: it is that of the iterate's first solve again. */
+/* Friction follows the normal forces; back: as in the iterate's first solve. */
 static void follow(refined *r, int back) {
   memset(r->more, 0, values(r) * sizeof *r->more);
   for (size_t i = r->first; i < r->end; i++) {
@@ -115,20 +114,20 @@ static changed *listed(refined *r, size_t touch) {
   return NULL;
 }
 
-/* Is the touch other than it is taken for? */
+/* Does the solution contradict the touch's state? */
 static int is_wrong(const refined *r, const sw_touch *t, const changed *one) {
   const sw_vec shift = place(r, t, r->delta);
   if (one && one->on && !one->closes) return sw_press_sinks(&t->press, shift);
   return sw_press_pulls(&t->press, shift) || (!t->held && sw_press_closes(&t->press, shift));
 }
 
-/* May its state change? Those without friction are left to the next iterate, as are those of wires
- * with frames, whose equations are not solved again: both move alike. */
+/* May its state change here? Not without friction, and not in wires with frames, whose equations
+ * are not solved again: the next iterate changes these. */
 static int may_change(const sw_touch *t) {
   return t->friction > 0 && (!t->press.active || t->press.sliding);
 }
 
-/* A touch that has not been changed yet is to be: with what a force of 1 N there does. */
+/* List a touch that changes, with the shift by a force of 1 N there. */
 static void add_change(refined *r, size_t touch) {
   double *shift = r->more + (1 + r->count) * values(r);
   const sw_touch *t = &r->c->touches[touch];
@@ -138,7 +137,7 @@ static void add_change(refined *r, size_t touch) {
   r->list[r->count++] = (changed){touch, !t->press.active, 0, 0, shift};
 }
 
-/* A changed touch is as it was, but for its friction: that comes back into r->more, and 1. */
+/* Undo a change but for its friction, which is put into r->more: then 1. */
 static int put_back(refined *r, changed *one) {
   sw_touch *t = &r->c->touches[one->touch];
   if (!one->on) return 0;
@@ -151,15 +150,15 @@ static int put_back(refined *r, changed *one) {
   return sw_norm2(f) > 0;
 }
 
-/* Friction in r->more comes back, if there is any. */
+/* Solve for the friction in r->more, if there is any. */
 static void rub_back(refined *r, int rubbed) {
   if (!rubbed) return;
   sw_body_solve_again(r->body, r->more);
   add(values(r), 1.0, r->more, r->delta);
 }
 
-/* Change the first touches, most of them at once, that are other than they are taken for. Returns
- * how many there are; -1: they are too many, or stick. */
+/* Change the first touches whose state is wrong, most of them at once. Returns how many are wrong;
+ * -1: too many, or one sticks. */
 static int change_wrong(refined *r, int most) {
   size_t wrong[MOST_CHANGED];
   size_t all = r->count;
@@ -187,8 +186,7 @@ static int change_wrong(refined *r, int most) {
   return count;
 }
 
-/* Forces of those that have changed: nothing is left of an opened one's spring, and a closed one
- * has got one. */
+/* Forces of changed touches: an opened one's spring is cancelled, a closed one gets a spring. */
 static int balance(refined *r) {
   double S[MOST_CHANGED * MOST_CHANGED], z[MOST_CHANGED];
   changed *on[MOST_CHANGED];
@@ -211,7 +209,7 @@ static int balance(refined *r) {
   return 1;
 }
 
-/* Open what pulls and close what is gone through, until there is nothing to change. */
+/* Open touches that pull and close those that the wire passes, until none is left. */
 static int change_all(refined *r) {
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     const int more = change_wrong(r, pass < QUICK_PASSES ? MOST_CHANGED : 1);
@@ -254,8 +252,8 @@ static void take_changes(const refined *r) {
   }
 }
 
-/* A touch that goes further is at another place in another iterate, and may not pull there, except
- * on a plane; of the radius [-]. */
+/* With a longer shift a touch is at another place in the next iterate, and may not pull there,
+ * except on a plane; of the radius [-]. */
 static const double FAR = 0.1;
 
 static int goes_far(const refined *r) {
@@ -268,9 +266,8 @@ static int goes_far(const refined *r) {
   return 0;
 }
 
-/* Friction that presses its own touch may go to and fro, more at each turn: the iterates find that
- * out better, by secants. Where a solve leaves more than this of what is off there is no further
- * one [-]. */
+/* Friction that presses its own touch may alternate with growing size: the iterates' secants are
+ * better there. So solves end when one leaves more than this share of the error [-]. */
 static const double ENOUGH = 0.5;
 
 /* 1: friction fits, or nearly so. */

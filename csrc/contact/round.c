@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire is bent over a thin peg between two of its nodes. Its smooth curve touches where it comes
- * nearest to the peg's middle line, and is pushed across itself there. A wire that goes round the
- * peg has no such place: it is as near everywhere, and where it is nearest comes and goes with the
- * last nanometre. So a touch keeps to the middle of its edge, the more firmly the more the wire is
- * bent: x'.(x - q) + firm |x'|^2 (u - 1/2) = 0 with x the curve, u the place along the edge, q the
- * middle line's place nearest to x. There the curve's tangent keeps its distance from the line;
- * what that is less than the curve's own is of second order. */
+/* A wire bent over a thin peg between two of its nodes. Its smooth curve touches at the nearest
+ * place to the peg's middle line, and is pushed across itself there. A wire that goes round the peg
+ * is equally near everywhere, and rounding would decide. So a touch keeps to the middle of its
+ * edge, more firmly with more curvature: x'.(x - q) + firm |x'|^2 (u - 1/2) = 0, with the curve x,
+ * the place u along the edge and the nearest place q on the middle line. The touch uses the
+ * distance of the curve's tangent from the line, which differs from the curve's in second order. */
 #include "contact/round.h"
 
 #include <math.h>
@@ -13,14 +12,15 @@
 #include "base/halving.h"
 #include "contact/same.h"
 
-/* A wire meets what is round, its own radius added, by its curve up to so many of its edges,
- * whatever it does; and up to so many as long as it does not go round it [-]. */
+/* A wire meets a round obstacle, whose radius includes the wire's, by its curve: always if that
+ * radius is below the first number of its edges; below the second one if it does not go round [-].
+ */
 static const double THIN = 0.9, THICK = 4.0;
-/* It does where its curvature times the radius is above this. Then its chords meet it, until they
- * do not press any more: a capstan needs them. The chords are outside of the curve, so that the
- * change lets go of it and makes no energy [-]. */
+/* It goes round if curvature times radius is above this. Then its chords meet the obstacle until
+ * they do not press any more: a capstan needs them. Chords lie outside of the curve, so the change
+ * releases the wire and makes no energy [-]. */
 static const double WOUND = 0.9;
-/* Round what is thin it is at least as firm as this [-]. */
+/* Least firmness at a thin obstacle [-]. */
 static const double LOOSE = 0.1;
 
 /* --- at the step's start -------------------------------------------------------------------- */
@@ -41,7 +41,7 @@ static double bend_at(const sw_system *s, const sw_body *b, size_t low, size_t h
   return most;
 }
 
-/* Of a wire's edges that meet a node, or of one. */
+/* Largest curvature at the edges of a node, or at one edge. */
 static double bend_beside(const sw_system *s, const sw_body *b, size_t node, int segment) {
   const size_t i = node - b->first_node, high = i < b->plan->edges ? i : b->plan->edges - 1;
   return bend_at(s, b, segment || i == 0 ? high : i - 1, high);
@@ -68,14 +68,14 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
   }
 }
 
-/* So far beside its edges a wire is taken as straight [-]. */
+/* A wire is straight up to this far beyond its edges [-]. */
 static const double BESIDE = 1.0;
-/* Rims are for chords: so many radii and edges from the ends [-]. */
+/* Chords meet rims: this many radii and edges from the ends [-]. */
 static const double FROM_RIM = 1.0, EDGES_FROM_RIM = 2.0;
-/* And a wire that runs along what is thick, the sine of the angle between them below this [-]. */
+/* And a wire along a thick obstacle: sine of their angle below this [-]. */
 static const double ACROSS = 0.5;
 
-/* Does the wire, straight on, cross the middle line well between its ends? */
+/* Does the wire, taken as straight, cross the middle line well between its ends? */
 static int passes_side(const sw_contact *c, const sw_system *s, const sw_candidate *k, size_t low,
                        size_t high) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
@@ -116,7 +116,7 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
 
 /* --- places ----------------------------------------------------------------------------------- */
 
-/* Which rises through 0 at a place; NAN beside the ends of the middle line [m2]. */
+/* Rises through 0 at the place of touch; NAN beyond the ends of the middle line [m2]. */
 static double rise_at(const sw_piece *c, double u) {
   sw_vec along, q, e;
   const sw_vec x = sw_contact_curve(c, u, &along);
@@ -127,7 +127,7 @@ static double rise_at(const sw_piece *c, double u) {
 enum { PARTS = 4, MOST_TURNS = 40 };  /* of an edge that are looked at; of the search [-] */
 static const double AS_SHARP = 1e-14; /* [-] */
 
-/* Where it does so between two places (secants; an end that stays counts half: "Illinois"). */
+/* Its zero between two places, by secants; an end that stays counts half ("Illinois"). */
 static double find_place(const sw_piece *c, double low, double high, double at_low,
                          double at_high) {
   double last = low;
@@ -147,11 +147,11 @@ static double find_place(const sw_piece *c, double low, double high, double at_l
   return last;
 }
 
-/* So near the middle line, of its radius, a wire goes through it [-]. */
+/* Nearer to the middle line than this share of its radius, a wire goes through it [-]. */
 static const double THROUGH = 1e-9;
 
-/* The place there. 0: the wire goes along what is round. One that goes through its middle is put
- * out across both, as its chords would be. */
+/* The place there; 0: the wire goes along the obstacle. If it goes through the middle line, the
+ * normal is across both, as for chords. */
 static int make_place(const sw_piece *c, double u, sw_place *place) {
   sw_vec tangent, q, e;
   const sw_vec x = sw_contact_curve(c, u, &tangent);
@@ -173,7 +173,7 @@ static int make_place(const sw_piece *c, double u, sw_place *place) {
   return 1;
 }
 
-/* A ring may be near at more than one. */
+/* A ring may have several places. */
 void sw_contact_round_places(const sw_piece *c, double reach, sw_places *list) {
   double before = rise_at(c, 0.0);
   for (int i = 0; i < PARTS; i++) {

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is round meets the wire's smooth curve, if it is thin beside the wire's edges or, up to four
- * of them, the wire does not go round it; as edges and corners do: chords would hold a wire that
- * slides over a peg (spec/contact/pegs_spec). */
+/* A thin round obstacle meets the wire's smooth curve, as edges and corners do; up to four edges
+ * thick if the wire does not go round it. Chords would hold a wire that slides over a peg
+ * (spec/contact/pegs_spec). */
 #ifndef SW_CONTACT_ROUND_H
 #define SW_CONTACT_ROUND_H
 
 #include "contact/curve.h"
 
-/* Which obstacles does a body go round at the step's start? */
+/* The obstacles that a body goes round at the step's start. */
 void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
-/* Is the candidate's obstacle round and thin to the wire, and how firmly do they touch in the
- * middles of its edges? At the step's start. */
+/* At the step's start: is the candidate's obstacle round and thin for the wire, and how firmly do
+ * touches keep to the middles of edges? */
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);
 
 /* Places of a piece that are less than reach away from it [m]. */
 void sw_contact_round_places(const sw_piece *piece, double reach, sw_places *list);
 
-/* 1: at this place of its chord a-b, in the obstacle's coordinates, a wire is over what is round,
- * and not along it: that is for its curve. */
+/* 1: at this place of its chord a-b, in the obstacle's coordinates, a wire lies across the round
+ * side: its curve meets that. */
 int sw_contact_is_rounds(const sw_contact *c, const sw_candidate *k, sw_vec a, sw_vec b, double at);
-/* 1: a node's nearest place is on the round side, which goes along there. */
+/* 1: a node's nearest place is on the round side and along it. */
 int sw_contact_over_round(const sw_contact *c, const sw_candidate *k, const sw_closest *near,
                           sw_vec *along);
 

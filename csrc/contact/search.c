@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statics: touches find their states at one place of the wires, which is left only when they agree.
- * Each solve holds for the states that it took as given, and taking those that it finds may go to
- * and fro for ever. But with the normal forces that friction takes as given the energy is convex in
- * the update: somewhere on the way from the last update to the new one it is least, and going on
- * from there always comes to an end. All it takes are the touches' own forces, for the rest is
- * linear and in balance with what each solve reckoned with. */
+/* Statics: touches find their states while the wires stay, which move only when all agree. A solve
+ * holds for assumed states, and taking its new states may alternate for ever. But with given normal
+ * forces for friction the energy is convex in the update: it has a minimum between the last update
+ * and the new one, and steps to such minima always end. Only the touches' own forces are needed for
+ * it; the rest is linear and in balance with the solve's forces. */
 #include <math.h>
 
 #include "base/alloc.h"
 #include "contact/touch.h"
 
-/* Halvings of the way, until its share is known well enough [-]. */
+/* Halvings of the way until its share is known [-]. */
 enum { HALVINGS = 20 };
 
 /* Force of the touch by its law, shifted by s, with friction's normal force as given. */
@@ -38,7 +37,7 @@ static int rubs(const sw_contact *c) {
   return 0;
 }
 
-/* How fast the energy grows on the way at this share of it [J]. */
+/* Slope of the energy at this share of the way [J]. */
 static double slope(const sw_contact *c, const sw_ahead *to, double share) {
   double sum = 0;
   for (size_t i = 0; i < c->touch_count; i++) {
@@ -76,10 +75,10 @@ static void go_on_from(sw_touch *t, sw_vec shift) {
   p->ahead = sw_madd(shift, p->normal, -across);
 }
 
-/* A wire on stiff springs bends within one edge where it lifts off, and each solve would let go of
- * some nodes more. On soft ones it bends within so many edges as doublings, and takes off in few;
- * then they become 16 times as stiff from solve to solve, and that place is known twice as well
- * each time [-]. */
+/* On stiff springs a wire bends within one edge where it lifts off, and each solve would release a
+ * few nodes. On soft springs it bends over as many edges as the doublings, and lifts off in few
+ * solves. Then springs become 16 times as stiff from solve to solve, which halves the uncertainty
+ * of that place each time [-]. */
 enum { DOUBLINGS = 12 };
 static const double SOFTEST = 1e-9; /* of the touch's own stiffness [-] */
 
@@ -105,7 +104,7 @@ static int first_stage(const sw_contact *c, const sw_system *s) {
   return (int)fmax(1.0, DOUBLINGS + 1 - floor(log2(fmin(most, EACH * wrong))));
 }
 
-/* Of fewer wrong touches each is found by itself [-]. */
+/* Fewer wrong touches than this are found one by one [-]. */
 enum { FEW = 4 };
 
 /* Stages go on until they change nothing any more. */

@@ -6,9 +6,9 @@
 
 #include "base/alloc.h"
 
-/* Solves for friction in an iterate: one costs a tenth of a factor [-]. */
+/* Most solves for friction in an iterate; one costs a tenth of a factor [-]. */
 enum { MOST_FOLLOW = 8 };
-/* A direction with less than this left of its length beside earlier ones is rounding [-]. */
+/* A direction that keeps less than this of its length beside earlier ones is rounding [-]. */
 static const double NOTHING_NEW = 1e-6;
 
 void sw_spots_free(sw_spots *g) {
@@ -59,8 +59,8 @@ static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   }
 }
 
-/* Change what friction takes as given at each touch: to `forces`, or back to that of the iterate's
- * first solve (NULL); and the solution with it. */
+/* Change the normal forces that friction uses to `forces`, or back to those of the iterate's first
+ * solve (NULL), and the solution with them. */
 static void assume(sw_spots *g, sw_system *s, const double *forces) {
   memset(g->more, 0, 3 * s->nodes * sizeof *g->more);
   for (size_t i = 0; i < g->count; i++) {
@@ -83,12 +83,13 @@ static void add(double *a, double share, const double *b, size_t n) {
   for (size_t i = 0; i < n; i++) a[i] += share * b[i];
 }
 
-/* The fixed point of forces -> forces found with them, by Anderson's mixing (1965; type II of Fang
- * and Saad 2009): where touches wedge each other the plain iteration goes to and fro for long, or
- * for ever. All vectors have one number a touch [N]. */
+/* Fixed point of the map from assumed normal forces to those of the solve, by Anderson's mixing
+ * (1965; type II of Fang and Saad 2009). Where touches wedge each other the plain iteration
+ * alternates for long, or for ever. All vectors have one number a touch [N]. */
 typedef struct mixing {
   size_t n, columns;
-  double *found, *off, *next; /* forces found, less those assumed; those to be assumed next */
+  double *found, *off,
+      *next; /* forces of the solve, less the assumed ones; the next assumed ones */
   double *found_before, *off_before;
   double *change[MOST_FOLLOW]; /* of off, orthonormal */
   double *with[MOST_FOLLOW];   /* of found, when off changes so */
@@ -131,7 +132,7 @@ static void learn(mixing *m) {
   m->columns++;
 }
 
-/* What to assume next: all that is off along known directions is taken away. */
+/* Next forces: the error along known directions is removed. */
 static void mix(mixing *m) {
   const size_t n = m->n;
   memcpy(m->next, m->found, n * sizeof *m->next);

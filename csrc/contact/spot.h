@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch as equations see it, whatever touches what: a law, and a few nodes that share its force.
- */
+/* A touch in the equations: a law, and a few nodes that share its force. The same for all kinds. */
 #ifndef SW_CONTACT_SPOT_H
 #define SW_CONTACT_SPOT_H
 
@@ -33,13 +32,13 @@ typedef struct sw_spots {
 
 void sw_spots_free(sw_spots *spots);
 
-/* One more, if it slides: press, friction and scale of it, at a place of one body and, unless NULL,
- * one of the other. Out of memory it is left out. */
+/* Append a sliding touch: its press, friction and scale, at a place of one body and of another one,
+ * or NULL. Out of memory it is left out. */
 void sw_spots_add(sw_spots *spots, const sw_system *system, sw_spot spot, const sw_mean *one,
                   size_t body_one, const sw_mean *two, size_t body_two);
 
-/* Friction of what slides follows the normal forces within the linearisation of the bodies that are
- * solved together, by solves with the factor that there is. */
+/* Within the linearisation of bodies that are solved together, friction of sliding touches follows
+ * the normal forces, by more solves with the same factor. */
 void sw_spots_follow(sw_spots *spots, sw_system *system);
 
 #endif

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Does a touch stay where an iterate had it? Its equations have its place and its normal fixed. On
- * what is not flat a shift may change both, or hardly: looking there again costs far less than
- * another iterate. */
+/* Does a touch stay at its place of the iterate? Its equations have a fixed place and normal, and a
+ * shift may change both unless the surface is flat. Looking there again is far cheaper than another
+ * iterate. */
 #include <math.h>
 
 #include "contact/curve.h"
 #include "contact/same.h"
 
-/* A touch has stayed when its normal turned by no more than this, and when no larger share of its
- * force goes to another end of its segment than before [-]. */
+/* A touch has stayed if its normal turned by at most this, and at most this share of its force went
+ * to the other end of its segment [-]. */
 static const double TURNED = 0.01, MOVED = 0.01;
-/* And when its gap is off by less than makes this share of its force, or of the scene's [-]. */
+/* And if its gap's error changes its force, or the scene's, by less than this share [-]. */
 static const double OFF = 0.01, LITTLE = 1e-3;
 
-/* A wire that goes further may meet what the iterate has not seen; of the radius [-]. */
+/* A wire that goes further may meet other things; of the radius [-]. */
 static const double FAR = 0.5;
 
 /* Where the smooth curve is nearest now. */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of wires that roll: friction acts on the wire's surface, which also moves when
- * edges turn about themselves. A turn of edge e shifts the surface, which is -r n from
- * the axis, by r n x t. The turn at a node is the mean of its edges', each for the half
- * of the node's share that is on it. */
+/* Touches of wires that roll: friction acts on the surface, which also moves with turns of edges
+ * about themselves. A turn of edge e shifts the surface, at -r n from the axis, by r n x t. A
+ * node's turn is the mean of its edges' turns. */
 #include <math.h>
 
 #include "contact/touch.h"
@@ -45,7 +44,7 @@ static sw_vec times(const double K[6], sw_vec v) {
               K[2] * v.x + K[4] * v.y + K[5] * v.z);
 }
 
-/* What friction does to the turn of lever k and its coupling to the touch's nodes. */
+/* Friction's effect on the turn of lever k, coupled to the touch's nodes. */
 static void add_lever(sw_body *b, const sw_touch *t, const sw_levers *l, size_t k,
                       const double K[6]) {
   const size_t i = t->node - b->first_node, e = l->edge + k;
@@ -70,8 +69,7 @@ void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned
   }
 }
 
-/* An impulse across the wire moves the surface more than the axis, by the inertia
- * against turning: by 1 + m r^2/I of it. */
+/* An impulse across the wire moves the surface by 1 + m r^2/I times as much as the axis. */
 sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most) {
   const sw_vec whole = sw_add(l->arm[0], l->arm[1]);
   sw_vec stop = slide;

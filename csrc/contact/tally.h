@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* A list of touches, and where in each are its sw_press and what its step lets out. */
+/* A list of touches, and where each has its sw_press and its let-out depth. */
 typedef struct sw_presses {
   const void *list;
   size_t count, size;    /* items [-]; of one of them [B] */
@@ -17,7 +17,7 @@ typedef struct sw_presses {
 size_t sw_presses_count(sw_presses list);  /* touches with a force */
 double sw_presses_energy(sw_presses list); /* stored in the springs [J] */
 double sw_presses_rubbed(sw_presses list); /* lost by friction in the step [J] */
-/* What the forces have done in the step on the way that wires were let out of a depth [J]. */
+/* Work of the forces in the step on depths that wires are let out of [J]. */
 double sw_presses_emerged(sw_presses list);
 
 #endif

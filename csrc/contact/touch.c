@@ -7,22 +7,22 @@
 #include "contact/curve.h"
 #include "contact/same.h"
 
-/* A touch goes on into the next iterate up to this gap, of the radius, and while its normal
- * turns by an angle with a cosine above this [-]. */
+/* A touch goes on in the next iterate up to this gap, of the radius, and if the cosine of its
+ * normal's turn is above this [-]. */
 static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
-/* What has pressed a mesh up to now is not let go of by the first static solve in which it pulls:
- * that one may only have met too many touches at once, and then nothing holds the mesh. */
+/* On a mesh the first static solve with a pull does not release a touch. That solve may just have
+ * met too many touches at once, and then nothing would hold the mesh. */
 enum { SPARE_PULLS = 1 };
 
-/* Sine of the turn of chords that still stand for an arc; a chord beside one counts in full from
- * this share of its force on, 1/BESIDE: all at once they would come and go with it [-]. */
+/* Largest sine of a turn of chords that stand for an arc. A chord beside counts in full from
+ * 1/BESIDE of the force on, gradually below: else the friction would jump with it [-]. */
 static const double MOST_ARC = 0.8, BESIDE = 10.0;
 
 enum { LINE = 64 }; /* of the cache [B] */
 
-/* A new touch, all zero, at the end of the list; or NULL: there is no room. The place of the one
- * after it is fetched while this one is filled: long lists come from memory. */
+/* A new touch, all zero, at the end of the list; NULL: out of memory. The next place is prefetched,
+ * because long lists come from memory. */
 static sw_touch *new_touch(sw_contact *c) {
   if (sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches) !=
       SW_OK)
@@ -34,8 +34,8 @@ static sw_touch *new_touch(sw_contact *c) {
   return memset(t, 0, sizeof *t);
 }
 
-/* It belongs to the list. Touches are in the order of candidates: a segment may find one of the
- * segment beside. */
+/* Put the new touch into the list, which is in the order of candidates: a segment may find a touch
+ * of the segment beside. */
 static void take_in(sw_contact *c) {
   size_t i = c->touch_count++;
   const size_t candidate = c->touches[i].candidate;
@@ -46,8 +46,8 @@ static void take_in(sw_contact *c) {
   c->touches[i] = t;
 }
 
-/* How far along the segment a touch may have moved and still be the same one, at most the given
- * share: a sample has its place [-]. */
+/* Largest way along the segment of one and the same touch, at most the given share: a sample keeps
+ * its place [-]. */
 static double within(const sw_candidate *k, double share) {
   return k->samples ? fmin(share, 0.5 / k->samples) : share;
 }
@@ -62,7 +62,7 @@ const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *
   return best;
 }
 
-/* How far along the wire what is remembered was from a candidate's place, in edges [-]. */
+/* Way along the wire between a memory and a candidate's place, in edges [-]. */
 static double away(const sw_memory *m, const sw_candidate *k, double at) {
   return fabs(((double)m->node - (double)k->node) + m->at - at);
 }
@@ -86,8 +86,7 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
-/* That place of the iterate before if it is an edge's of the same obstacle and nearer than the
- * nearest one. */
+/* The nearer one of best and an edge's touch of the last iterate with the same obstacle. */
 static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, double at,
                               double *nearest, const sw_touch *best) {
   if (!last->sharp || last->obstacle != k->obstacle || last->body != k->body) return best;
@@ -97,8 +96,8 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
   return last;
 }
 
-/* What a touch was in the iterate before; on the smooth curve perhaps of the segment beside. Of a
- * stage that is solved by parts, touches of the stage before are in the same list. */
+/* The touch of the iterate before; on a smooth curve also from the segment beside. Within a stage
+ * solved by parts the list also has touches of the stage before. */
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
   double nearest = within(k, SW_SAME_TOUCH);
@@ -116,9 +115,8 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
   return best;
 }
 
-/* Displacement of the wire's material at the touch since the step's start,
- * relative to the obstacle's. Of a wire that rolls: of its surface, relative to the
- * obstacle's material there. */
+/* Displacement of the wire's material at the touch since the step's start, relative to the
+ * obstacle's. For a wire that rolls: of its surface. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
   const sw_vec from = sw_mean_place(c, s->x, &t->spot);
@@ -135,8 +133,8 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
-/* The same since the wire was last seen there: what explicit methods do after their last evaluation
- * in a step is not in that, and is found at the next one. */
+/* The same since the wire was last seen there. It includes the motion of an explicit method after
+ * its last evaluation in a step. */
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -147,7 +145,7 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
-/* The memory of a touch that pressed, on whatever part of the wire it was. */
+/* Memory of a pressing touch, on this or a neighbouring part of the wire. */
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
   const sw_memory *own = sw_contact_remembered(c, k, at);
@@ -159,12 +157,12 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
   return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
 
-/* A particle of a mesh that sticks is predicted off its place by far more than what its touch's
- * spring gives way, while nothing but its inertia needs that: a prediction says that it slides when
- * so many times its inertia would [-]. */
+/* A prediction moves a sticking particle of a mesh far more than its touch's spring gives way,
+ * though only the particle's inertia asks for that. So a predicted slide counts only if this
+ * multiple of its inertia would slide [-]. */
 static const double NEIGHBOURS = 30.0;
 
-/* How stiff friction's spring counts where a prediction is to say that it surely slides [N/m]. */
+/* Stiffness of friction's spring in the test for a sure slide [N/m]. */
 static double felt_stiffness(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const sw_web *web = s->bodies[t->body].plan->web;
   if (!web || !web->per_ring || c->regime != SW_CONTACT_IMPLICIT) return HUGE_VAL;
@@ -185,10 +183,10 @@ static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
   return sum;
 }
 
-/* Chords around what is round touch it in their middles, and friction there turns with them, while
- * that of a wire follows the arc. Where the chord at hand and those beside it that press, too, turn
- * by phi from middle to middle, ln(T2/T1) = mu phi takes sinh(mu phi)/sin(phi) of the normal force
- * instead of mu (balance of a polygon's corners) [-]. */
+/* Friction on chords round an obstacle. Chords touch in their middles and friction there turns with
+ * them, while on a wire it follows the arc. If a chord and its pressing neighbours turn by phi from
+ * middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu phi)/sin(phi) instead of mu
+ * (balance of a polygon's corners) [-]. */
 static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m, const sw_touch *t,
                      double mu) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -250,9 +248,9 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
   return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
-/* A wire that is pushed on with its end bears far more than its weight, and a touch that is made
- * stiffer once that has driven it in would throw the end back. As stiff as the wire is there, it
- * is stiff enough from the beginning [N/m]. */
+/* A wire pushed on by its end bears far more than its weight. Stiffening its touch after it has
+ * sunk in would throw the end back; the stiffness of the wire itself is enough from the beginning
+ * [N/m]. */
 static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                             const double *y, sw_vec normal) {
   const sw_body *b = &s->bodies[k->body];
@@ -310,10 +308,10 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
   t->let_out = left.let_out;
 }
 
-/* Where wires press on each other, friction on what they lie on finds its direction as theirs does:
- * by its place alone, wires of a bundle that are thrown about turn round in every other iterate. So
- * may a wire by itself, for ever, between two iterates; most agree sooner by their place, and what
- * is left then is found like that too. */
+/* Is friction's direction that of its place? In bundles it is an unknown of its own, as between
+ * wires: by place alone, wires that are thrown about would turn round in every other iterate. A
+ * single wire may do so too, but most agree sooner by their place; after some updates its direction
+ * becomes an unknown. */
 static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
   const int apart = s->coupling.part != NULL && c->updates < SW_PATIENCE;
   return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
@@ -336,7 +334,7 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->stage = c->stage;
 }
 
-/* What does and does not press in this iterate. */
+/* Which touches press in this iterate. */
 static void activate(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_memory *m, const sw_touch *last, sw_press *press) {
   const sw_web *web = s->bodies[k->body].plan->web;

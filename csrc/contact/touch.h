@@ -81,11 +81,11 @@ struct sw_contact {
   double widening; /* of the reserve for flight, when nodes went further [-] */
 };
 
-/* Of a wire's touches, forces far below the largest one do not matter: this [N]. Touches are in the
- * order of wires: from the first of one to the end, that of the next. */
+/* Force scale of a wire's touches: much smaller forces do not matter [N]. Touches are in the order
+ * of wires: *end is the first of the next wire. */
 double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
-/* How far a node of velocity v may go in the step unnoticed, and one of any velocity [m]. */
+/* Way that a node of velocity v may go in the step unnoticed; and the least one [m]. */
 #define SW_FLIGHT_LEAST 1e-4
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
@@ -110,8 +110,8 @@ int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
  * the step does not bounce. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull);
 
-/* Will any of the touches from first to end strike, as they press now? Only of what gives nothing
- * back. */
+/* Will a touch from first to end strike with its present force? Only of obstacles without
+ * restitution. */
 int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
 /* Raise barriers where wires cross obstacles on their way to x1. h: of the step, 0 in statics,
@@ -130,8 +130,8 @@ sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err)
 /* An iterate looks at its candidates. */
 typedef struct sw_glance {
   size_t next, end;   /* what is left of them */
-  size_t match, last; /* the first one that has not found its touches of the iterate before, and the
-                         first of these that is left; as far as they are needed */
+  size_t match, last; /* the first candidate without its touches of the iterate before, and the
+                         first of these touches that is left */
 } sw_glance;
 
 /* An iterate begins: touches become those of the one before. SW_ENOMEM. */
@@ -139,8 +139,7 @@ sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
 /* Candidates up to the next one, and on the segment beside, find theirs. */
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
-/* What a candidate's touch that was nearest to this place left at the last accepted step, or NULL.
- */
+/* The memory of the candidate's touch nearest to this place, or NULL. */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
 /* A place along a candidate as a mean of nodes. */
 /* The obstacle with the owner's number, or count. */
@@ -151,26 +150,26 @@ struct sw_place;
 /* SW_ENOMEM. */
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const struct sw_place *place);
-/* Find touches at positions y, of some candidates more. *found: number of touches that are found
- * and stay where they are in the list. SW_ENOMEM. */
+/* Find touches of some more candidates at positions y. *found: number of touches whose place in the
+ * list is final. SW_ENOMEM. */
 sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
                              size_t *found, sw_error *err);
-/* How deep the touch's place was at the step's start, below 0 when it was outside [m]. */
+/* Depth of the touch's place at the step's start, below 0 outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
-/* Has the touch the place and the normal that its equations had, after an update by shift [m] to
- * positions y? scale: forces far below do not matter [N]. */
+/* After an update by shift [m] to positions y, does the touch keep the place and normal of its
+ * equations? scale: smaller forces do not matter [N]. */
 int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
                      double shift, double scale);
 
-/* After a static solve: let go of touches at the ends of rows as far as wires lift off there. */
+/* After a static solve: release touches at the ends of rows where the wire lifts off. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
 
-/* After a static solve whose update is not made: on the way to it touches find states to go on
- * from. 0: there is no room for that. */
+/* After a static solve whose update is not made: states of the touches at the best place on its
+ * way. 0: out of memory. */
 int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
 
-/* How many touches do not press where they should, or pull. */
+/* Number of touches that pull, or do not press where they should. */
 size_t sw_contact_wrong(const sw_contact *c);
 /* The stiffness k of a touch in the search. */
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
@@ -196,8 +195,8 @@ static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
 sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
 /* The touch's friction and stiffness (upper half of K) on the turns. */
 void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
-/* Change of the axis' velocity by an impulse that stops the surface's sliding, of at most
- * this size [m/s]. */
+/* Change of the axis' velocity by an impulse of at most this size that stops the surface's sliding
+ * [m/s]. */
 sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
 /* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
@@ -226,9 +225,9 @@ static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const s
   return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
-/* What is sunk along the normal n of its surface meets a face of normal -n where that surface is.
- * Where the surface is turned against the face it is the same, so that what flattens a section does
- * not change how far off it is: part of the gap that is added for that [m]. */
+/* Correction of a sunk place's gap. A place sunk along the normal n of its surface meets a face of
+ * normal -n at that surface. If the surface is turned against the face the distance stays, so that
+ * a flattened section keeps its distance [m]. */
 static inline double sw_contact_aslant(const sw_contact *c, size_t node, size_t other, double at,
                                        sw_vec normal) {
   if (!c->sunk) return 0;

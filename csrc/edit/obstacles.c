@@ -15,8 +15,7 @@
 #include "scene/parts.h"
 
 static const sw_param obstacle_rows[] = {
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_obstacle_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_obstacle_args),
     {"at", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_CHANGES, NULL,
      offsetof(sw_obstacle_args, at), "place of the shape's origin"},
     {"rotation", SW_PARAM_ROTATION, "rad", 0, 0, 0, SW_PARAM_CHANGES, NULL,

@@ -19,8 +19,7 @@
 #include "state/mesh.h"
 
 static const sw_param rows[] = {
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_particles_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_particles_args),
     {"positions", SW_PARAM_OTHER, "m", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,
      "list of points {x, y, z}, or of the numbers x1, y1, z1, x2 and so on"},
     {"masses", SW_PARAM_OTHER, "kg", 0, 0, 0, SW_PARAM_REQUIRED, NULL, 0,

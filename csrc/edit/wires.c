@@ -19,8 +19,7 @@ const char *const sw_breaking_flags[] = {"given", "measured", "computed", "guess
 static const char *const rest_names[] = {"straight", "path", NULL};
 
 static const sw_param wire_rows[] = {
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_wire_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_wire_args),
     {"model", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "wire model: 'rod' (default), 'string', a mesh: 'tube', 'radial', 'cubic', 'composite', or "
      "'auto'"},

@@ -23,81 +23,21 @@ typedef struct sw_clip_args {
 } sw_clip_args;
 
 /* Rows of parameters that every force of a clip takes. */
-#define SW_CLIP_ROWS                                                                          \
-  {"at",                                                                                      \
-   SW_PARAM_VECTOR,                                                                           \
-   "m",                                                                                       \
-   0,                                                                                         \
-   -HUGE_VAL,                                                                                 \
-   HUGE_VAL,                                                                                  \
-   SW_PARAM_REQUIRED,                                                                         \
-   NULL,                                                                                      \
-   offsetof(sw_clip_args, at),                                                                \
-   "the wire's centre line in the seat"},                                                     \
-      {"direction",                                                                           \
-       SW_PARAM_VECTOR,                                                                       \
-       "-",                                                                                   \
-       0,                                                                                     \
-       -HUGE_VAL,                                                                             \
-       HUGE_VAL,                                                                              \
-       SW_PARAM_REQUIRED,                                                                     \
-       NULL,                                                                                  \
-       offsetof(sw_clip_args, direction),                                                     \
-       "from the seat to the mouth"},                                                         \
-      {"axis",                                                                                \
-       SW_PARAM_VECTOR,                                                                       \
-       "-",                                                                                   \
-       0,                                                                                     \
-       -HUGE_VAL,                                                                             \
-       HUGE_VAL,                                                                              \
-       SW_PARAM_REQUIRED,                                                                     \
-       NULL,                                                                                  \
-       offsetof(sw_clip_args, axis),                                                          \
-       "along the wire in the seat"},                                                         \
-      {"width",                                                                               \
-       SW_PARAM_NUMBER,                                                                       \
-       "m",                                                                                   \
-       0,                                                                                     \
-       0,                                                                                     \
-       HUGE_VAL,                                                                              \
-       SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,                                                \
-       NULL,                                                                                  \
-       offsetof(sw_clip_args, width),                                                         \
-       "along the axis"},                                                                     \
-      {"insertion",                                                                           \
-       SW_PARAM_NUMBER,                                                                       \
-       "N",                                                                                   \
-       0,                                                                                     \
-       0,                                                                                     \
-       HUGE_VAL,                                                                              \
-       SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,                                                \
-       NULL,                                                                                  \
-       offsetof(sw_clip_args, insertion),                                                     \
-       "largest force of the lips on the way in"},                                            \
-      {"retention",                                                                           \
-       SW_PARAM_NUMBER,                                                                       \
-       "N",                                                                                   \
-       0,                                                                                     \
-       0,                                                                                     \
-       HUGE_VAL,                                                                              \
-       SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN,                                                \
-       NULL,                                                                                  \
-       offsetof(sw_clip_args, retention),                                                     \
-       "largest force of the lips on the way out"},                                           \
-      {"radius",                                                                              \
-       SW_PARAM_NUMBER,                                                                       \
-       "m",                                                                                   \
-       NAN,                                                                                   \
-       0,                                                                                     \
-       HUGE_VAL,                                                                              \
-       SW_PARAM_ABOVE_MIN,                                                                    \
-       NULL,                                                                                  \
-       offsetof(sw_clip_args, radius),                                                        \
-       "of the seat (default: that of the wire)"},                                            \
-  {                                                                                           \
-    "way", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,                  \
-        offsetof(sw_clip_args, way), "of the wire over the lips (default: 1.5 of its radius)" \
-  }
+#define SW_CLIP_ROW(field, unit, def, flags, doc) \
+  SW_NUMBER_ROW(sw_clip_args, field, unit, def, 0, HUGE_VAL, (flags) | SW_PARAM_ABOVE_MIN, doc)
+#define SW_CLIP_ROWS                                                                              \
+  SW_VECTOR_ROW(sw_clip_args, at, "m", 0, SW_PARAM_REQUIRED,                                      \
+                "the wire's centre line in the seat"),                                            \
+      SW_VECTOR_ROW(sw_clip_args, direction, "-", 0, SW_PARAM_REQUIRED,                           \
+                    "from the seat to the mouth"),                                                \
+      SW_VECTOR_ROW(sw_clip_args, axis, "-", 0, SW_PARAM_REQUIRED, "along the wire in the seat"), \
+      SW_CLIP_ROW(width, "m", 0, SW_PARAM_REQUIRED, "along the axis"),                            \
+      SW_CLIP_ROW(insertion, "N", 0, SW_PARAM_REQUIRED,                                           \
+                  "largest force of the lips on the way in"),                                     \
+      SW_CLIP_ROW(retention, "N", 0, SW_PARAM_REQUIRED,                                           \
+                  "largest force of the lips on the way out"),                                    \
+      SW_CLIP_ROW(radius, "m", NAN, 0, "of the seat (default: that of the wire)"),                \
+      SW_CLIP_ROW(way, "m", NAN, 0, "of the wire over the lips (default: 1.5 of its radius)")
 
 /* The clip as one wire meets it. */
 typedef struct sw_clip {

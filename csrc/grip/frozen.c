@@ -15,10 +15,6 @@
 #include "state/state_tape.h"
 #include "strand/ring.h"
 
-void sw_frozen_retain(sw_frozen *f) {
-  if (f) f->references++;
-}
-
 void sw_frozen_release(sw_frozen *f) {
   if (!f || --f->references > 0) return;
   sw_mesh_free(&f->mesh);
@@ -63,7 +59,9 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   sw_tape_jaw(t, &f->jaw);
 }
 
-static void retain(void *frozen) { sw_frozen_retain(frozen); }
+static void retain(void *frozen) {
+  if (frozen) ((sw_frozen *)frozen)->references++;
+}
 static void release(void *frozen) { sw_frozen_release(frozen); }
 
 void sw_tape_frozen(sw_tape *t, sw_frozen **frozen) {

@@ -40,7 +40,6 @@ struct sw_frozen {
 /* The tool's pads press as they do now. SW_ENOMEM. */
 sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);
 
-void sw_frozen_retain(sw_frozen *frozen);
 void sw_frozen_release(sw_frozen *frozen);
 /* A force on the wire and its moment about the tool's centre, in the tool's axes, as a share of the
  * load that the pads could bear in place of the rigid grip [-]. */

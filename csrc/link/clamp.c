@@ -10,8 +10,7 @@ static const sw_param rows[] = {
      "arc length of the held point"},
     {"direction", SW_PARAM_VECTOR, "-", NAN, -HUGE_VAL, HUGE_VAL, 0, NULL,
      offsetof(sw_hold_args, direction), "held tangent (default: the wire's present one)"},
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_hold_args),
 };
 
 static const sw_hold_acts acts = {.direction = 1};

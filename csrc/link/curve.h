@@ -35,7 +35,6 @@ typedef struct sw_slider {
   double p, v, a;  /* place along the curve of the accepted state, and its rates [m], [m/s] */
   double force;    /* of friction and ends on the wire, along the curve [N] */
   double rubs;     /* friction alone [N] */
-  size_t rail;     /* number in the system, while built */
 } sw_slider;
 
 #endif

@@ -28,8 +28,7 @@ static const sw_param rows[] = {
     {"force_limit", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_hold_args, force_limit),
      "the wire slips through where holding its speed would take more (default: never)"},
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_hold_args),
 };
 
 static const double AT_END = 1e-9; /* of the wire's length: rounding [-] */
@@ -52,29 +51,32 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
 static sw_status begin(sw_hold *h, const sw_link_wire *w) {
   const sw_mesh *m = w->mesh;
   const sw_hold_args *a = &h->args;
-  h->feed = (sw_feed){.outward = outward(m, h->s1),
-                      .label = h->s1,
+  const double size = (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1);
+  h->feed = (sw_feed){.guide = {.outward = outward(m, h->s1), .label = h->s1, .size = size},
+                      .slip = {.push = a->force, .limit = a->force_limit, .since = w->time},
                       .since = w->time,
-                      .speed = isnan(a->speed) ? 0 : a->speed,
-                      .slip_since = w->time,
-                      .push = a->force,
-                      .limit = a->force_limit,
-                      .size = (m->s[m->n - 1] - m->s[0]) / (double)(m->n - 1)};
-  return m->rest ? sw_mesh_copy(m, &h->feed.shape) : SW_OK;
+                      .speed = isnan(a->speed) ? 0 : a->speed};
+  return m->rest ? sw_mesh_copy(m, &h->feed.guide.shape) : SW_OK;
 }
 
 static void clear(sw_hold *h) {
   sw_motion_release(h->feed.motion);
-  sw_mesh_free(&h->feed.shape);
+  sw_mesh_free(&h->feed.guide.shape);
 }
 
-sw_feed_now sw_feed_at(const sw_hold *h, double t) {
+/* Length paid out at a time, its speed and acceleration. */
+typedef struct feed_now {
+  double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
+} feed_now;
+
+static feed_now feed_at(const sw_hold *h, double t) {
   const sw_feed *f = &h->feed;
-  const double u = t - f->slip_since;
-  sw_feed_now now = {.fed = f->fed + f->slip,
-                     .speed = f->speed + f->slip_speed + f->slip_growth * u,
-                     .acceleration = f->slip_growth};
-  now.fed += f->speed * (t - f->since) + (f->slip_speed + 0.5 * f->slip_growth * u) * u;
+  const sw_slip *slip = &f->slip;
+  const double u = t - slip->since;
+  feed_now now = {.fed = f->fed + slip->length,
+                  .speed = f->speed + slip->speed + slip->growth * u,
+                  .acceleration = slip->growth};
+  now.fed += f->speed * (t - f->since) + (slip->speed + 0.5 * slip->growth * u) * u;
   if (f->motion) {
     sw_motion_state m;
     sw_error ignored; /* a motion between two points calls no function */
@@ -86,16 +88,16 @@ sw_feed_now sw_feed_at(const sw_hold *h, double t) {
   return now;
 }
 
-static double arc_at(const sw_feed *f, double fed) { return f->label - f->outward * fed; }
+static double arc_at(const sw_guide *g, double fed) { return g->label - g->outward * fed; }
 
-void sw_feed_spare(const sw_feed *f, double fed, double spare[2]) {
+void sw_guide_spare(const sw_guide *g, double fed, double spare[2]) {
   for (int k = 0; k < 2; k++)
-    spare[k] = f->spare[k] * fmax(0, 1 - fabs(fed - f->spare_fed[k]) / f->size);
+    spare[k] = g->spare[k] * fmax(0, 1 - fabs(fed - g->spare_fed[k]) / g->size);
 }
 
 /* What the hold knows of the unloaded frame at arc length s of the mesh. */
 static void set_rest(sw_hold *h, double s) {
-  const sw_quat q = sw_spool_at(&h->feed.shape, s).q;
+  const sw_quat q = sw_spool_at(&h->feed.guide.shape, s).q;
   for (int side = 0; side < 2; side++) {
     h->frame[side].rest_tangent = sw_spool_tangent(q);
     h->frame[side].rest_normal = sw_spool_normal(q);
@@ -108,7 +110,7 @@ static void reshape(sw_hold *h, const sw_link_wire *w, const sw_plan *p) {
   const double kept = m->s[h->node];
   if (!m->rest) return;
   m->s[h->node] = p->s[h->node];
-  sw_spool_node(m, &h->feed.shape, h->node);
+  sw_spool_node(m, &h->feed.guide.shape, h->node);
   m->s[h->node] = kept;
   set_rest(h, p->s[h->node]);
   w->reshaped(w->user, w->body, h->node);
@@ -119,7 +121,7 @@ static void slide(sw_hold *h, const sw_link_wire *w, double arc, double fed) {
   sw_plan *p = w->system->bodies[w->body].plan;
   const size_t node = h->node;
   double spare[2];
-  sw_feed_spare(&h->feed, fed, spare);
+  sw_guide_spare(&h->feed.guide, fed, spare);
   const int same = p->s[node] == arc;
   if (same && (node == 0 || p->rest[node - 1] == arc - p->s[node - 1] + spare[0]) &&
       (node == p->edges || p->rest[node] == p->s[node + 1] - arc + spare[1]))
@@ -129,29 +131,29 @@ static void slide(sw_hold *h, const sw_link_wire *w, double arc, double fed) {
 }
 
 static void place(sw_hold *h, const sw_link_wire *w, double t, sw_hold_state *state) {
-  const sw_feed *f = &h->feed;
-  const sw_feed_now now = sw_feed_at(h, t);
-  slide(h, w, arc_at(f, now.fed), now.fed);
-  const sw_vec along = sw_scale(sw_rotate(state->pose.q, h->director[1]), f->outward);
+  const sw_guide *g = &h->feed.guide;
+  const feed_now now = feed_at(h, t);
+  slide(h, w, arc_at(g, now.fed), now.fed);
+  const sw_vec along = sw_scale(sw_rotate(state->pose.q, h->director[1]), g->outward);
   state->v = sw_madd(state->v, along, now.speed);
   state->a = sw_madd(state->a, along, now.acceleration);
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);
 }
 
 static int follow(sw_hold *h, const sw_link_wire *w) {
-  sw_feed *f = &h->feed;
-  const double u = w->time - f->slip_since;
-  f->slip += (f->slip_speed + 0.5 * f->slip_growth * u) * u;
-  f->slip_speed += f->slip_growth * u;
-  f->slip_since = w->time;
-  const double arc = arc_at(f, sw_feed_at(h, w->time).fed);
+  sw_slip *slip = &h->feed.slip;
+  const double u = w->time - slip->since;
+  slip->length += (slip->speed + 0.5 * slip->growth * u) * u;
+  slip->speed += slip->growth * u;
+  slip->since = w->time;
+  const double arc = arc_at(&h->feed.guide, feed_at(h, w->time).fed);
   w->mesh->s[h->node] = arc;
   h->s1 = h->s2 = h->s[0] = arc;
   return 0;
 }
 
 static void undo(sw_hold *h, const sw_link_wire *w) {
-  slide(h, w, h->s1, (h->feed.label - h->s1) * h->feed.outward);
+  slide(h, w, h->s1, (h->feed.guide.label - h->s1) * h->feed.guide.outward);
 }
 
 /* --- forces ----------------------------------------------------------------------- */
@@ -211,18 +213,25 @@ static double drive(const sw_hold *h, const sw_link_wire *w, const double *x) {
   for (size_t i = 0; i < y->held_count; i++)
     if (y->held[i].hold == number)
       sum += sw_dot(y->held[i].reaction, sw_load(y->directors_now + 3 * (2 * h->number + 1)));
-  sum *= h->feed.outward;
+  sum *= h->feed.guide.outward;
   for (size_t c = 0; c < b->plan->clamp_count; c++) {
     if (b->plan->clamps[c].hold != number) continue;
-    const int grows = b->plan->clamps[c].side * h->feed.outward;
+    const int grows = b->plan->clamps[c].side * h->feed.guide.outward;
     sum -= 0.5 * grows * (bent(y, b, c, x) + twisted(y, b, c));
   }
   return sum;
 }
 
 static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, const double *x) {
-  const sw_feed_now now = sw_feed_at(h, t);
-  return (sw_hold_way){now.fed, now.speed, x ? drive(h, w, x) : 0.0};
+  const feed_now now = feed_at(h, t);
+  return (sw_hold_way){now.fed, now.speed, x ? drive(h, w, x) : h->feed.guide.drive};
+}
+
+static sw_guide *guide(sw_hold *h) { return &h->feed.guide; }
+
+static sw_slip *slips(sw_hold *h) {
+  sw_slip *slip = &h->feed.slip;
+  return isfinite(slip->push) || isfinite(slip->limit) ? slip : NULL;
 }
 
 /* --- what is asked of it ------------------------------------------------------------ */
@@ -230,10 +239,10 @@ static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, con
 /* It stops where it is at time t; what follows starts from then. */
 static void stop(sw_hold *h, double t) {
   sw_feed *f = &h->feed;
-  f->fed = sw_feed_at(h, t).fed - f->slip;
+  f->fed = feed_at(h, t).fed - f->slip.length;
   f->since = t;
-  f->speed = f->slip_speed = f->slip_growth = f->slip_way = 0;
-  f->push = NAN;
+  f->speed = f->slip.speed = f->slip.growth = f->slip.way = 0;
+  f->slip.push = NAN;
   sw_motion_release(f->motion);
   f->motion = NULL;
 }
@@ -248,25 +257,25 @@ static sw_status go(sw_hold *h, const sw_link_wire *w, double speed, sw_motion *
 
 static sw_status push(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion,
                       sw_error *err) {
-  const double speed = sw_feed_at(h, w->time).speed;
+  const double speed = feed_at(h, w->time).speed;
   (void)motion, (void)err;
   stop(h, w->time);
-  h->feed.push = force, h->feed.slip_speed = speed;
+  h->feed.slip.push = force, h->feed.slip.speed = speed;
   return SW_OK;
 }
 
 static sw_status limit(sw_hold *h, const sw_link_wire *w, double force, sw_motion *motion,
                        sw_error *err) {
+  sw_slip *slip = &h->feed.slip;
   (void)w, (void)motion, (void)err;
-  h->feed.limit = force;
-  if (isnan(force) && isnan(h->feed.push))
-    h->feed.slip_speed = h->feed.slip_growth = h->feed.slip_way = 0;
+  slip->limit = force;
+  if (isnan(force) && isnan(slip->push)) slip->speed = slip->growth = slip->way = 0;
   return SW_OK;
 }
 
 /* Wire on the side of the guide from which this length would come; a spool has no end [m]. */
 static double reserve(const sw_hold *h, const sw_mesh *m, double length) {
-  const int from_far = length * h->feed.outward < 0;
+  const int from_far = length * h->feed.guide.outward < 0;
   const int is_end = from_far ? h->s1 >= m->s[m->n - 1] : h->s1 <= m->s[0];
   if (is_end) return HUGE_VAL;
   return from_far ? m->s[m->n - 1] - h->s1 : h->s1 - m->s[0];
@@ -294,38 +303,43 @@ static const char *const outputs[] = {"fed", "speed", "drive_force", "force_limi
 /* Paid out so far, speed, force that moves the wire outwards (the guide's walls bear the rest), its
  * limit or NAN [m], [m/s], [N], [N]. */
 static void read(const sw_hold *h, double t, double *out) {
-  const sw_feed_now now = sw_feed_at(h, t);
-  out[0] = now.fed, out[1] = now.speed, out[2] = h->feed.drive, out[3] = h->feed.limit;
+  const feed_now now = feed_at(h, t);
+  out[0] = now.fed, out[1] = now.speed, out[2] = h->feed.guide.drive, out[3] = h->feed.slip.limit;
 }
 
 /* --- on a tape --------------------------------------------------------------------- */
 
 #define DOUBLE(field) sw_tape_double(t, &x->field)
+#define SLIP(field) sw_tape_double(t, &x->slip.field)
+#define GUIDE(field) sw_tape_double(t, &x->guide.field)
 
 void sw_tape_feed(sw_tape *t, sw_feed *x) {
-  int shaped = x->shape.n > 0;
+  sw_guide *g = &x->guide;
+  int shaped = g->shape.n > 0;
   SW_TAPE_STRUCT(t, sw_feed, 368);
-  sw_tape_int(t, &x->outward), DOUBLE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed),
-      DOUBLE(start);
+  sw_tape_int(t, &g->outward), GUIDE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed);
+  DOUBLE(start);
   sw_tape_motion(t, &x->motion);
-  DOUBLE(slip), DOUBLE(slip_since), DOUBLE(slip_speed), DOUBLE(slip_growth), DOUBLE(slip_before);
-  DOUBLE(push), DOUBLE(limit), DOUBLE(slip_way), DOUBLE(way_before);
-  sw_tape_bracket(t, &x->found, "a feed");
-  DOUBLE(slope), DOUBLE(spare[0]), DOUBLE(spare[1]), DOUBLE(spare_fed[0]), DOUBLE(spare_fed[1]);
-  DOUBLE(size), DOUBLE(drive);
+  SLIP(length), SLIP(since), SLIP(speed), SLIP(growth), SLIP(growth_before);
+  SLIP(push), SLIP(limit), SLIP(way), SLIP(way_before);
+  sw_tape_bracket(t, &x->slip.found, "a feed");
+  SLIP(slope), GUIDE(spare[0]), GUIDE(spare[1]), GUIDE(spare_fed[0]), GUIDE(spare_fed[1]);
+  GUIDE(size), GUIDE(drive);
   sw_tape_int(t, &shaped);
-  if (shaped) sw_tape_mesh(t, &x->shape, 1);
+  if (shaped) sw_tape_mesh(t, &g->shape, 1);
   if (!sw_tape_reads(t)) return;
-  const double all = x->label + x->fed + x->since + x->speed + x->start + x->slip + x->slip_since +
-                     x->slip_speed + x->slip_growth + x->slip_before + x->slope + x->size;
-  sw_tape_expect(t, isfinite(all + x->spare[0] + x->spare[1]), "a feed");
+  const sw_slip *slip = &x->slip;
+  const double all = g->label + x->fed + x->since + x->speed + x->start + slip->length +
+                     slip->since + slip->speed + slip->growth + slip->growth_before + slip->slope +
+                     g->size;
+  sw_tape_expect(t, isfinite(all + g->spare[0] + g->spare[1]), "a feed");
 }
 
 /* Of a hold at rest: is what came from a tape a feed of the wire? */
 static int fits(const sw_hold *h, const sw_link_wire *w) {
-  const sw_feed *f = &h->feed;
-  return h->s1 == h->s2 && h->count == 1 && f->size > 0 && (f->outward == 1 || f->outward == -1) &&
-         (w->mesh->rest != NULL) == (f->shape.rest != NULL);
+  const sw_guide *g = &h->feed.guide;
+  return h->s1 == h->s2 && h->count == 1 && g->size > 0 && (g->outward == 1 || g->outward == -1) &&
+         (w->mesh->rest != NULL) == (g->shape.rest != NULL);
 }
 
 static const sw_hold_acts acts = {.orders = orders,
@@ -340,6 +354,8 @@ static const sw_hold_acts acts = {.orders = orders,
                                   .follow = follow,
                                   .undo = undo,
                                   .passes = passes,
+                                  .guide = guide,
+                                  .slips = slips,
                                   .fits = fits};
 
 const sw_link_class sw_link_feed = {

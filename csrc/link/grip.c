@@ -10,8 +10,7 @@ static const sw_param rows[] = {
      "arc length of the region's middle, also the tool centre"},
     {"width", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, width),
      "length of wire between the pads"},
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_hold_args),
 };
 
 static const sw_hold_acts acts = {.direction = 1};

@@ -76,6 +76,7 @@ typedef struct sw_hold {
   sw_clamp_give give[2];  /* likewise */
   sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
   size_t node, number;    /* first node in the wire's plan, among the system's; while built */
+  size_t rail;            /* among the system's rails, if its class has one; while built */
   sw_feed feed;           /* of a class that feeds */
   sw_slider slider;       /* of one with a rail */
   sw_vec force, moment;   /* last, kept after release [N], [N m] */
@@ -119,9 +120,12 @@ typedef struct sw_hold_acts {
   int (*follow)(sw_hold *hold, const sw_link_wire *wire);
   /* The plan back to the mesh, before this is read. */
   void (*undo)(sw_hold *hold, const sw_link_wire *wire);
-  /* Wire goes through it, so that nodes come and go: its way at time t, with nodes at x (NULL:
-   * without the force). */
+  /* Wire goes through it: its way at time t, with nodes at x (NULL: the force as it was last). */
   sw_hold_way (*passes)(const sw_hold *hold, const sw_link_wire *wire, double t, const double *x);
+  /* Of one that wire goes through: where nodes come and go; and what gives way to a force, NULL:
+   * nothing does now. */
+  sw_guide *(*guide)(sw_hold *hold);
+  sw_slip *(*slips)(sw_hold *hold);
   /* It keeps its node on a curve, as a rail of the system; place and force of that. */
   void (*rail)(const sw_hold *hold, sw_rail *out);
   /* Arguments as they are now; those that change from now on. */

@@ -22,8 +22,7 @@ static const sw_param rows[] = {
      "the path's last point is followed by the first; false: it stops at both ends"},
     {"friction", SW_PARAM_NUMBER, "-", 0, 0, 100, SW_PARAM_CHANGES, NULL,
      offsetof(sw_hold_args, friction), "Coulomb coefficient along the rail"},
-    {"name", SW_PARAM_TEXT, "-", 0, 0, 0, 0, NULL, offsetof(sw_hold_args, name),
-     "name used in messages and series"},
+    SW_NAME_ROW(sw_hold_args),
 };
 
 /* How far from the curve the wire may be when it is put on it, of the edges there: it is moved
@@ -109,20 +108,21 @@ static void rail(const sw_hold *h, sw_rail *out) {
                    .friction = x->friction,
                    .p = x->p,
                    .v = x->v,
-                   .a = x->a};
+                   .a = x->a,
+                   .rubs = x->rubs};
 }
 
 static void take(sw_hold *h, const sw_link_wire *w) {
   const sw_system *s = w->system;
-  const size_t at = sw_rail_freedom(s, h->slider.rail);
+  const size_t at = sw_rail_freedom(s, h->rail);
   h->slider.p = s->x[at], h->slider.v = s->v[at], h->slider.a = s->a[at];
 }
 
 static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_system *s = w->system;
-  const size_t at = sw_rail_freedom(s, h->slider.rail);
+  const size_t at = sw_rail_freedom(s, h->rail);
   take(h, w);
-  h->slider.force = s->rails[h->slider.rail].force, h->slider.rubs = s->rails[h->slider.rail].rubs;
+  h->slider.force = s->rails[h->rail].force, h->slider.rubs = s->rails[h->rail].rubs;
   if (!stops(&h->slider)) return 0;
   s->v[at] = s->a[at] = h->slider.v = h->slider.a = 0;
   sw_rails_place(s, s->x, s->v, NULL, NULL);
@@ -140,7 +140,7 @@ static void set(sw_hold *h, const sw_hold_args *a) { h->slider.friction = a->fri
 
 static void tape(sw_tape *t, sw_hold *h) {
   sw_slider *x = &h->slider;
-  SW_TAPE_STRUCT(t, sw_slider, 80); /* rail is found when the scene is built */
+  SW_TAPE_STRUCT(t, sw_slider, 72);
   sw_tape_curve(t, &x->curve);
   sw_tape_double(t, &x->from), sw_tape_double(t, &x->to), sw_tape_double(t, &x->friction);
   sw_tape_double(t, &x->p), sw_tape_double(t, &x->v), sw_tape_double(t, &x->a);

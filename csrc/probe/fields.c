@@ -52,7 +52,7 @@ static void put(luaL_Buffer *out, const void *list, size_t count, size_t size) {
 static void put_holds(luaL_Buffer *out, const sw_scene *s) {
   SW_EACH(hold, h, s) {
     sw_hold hold = *h;
-    hold.node = hold.number = hold.slider.rail = 0;
+    hold.node = hold.number = hold.rail = 0;
     put(out, &hold, 1, sizeof hold);
   }
   SW_EACH(join, j, s) {

@@ -108,7 +108,7 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_hold, 1576); /* node and number are found when it is built */
+  SW_TAPE_STRUCT(t, sw_hold, 1576); /* node, number and rail are found when it is built */
   UINT32(generation), INT(alive), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination from both ends of the chain at once: lane 0 of each pair goes up
- * from node 0, lane 1 down from node n - 1, and the two middle nodes are solved
- * last. Both chains run in one vector, which halves the work, and neither waits
- * for the other's divisions. */
+/* Elimination from both ends of the chain at once: lane 0 of each pair goes up from node 0, lane 1
+ * down from node n - 1; the two middle nodes come last. One vector holds both chains, which halves
+ * the work, and neither waits for the other's divisions. */
 #include "solve/band3.h"
 
 #include <math.h>
@@ -19,8 +18,8 @@ typedef struct pending {
   pair own[6], own_after[6], next[9];
 } pending;
 
-/* What is kept of an eliminated pair, whose own block is L D L': the inverse of D and L, in
- * the places of the diagonal and of xy xz yz; then (L D)^-1 times next and second. */
+/* An eliminated pair with its own block L D L': the inverse of D and L, in the places of the
+ * diagonal and of xy xz yz; then (L D)^-1 times next and second. */
 typedef struct kept {
   pair split[6], v1[9], v2[9];
 } kept;
@@ -38,8 +37,8 @@ static size_t odd_of(size_t n) { return n % 2; }
 
 static inline pair of(double a, double b) { return (pair){a, b}; }
 
-/* L D L' of symmetric blocks. (Their inverses would lose the square of the ratio of axial to
- * bending stiffness in what is subtracted from the next blocks.) */
+/* L D L' of symmetric blocks. (Updates with their inverses would lose the square of the ratio of
+ * axial to bending stiffness.) */
 static inline void split(const pair d[6], pair out[6], signs *s) {
   const pair r0 = 1.0 / d[0], l1 = d[1] * r0, l2 = d[2] * r0;
   const pair s3 = d[3] - l1 * d[1], s4 = d[4] - l1 * d[2], s5 = d[5] - l2 * d[2];
@@ -117,7 +116,7 @@ static inline void recall(const double *factor, size_t n, size_t i, size_t j, ke
   }
 }
 
-/* The two middle nodes, with what both chains left for them. */
+/* The two middle nodes, with the updates of both chains. */
 static void factor_middle(const double *a, size_t p, const pending *left, double *factor,
                           signs *s) {
   const double *ra = a + SW_ROW_SIZE * p, *rb = ra + SW_ROW_SIZE;
@@ -138,7 +137,7 @@ static void factor_middle(const double *a, size_t p, const pending *left, double
   for (int k = 0; k < 6; k++) fb[k] = d[k][0];
 }
 
-enum { SELDOM = 0xffff }; /* nodes between two looks at the user's wish to stop [-] */
+enum { SELDOM = 0xffff }; /* nodes between two checks for an interrupt [-] */
 
 SW_HOT
 sw_status sw_band3_factor(const double *a, size_t n, double *factor, size_t *negative) {
@@ -183,8 +182,8 @@ static inline pair part(rows f, int k) {
   return *(const loose *)(k < half ? f.up + 2 * k : f.down + 2 * (k - half));
 }
 
-/* Each pair waits for the one before: terms are subtracted one by one, in the order in which they
- * come to be known. */
+/* Each pair waits for the one before, so terms are subtracted one by one, in the order of their
+ * computation. */
 
 /* b -= w' z, z[2] known last */
 static inline void subtract_transposed(pair b[3], rows f, int w, const pair z[3]) {
@@ -198,8 +197,8 @@ static inline void subtract_times(pair b[3], rows f, int w, const pair z[3]) {
     for (int j = 0; j < 3; j++) b[j] -= part(f, w + 3 * j + i) * z[i];
 }
 
-/* Elimination of a pair: z is what is left of its right side, first and second are to be added to
- * that of the next two. */
+/* Elimination of a pair: z is the rest of its right side; first and second are the updates of the
+ * next two pairs. */
 static inline void forward(rows f, pair z[3], pair first[3], pair second[3]) {
   for (int c = 0; c < 3; c++) z[c] += first[c], first[c] = second[c], second[c] = of(0.0, 0.0);
   z[2] -= part(f, SPLIT + 2) * z[0];

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination from both ends of the chain at once, as in band3: neither chain waits for
- * the other's divisions. A block's row of four is one vector. An eliminated node keeps its
- * own block as L D L', in the first three rows L' beyond its diagonal of ones and in the
- * last one the inverse of D, and (L D)^-1 times its blocks to the next two nodes of its
- * chain, which are downwards the two before it. (Inverses of blocks would lose the square
- * of the ratio of axial to bending stiffness.) */
+/* Elimination from both ends of the chain at once, as in band3. A block's row of four is one
+ * vector. An eliminated node keeps L D L' of its own block: L' in the first three rows beyond the
+ * diagonal of ones, the inverse of D in the last one. It also keeps (L D)^-1 times its blocks to
+ * the next two nodes of its chain; downwards these are the two nodes before it. (Inverses of blocks
+ * would lose the square of the ratio of axial to bending stiffness.) */
 #include "solve/band4.h"
 
 #include <math.h>
@@ -119,7 +118,7 @@ static inline void go_down(double *row) {
   put(u2, v2);
 }
 
-/* How many nodes each chain has; what is left are two, and node 0 where n is odd. */
+/* Nodes of each chain; two are left, and node 0 if n is odd. */
 static size_t pairs_of(size_t n) { return (n - 2) / 2; }
 
 /* The two nodes in the middle. */
@@ -139,7 +138,7 @@ static void factor_middle(double *row, signs *s) {
   put(row + SW_ROW4_SIZE, d);
 }
 
-enum { SELDOM = 0xffff }; /* nodes between two looks at the user's wish to stop [-] */
+enum { SELDOM = 0xffff }; /* nodes between two checks for an interrupt [-] */
 
 SW_HOT
 sw_status sw_band4_factor(double *a, size_t n, size_t *negative) {

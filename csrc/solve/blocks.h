@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symmetric matrices of 3 x 3 blocks between nodes, for meshes of particles. Two kinds behind
- * one interface: nodes in rings, each coupled to its own and the neighbouring rings, and nodes
- * in no order. Factorised as L' D L without pivoting, so that the signs of the pivots count
- * negative directions. The pattern is fixed when the matrix is made;
- * values come anew each time and survive factoring.
- * A matrix owns scratch memory: no two threads may use one at a time. */
+/* Symmetric matrices of 3 x 3 blocks between nodes, for meshes of particles. One interface, two
+ * kinds: nodes in rings, coupled to their own and the neighbouring rings, and nodes in any pattern.
+ * Factorised as L' D L without pivoting, so that the signs of pivots count negative directions. The
+ * pattern is fixed; values are set anew each time and survive factoring. A matrix owns work space:
+ * one thread at a time. */
 #ifndef SW_SOLVE_BLOCKS_H
 #define SW_SOLVE_BLOCKS_H
 
@@ -39,9 +38,8 @@ double *sw_blocks_values(sw_blocks *blocks);
 /* From one row of a block to the next [doubles]. */
 size_t sw_blocks_stride(const sw_blocks *blocks);
 
-/* Where the block of rows of node i and columns of node j begins in the values, i >= j;
- * SIZE_MAX when there is none. Of a node's own block (i == j) only the lower half is read;
- * it may be written whole. */
+/* Start of the block of node i's rows and node j's columns in the values, i >= j; SIZE_MAX: there
+ * is none. Only the lower half of a node's own block (i == j) is read; it may be written whole. */
 size_t sw_blocks_slot(const sw_blocks *blocks, size_t i, size_t j);
 
 /* All values to zero. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Panels of 6 rows wait until all rows below them are done; then a tile of 6 x 8 numbers takes
- * up, in registers, all that these rows subtract, and is divided by its panel's own part before
- * it is stored: every number is written once. */
+/* Panels of 6 rows wait until all rows below them are done. Then a tile of 6 x 8 numbers collects
+ * in registers all that these rows subtract, and is divided by its panel's own part before it is
+ * stored: every number is written once. */
 #include "solve/blocks_front.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ ALWAYS void load(quad tile[][2], const double *a, size_t stride, const int rows)
   for (int i = 0; i < rows; i++, a += stride) tile[i][0] = look(a)[0], tile[i][1] = look(a)[1];
 }
 
-/* A panel's tile at a column of its row, with all that rows below the panel take from it. */
+/* A panel's tile at a column of its row, less the parts of all rows below the panel. */
 ALWAYS void gather(const sw_front *f, quad tile[][2], size_t panel, size_t column, const int own,
                    const int rows) {
   const size_t s = f->stride, below = panel + (size_t)rows;
@@ -92,7 +92,7 @@ ALWAYS void finish(sw_front *f, size_t panel, size_t column, const int own, cons
 ALWAYS void eliminate(sw_front *f, size_t panel, const int rows) {
   split(f, panel, rows);
   for (size_t j = 0; j < panel; j += TILE) finish(f, panel, f->place + j, 1, rows);
-  /* what the last tile held of the panel itself and beyond, where solving runs over it */
+  /* end of the last tile within the panel and beyond, which solving runs over */
   const size_t beyond = sw_front_pad(panel) - panel;
   for (size_t k = panel; k < panel + (size_t)rows; k++)
     memset(f->factor + k * f->stride + f->place + panel, 0, beyond * sizeof *f->factor);
@@ -131,8 +131,8 @@ ALWAYS void take(const sw_front *f, const double *d, double *to, size_t stride, 
   }
 }
 
-/* Subtract what the front's rows take from count rows of a matrix, which stand for its columns
- * from `first` on: the lower half up to full tiles. */
+/* Subtract the products of the front's rows from count rows of a matrix, which stand for its
+ * columns from `first` on: the lower half, up to full tiles. */
 SW_HOT
 static void take_all(const sw_front *f, size_t first, double *to, size_t stride, size_t count) {
   for (size_t begin = 0; begin < first + count; begin += COLUMNS) {

@@ -23,7 +23,7 @@ typedef struct sw_front {
   const double *a; /* (n x stride) values; may be the factor */
   double *factor;  /* (n x stride) L left of its panels; 0 at and right of them */
   double *kept;    /* (n x SW_FRONT_KEPT) L inside the panels, then 1/D */
-  double *scaled;  /* (n x stride) D L, for what is eliminated later */
+  double *scaled;  /* (n x stride) D L, for later eliminations */
   /* L and D L of a front of equal stride with n rows, which stands after this one and whose
    * columns before it are this one's own; NULL: there is none. */
   const double *next_factor, *next_scaled;
@@ -37,9 +37,9 @@ static inline size_t sw_front_pad(size_t n) {
 /* Fills factor, kept and scaled. */
 void sw_front_eliminate(sw_front *front);
 
-/* The same in place and without a next front, in parts of SW_FRONT_ROWS rows (which is what
- * scaled must hold); and subtract what they take from the columns that stay from rest, their
- * (rows x before) with the lower half up to full tiles. */
+/* The same in place, without a next front, in parts of SW_FRONT_ROWS rows (the size of scaled).
+ * Subtracts the products from rest, the columns that stay: (rows x before), the lower half up to
+ * full tiles. */
 void sw_front_reduce(sw_front *front, double *rest, size_t rows);
 
 /* Solving: own (n, and up to a tile beyond it unchanged), before (as many as there are).

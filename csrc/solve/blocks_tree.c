@@ -15,7 +15,7 @@ typedef struct piece {
   uint32_t child, other; /* its last child; the child before it of the same parent; NONE */
   size_t before, stride; /* as in sw_front */
   size_t factor;         /* where its factor begins */
-  size_t left;           /* where what it leaves stands, among what others left */
+  size_t left;           /* start of its remainder among the others' */
 } piece;
 
 #define NONE UINT32_MAX
@@ -101,8 +101,8 @@ typedef struct sizes {
   size_t factor, scaled, left, before;
 } sizes;
 
-/* What is left stands on two stacks, by turns from parent to child: so a front's own part can
- * be added to while its children's are read. Both are walked here once, since all is known. */
+/* Remainders stand on two stacks, by turns from parent to child, so that a front is written while
+ * its children's are read. Both are walked here once. */
 static void lay_out(sw_tree *t, sizes *size) {
   size_t top[2] = {0, 0}, most[2] = {0, 0};
   uint32_t *turn = t->place;
@@ -210,7 +210,8 @@ static void add_entries(const sw_tree *t, const piece *p, const double *values,
   }
 }
 
-/* One row of what a child left, up to its node number k, to where its nodes are in the parent. */
+/* One row of a child's remainder, up to its node number k, to the places of its nodes in the
+ * parent. */
 static inline void add_row(const uint32_t *places, uint32_t k, const double *from, double *to) {
   for (uint32_t j = 0; j <= k;) {
     const uint32_t begin = j, place = places[j];

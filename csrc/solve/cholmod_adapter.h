@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How to eliminate a sparse symmetric matrix in dense pieces (supernodes), found by CHOLMOD
- * (Chen, Davis, Hager and Rajamanickam 2008). Numbers are none of its business: its dense
- * kernels are those of whatever BLAS is installed, and it has none for indefinite matrices. */
+/* Supernodes of a sparse symmetric matrix: dense pieces for its elimination, found by CHOLMOD
+ * (Chen, Davis, Hager and Rajamanickam 2008). CHOLMOD does no arithmetic here: its dense kernels
+ * depend on the installed BLAS, and it has none for indefinite matrices. */
 #ifndef SW_SOLVE_CHOLMOD_ADAPTER_H
 #define SW_SOLVE_CHOLMOD_ADAPTER_H
 
@@ -18,9 +18,9 @@ typedef struct sw_cholmod_plan {
   uint32_t *row;   /* (start[fronts]) steps, ascending: a front's own ones, then those coupled */
 } sw_cholmod_plan;
 
-/* Node i is coupled to nodes column[first[i]] .. column[first[i + 1] - 1], ascending, the last
- * one itself. order: in which they are to be eliminated, but for what makes no difference; NULL: to
- * be found. SW_ENOMEM, SW_ELIMIT; then there is no plan to free. */
+/* Node i is coupled to nodes column[first[i]] .. column[first[i + 1] - 1], ascending, the last one
+ * itself. order: of the elimination, up to equivalent changes; NULL: to be found. SW_ENOMEM,
+ * SW_ELIMIT; then there is no plan to free. */
 sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t *column,
                              const int32_t *order, sw_cholmod_plan *plan);
 void sw_cholmod_free_plan(sw_cholmod_plan *plan);

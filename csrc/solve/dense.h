@@ -11,8 +11,8 @@ enum { SW_DENSE_MOST = 16 }; /* rows [-] */
  * is no solution. Nothing is allocated. */
 int sw_dense_solve(double *a, size_t n, double *b);
 
-/* x, or the shortest of those that come nearest: directions in which a is less than `least` of what
- * it is along its longest one get nothing. Otherwise as sw_dense_solve. */
+/* x, or the shortest least-squares solution: directions in which a is below `least` of its largest
+ * value are left out. Otherwise as sw_dense_solve. */
 int sw_dense_least(double *a, size_t n, double *b, double least);
 
 /* Solve a x = b likewise, of any size, by elimination, which counts pivots below 0. Without swaps

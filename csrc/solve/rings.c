@@ -73,8 +73,8 @@ void sw_rings_unpad(const sw_rings *r, const double *padded, double *x) {
     memcpy(x + k * r->n, padded + k * r->padded, r->n * sizeof *x);
 }
 
-/* Three rows from column 0 to columns, against x there and, mirrored, into y there:
- * sum += rows x, y += rows' own. */
+/* Three rows, columns 0 to columns, times x and, mirrored, into y: sum += rows x, y += rows' own.
+ */
 static inline void mirror(const double *row, size_t stride, size_t columns, const double own[3],
                           const double *x, double *y, double sum[3]) {
   const double *a = row, *b = row + stride, *c = b + stride;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Analysis finds the order, the pattern of L, and for every product of the
- * elimination the block it is subtracted from; the factorisation then only runs
- * through these lists. */
+/* The analysis finds the order, the pattern of L, and the target block of every product; the
+ * factorisation runs through these lists. */
 #include "solve/sparse.h"
 
 #include <string.h>
@@ -13,21 +12,21 @@
 #include "solve/blocks.h"
 #include "solve/order.h"
 
-/* Two right-hand sides go through together: the way through a chain is one of waiting. */
+/* Two right-hand sides at once: a chain's solution is mostly waiting. */
 typedef double two __attribute__((vector_size(16)));
 
-/* From so many blocks a column of L on, factors are made by dense fronts, many numbers at once
+/* With more blocks than this in a column of L, dense fronts make the factors, many numbers at once
  * [-]. */
 static const size_t DENSE = 12;
 
 struct sw_sparse {
   size_t n, block, pairs;
-  sw_blocks *fronts;     /* the matrix, where L is that dense; nothing but slot is used besides */
+  sw_blocks *fronts;     /* the matrix, if L is that dense; only slot is used besides */
   int along;             /* 1: these are in the order from end to end */
   uint32_t *place;       /* (n) node -> its number in the elimination */
   uint32_t *start, *row; /* (n + 1), (fill): rows of each column of L, ascending */
   uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
-  uint32_t *target;      /* blocks that products of two rows of a column go to */
+  uint32_t *target;      /* target blocks of products of two rows of a column */
   size_t targets, fill, widest;
   two *x;            /* (n x block) */
   double *own, *off; /* (n), (fill) blocks */
@@ -103,8 +102,7 @@ static uint32_t find_slot(const sw_sparse *s, uint32_t column, uint32_t row) {
   return after - 1;
 }
 
-/* Where the product of rows a < b of each column goes, in the order in which the
- * factorisation makes them. */
+/* Target of the product of rows a < b of each column, in the order of the factorisation. */
 static sw_status find_targets(sw_sparse *s) {
   size_t total = 0;
   for (size_t k = 0; k < s->n; k++) {
@@ -268,7 +266,7 @@ ALWAYS int split(double *m, const int b, size_t *negative) {
     const double pivot = m[b * k + k], r = 1.0 / pivot;
     double below[SW_SPARSE_BLOCK_MAX];
     *negative += pivot < 0;
-    product *= r * pivot; /* not a number when a pivot is no good */
+    product *= r * pivot; /* not a number: a pivot vanished */
     for (int i = k + 1; i < b; i++) below[i] = m[b * i + k];
     for (int i = k + 1; i < b; i++) {
       const double l = below[i] * r;

@@ -110,7 +110,7 @@ static double take(sw_statics *p, int trial) {
 }
 
 /* Have obstacles moved since contact knew them? Then friction drags the wires. */
-int sw_rest_dragged(const sw_statics *p) {
+static int is_dragged(const sw_statics *p) {
   return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
          sw_contact_moves(sw_scene_contact(p->s));
 }
@@ -186,7 +186,7 @@ static sw_status transient(sw_statics *p, sw_error *err) {
   const sw_newton newton = {
       .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
   /* what is dragged along must not be kept from it by inertia */
-  double tau = sw_rest_dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
+  double tau = is_dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
   p->report->transient = 1;
   while (p->report->iterations < (size_t)p->args->max_iterations) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
@@ -195,7 +195,7 @@ static sw_status transient(sw_statics *p, sw_error *err) {
     if (sw_rest_stops(status)) return status;
     if (status != SW_OK) {
       tau *= 0.25;
-      if (p->too_far && tau < time_scale(s) && sw_rest_dragged(p)) {
+      if (p->too_far && tau < time_scale(s) && is_dragged(p)) {
         *p->too_far = 1;
         return sw_fail(err, SW_ENOCONV, "obstacles drag the wires too far in one step");
       }
@@ -247,7 +247,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
   sw_rest_put_aside(p->s, p->kept);
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (found(p, status)) return status;
-  if (!p->rests && sw_rest_dragged(p)) {
+  if (!p->rests && is_dragged(p)) {
     sw_rest_take_back(p->s, p->kept);
     SW_TRY(sw_rest_before(p, &fell, err));
     if (fell) {
@@ -256,7 +256,7 @@ sw_status sw_rest_find(sw_statics *p, sw_error *err) {
       if (found(p, status)) return status;
     }
   }
-  if (status == SW_ENOCONV && sw_rest_dragged(p)) { /* touches may begin to slide one by one */
+  if (status == SW_ENOCONV && is_dragged(p)) { /* touches may begin to slide one by one */
     sw_rest_take_back(p->s, p->kept);
     const double most = SW_REST_ITERATIONS + SLIDES * (double)sw_scene_system(p->s)->nodes;
     status = sw_rest_newton(p, (int)fmin(most, (double)p->args->max_iterations), err);

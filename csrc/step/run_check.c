@@ -67,7 +67,9 @@ __attribute__((constructor)) static void fill_choices(void) {
 static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error *err) {
   SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->rail) continue;
-    const int jumps = h->slider.friction > 0 || isfinite(h->slider.to - h->slider.from);
+    sw_rail rail;
+    h->cls->hold->rail(h, &rail);
+    const int jumps = rail.friction > 0 || isfinite(rail.to - rail.from);
     if (!(m->flags & SW_INTEGRATOR_IMPLICIT) || (jumps && m->flags & SW_INTEGRATOR_NO_CONTACT))
       return sw_fail(err, SW_EINVAL,
                      "scene:run: integrator '%s' is %s; %s '%s' needs another one, as tr-bdf2",

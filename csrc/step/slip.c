@@ -19,13 +19,14 @@ static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L
 
 static const double NO_WAY = 1e-13; /* of the wire in a step [m] */
 
-static int yields(const sw_hold *h) {
-  return h->alive && sw_hold_passes(h) && (isfinite(h->feed.push) || isfinite(h->feed.limit));
+/* What gives way at a hold, or NULL. */
+static sw_slip *slip_of(sw_hold *h) {
+  return h->alive && h->cls->hold->slips ? h->cls->hold->slips(h) : NULL;
 }
 
 int sw_slip_any(const sw_scene *s) {
   SW_EACH(hold, h, s)
-    if (yields(h)) return 1;
+    if (slip_of(h)) return 1;
   return 0;
 }
 
@@ -33,22 +34,22 @@ static int begin(sw_scene *s, double step) {
   int any = 0;
   (void)step;
   SW_EACH(hold, h, s) {
-    sw_feed *f = &h->feed;
-    if (!yields(h)) continue;
+    sw_slip *f = slip_of(h);
+    if (!f) continue;
     any = 1;
-    f->slip_before = f->slip_growth;
-    f->way_before = f->slip_way;
-    if (!isfinite(f->push) && f->slip_way == 0) f->slip_growth = 0; /* first tried without */
+    f->growth_before = f->growth;
+    f->way_before = f->way;
+    if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without */
   }
   return any;
 }
 
 static void give_up(sw_scene *s) {
   SW_EACH(hold, h, s) {
-    sw_feed *f = &h->feed;
-    if (!yields(h)) continue;
-    f->slip_growth = f->slip_before;
-    f->slip_way = f->way_before;
+    sw_slip *f = slip_of(h);
+    if (!f) continue;
+    f->growth = f->growth_before;
+    f->way = f->way_before;
   }
 }
 
@@ -56,9 +57,9 @@ static void give_up(sw_scene *s) {
  * position has it, else by the slope known so far.
  * Returns 1 when both are one place: the force jumps there, as in an impact; or in very short
  * steps, when the next guess is the same place. */
-static int improve(sw_feed *f, double off, int first, double mass, double step) {
+static int improve(sw_slip *f, double off, int first, double mass, double step) {
   sw_bracket *b = &f->found;
-  const double before = f->slip_growth;
+  const double before = f->growth;
   if (first) sw_bracket_clear(b);
   const double seen = b->off[off > 0], at = b->tried[off > 0];
   const int side = sw_bracket_add(b, before, off);
@@ -66,39 +67,37 @@ static int improve(sw_feed *f, double off, int first, double mass, double step) 
     if (fabs(sw_bracket_width(b)) * step * step < NO_WAY) return 1;
     sw_bracket_weigh(b, side);
     f->slope = sw_bracket_slope(b);
-    f->slip_growth = b->tried[0] - b->off[0] / f->slope; /* their root */
+    f->growth = b->tried[0] - b->off[0] / f->slope; /* their root */
     return 0;
   }
   const double slope = isfinite(seen) ? (off - seen) / (before - at) : f->slope;
   f->slope = slope > 0 ? slope : mass; /* all of the wire is pushed along */
   if (!first && fabs(off / f->slope) * step * step < NO_WAY) return 1;
   sw_bracket_weigh(b, side);
-  f->slip_growth -= off / f->slope;
+  f->growth -= off / f->slope;
   return 0;
 }
 
 /* Has the slip come to its end within the step? Then it stops with it. */
-static int stops(sw_feed *f, double h) {
+static int stops(sw_slip *f, double h) {
   if (isfinite(f->push) || f->way_before == 0) return 0;
-  if ((f->slip_speed + f->slip_growth * h) * f->slip_way <= 0) return 0;
-  f->slip_way = 0;
-  f->slip_growth = -f->slip_speed / h;
+  if ((f->speed + f->growth * h) * f->way <= 0) return 0;
+  f->way = 0;
+  f->growth = -f->speed / h;
   return 1;
 }
 
-static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
-  sw_feed *f = &h->feed;
+static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int first) {
   const sw_plan *p = sw_scene_system(s)->bodies[h->wire].plan;
-  const sw_link_wire w = sw_scene_link_wire(s, h->wire);
-  const double drive =
-      h->cls->hold->passes(h, &w, sw_scene_time(s), sw_scene_course(s)->stepper.trial_x).force;
+  const double *x = sw_scene_course(s)->stepper.trial_x;
+  const double drive = sw_hold_way_of(s, h, sw_scene_time(s), x).force;
   const double L = p->length;
   const double weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
-  if (!isfinite(f->push) && f->slip_way == 0) {
+  if (!isfinite(f->push) && f->way == 0) {
     if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* stopped, or holds */
-    f->slip_way = copysign(1.0, drive);
+    f->way = copysign(1.0, drive);
   }
-  const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->slip_way);
+  const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way);
   const double off = drive - want, scale = fmax(fabs(want), fmax(weight, p->beam.EI / (L * L)));
   if (fabs(off) <= PRECISION * scale) return !stops(f, step);
   return improve(f, off, first, p->beam.mass * L, step);
@@ -106,8 +105,10 @@ static int correct_feed(sw_scene *s, sw_hold *h, double step, int first) {
 
 static int correct(sw_scene *s, double h, int first) {
   int good = 1;
-  SW_EACH(hold, hold, s)
-    if (yields(hold)) good &= correct_feed(s, hold, h, first);
+  SW_EACH(hold, hold, s) {
+    sw_slip *f = slip_of(hold);
+    if (f) good &= correct_slip(s, hold, f, h, first);
+  }
   return good;
 }
 

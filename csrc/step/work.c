@@ -58,11 +58,11 @@ static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
 static void rub_on_rail(sw_scene *s, size_t k) {
   sw_books *b = sw_scene_books(s);
   sw_system *system = sw_scene_system(s);
-  const sw_slider *x = &sw_scene_held_by(s, k)->slider;
+  const size_t number = sw_scene_held_by(s, k)->rail;
+  const sw_rail *rail = &system->rails[number];
   const sw_worker *from = &b->holds[k];
-  const double way = system->x[sw_rail_freedom(system, x->rail)] - from->fed;
-  const double now = system->rails[x->rail].rubs;
-  if (x->friction > 0) b->step.friction += fmax(0.0, -0.5 * (from->drive + now) * way);
+  const double way = system->x[sw_rail_freedom(system, number)] - from->fed;
+  if (rail->friction > 0) b->step.friction += fmax(0.0, -0.5 * (from->drive + rail->rubs) * way);
 }
 
 static double work_of_holds(sw_scene *s, double t1, int changed) {
@@ -146,9 +146,9 @@ static void note_obstacle(sw_scene *s, size_t k) {
 }
 
 /* A rail's moment is kept about the place that is on it; work is done about the pose. */
-static sw_vec moment_of_rail(const sw_slider *x, const sw_pose *pose, sw_vec force) {
+static sw_vec moment_of_rail(const sw_rail *rail, const sw_pose *pose, sw_vec force) {
   sw_rail_point on;
-  sw_curve_at(x->curve, x->p, &on);
+  rail->at(rail->curve, rail->p, &on);
   return sw_cross(sw_rotate(pose->q, on.x), force);
 }
 
@@ -158,12 +158,15 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
   sw_worker *w = &sw_scene_books(s)->holds[k];
   *w = (sw_worker){system->hold_states[k].pose, h->force, h->moment, 0, 0};
   if (!logged) sw_system_reaction(system, (int)k, w->pose.p, &w->force, &w->moment);
-  if (h->cls->hold->rail) w->fed = h->slider.p, w->drive = h->slider.rubs;
-  if (h->cls->hold->rail && logged) w->moment = moment_of_rail(&h->slider, &w->pose, w->force);
+  if (h->cls->hold->rail) {
+    sw_rail rail;
+    h->cls->hold->rail(h, &rail);
+    w->fed = rail.p, w->drive = rail.rubs;
+    if (logged) w->moment = moment_of_rail(&rail, &w->pose, w->force);
+  }
   if (!sw_hold_passes(h)) return;
   const sw_hold_way now = sw_hold_way_of(s, h, sw_scene_time(s), logged ? NULL : system->x);
-  w->fed = now.way;
-  w->drive = logged ? h->feed.drive : now.force;
+  w->fed = now.way, w->drive = now.force;
 }
 
 sw_status sw_ledger_note_workers(sw_scene *s, int logged) {

@@ -31,11 +31,11 @@ typedef struct sw_body {
   size_t term_count;
   sw_field field;
   void *field_block;
-  size_t first_span;    /* place of the plan's spans in the system's twist */
-  int has_twist;        /* the wire resists twist and is held against it somewhere */
-  double *twist_now;    /* (spans) at this evaluation [rad] */
-  double *twist_rank;   /* (nodes x 3) slope of the twist, held nodes included [rad/m]; both
-                         * serve as room while the twist is measured */
+  size_t first_span;  /* place of the plan's spans in the system's twist */
+  int has_twist;      /* the wire resists twist and is held against it somewhere */
+  double *twist_now;  /* (spans) at this evaluation [rad] */
+  double *twist_rank; /* (nodes x 3) slope of the twist, held nodes included [rad/m]; both are work
+                         space while the twist is measured */
   double *twist_solved; /* (nodes x 3) the matrix' inverse times it */
   double *twist_gain;   /* (spans) added to the torque by the last update [N m] */
   void *twist_block;
@@ -60,48 +60,48 @@ typedef struct sw_body {
   unsigned char *web_fixed; /* (particles) 1: held */
   uint32_t *web_pairs;      /* (web_pair_count x 2) that it has besides the web's */
   size_t web_pair_count;
-  size_t web_couples; /* pairs of its particles in the matrix of what is bridged */
-  int web_replanned;  /* 1: it has other pairs than these were listed for */
+  size_t web_couples; /* pairs of its particles in the matrix of the bridges */
+  int web_replanned;  /* 1: it has other pairs than those listed */
   double *web_room;   /* (particles x 15) of a large one, for iterations; or NULL */
-  int web_factored;   /* 1: there is a factor of this step that leads iterations */
-  int web_slow;       /* 1: it did not lead them fast enough in this step */
+  int web_factored;   /* 1: this step has a factor that preconditions iterations */
+  int web_slow;       /* 1: it did so too slowly in this step */
   int bridged;        /* its matrix is part of the bridges' (see system/bridge.h) */
-  double pushed;      /* largest push for which the scene looked whether it buckles [N] */
+  double pushed;      /* largest push for which buckling was checked [N] */
 } sw_body;
 
-/* Add what a term gives to its body's field. */
+/* Add a term to its body's field. */
 static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {
   field->history = term->history;
   return term->cls->eval(term->args, field, err);
 }
 
-/* What commit has found in a body's term; 1: there is something to tell. */
+/* News of a body's term after commit; 1: there are some. */
 static inline int sw_term_news(const sw_term *term, sw_force_news *out) {
   return term->cls->news && term->history && term->cls->news(term->args, term->history, out);
 }
 
-/* An evaluation of the body's terms begins: what they add to is zero, edges are measured. */
+/* An evaluation of the body's terms begins: the field is zero, edges are measured. */
 void sw_body_begin(sw_body *body);
 /* out = stiffness that they added times d, held nodes like all others; both (nodes x 3). */
 void sw_body_stiffness_times(sw_body *body, const double *d, double *out);
 
-/* While the coupling evaluates: stiffness between nodes i and j of a body with a web, of the
- * body's own numbers, i != j, row by row with i's rows [N/m]. They are an edge of its surface. */
+/* While the coupling evaluates: stiffness between nodes i and j of a body with a web, in the body's
+ * own numbers, i != j, row by row with i's rows [N/m]. They form an edge of its surface. */
 void sw_body_couple(sw_body *body, size_t i, size_t j, const double K[9]);
 
-/* Before a step: between which pairs of the body's own particles (count x 2) there may be
- * stiffness besides its web's in it. The matrix depends on these alone, not on earlier steps.
- * SW_ENOMEM leaves the old ones. */
+/* Before a step: the pairs of the body's own particles (count x 2) that may get stiffness in it
+ * besides the web's. The matrix depends on these alone, not on earlier steps. SW_ENOMEM leaves the
+ * old ones. */
 sw_status sw_body_plan_pairs(sw_body *body, const uint32_t *pairs, size_t count);
 
 /* --- while the coupling refines a solution ----------------------------------- */
 
 /* 1: the body's equations can be solved again by the factors that there are. */
 int sw_body_solves_again(const sw_body *body);
-/* By how much forces that are added change the solution: of the body's nodes (nodes x 3), zero
- * where held; in place. */
+/* Change of the solution by added forces, of the body's nodes (nodes x 3), zero where held; in
+ * place. */
 void sw_body_solve_again(const sw_body *body, double *more);
-/* The solution delta (nodes x 3) is the last one. */
+/* delta (nodes x 3) becomes the last solution. */
 void sw_body_take_solution(sw_body *body, const double *delta);
 
 #endif

@@ -114,8 +114,8 @@ static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   return SW_OK;
 }
 
-/* The pattern that was planned, unless it is the present one. What came besides in a step is
- * forgotten with it: the next one's rounding would depend on more than the scene's state. */
+/* Return to the planned pattern. Pairs that came in a step are dropped with it: else the next
+ * step's rounding would depend on more than the scene's state. */
 static sw_status take_plan(struct sw_bridges *l) {
   const size_t n = l->planned_count;
   const int more = l->anew && l->known_count > l->from_plan;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of bodies that bridges tie together: values of their matrix, twist, solution,
- * reactions. */
+/* The equations of bridged bodies: values of their matrix, twist, solution, reactions. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -174,10 +173,9 @@ static sw_status solve_slopes(sw_system *s, size_t count) {
   return SW_OK;
 }
 
-/* Each span adds stiffness g g' to the matrix K: with the compliances C^-1 and the
- * solved slopes K^-1 g, Sherman, Morrison and Woodbury's formula for all at once, as
- * bridges carry the twist of one wire to the next. Returns how many directions are not
- * negative any more. */
+/* Each span adds stiffness g g' to the matrix K. With the compliances C^-1 and the solved slopes
+ * K^-1 g: the formula of Sherman, Morrison and Woodbury for all at once, because bridges carry
+ * twist from wire to wire. Returns how many directions are not negative any more. */
 static size_t correct_twist(sw_system *s, size_t m) {
   struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What acts on a system from outside: holds that place its nodes, and couplings (contact) that add
+/* Outside influences on a system: holds, which place its nodes, and couplings (contact), which add
  * forces in every iteration. */
 #ifndef SW_SYSTEM_COUPLING_H
 #define SW_SYSTEM_COUPLING_H
@@ -23,7 +23,7 @@ typedef struct sw_held_node {
   size_t body;
   int hold;
   size_t rail;      /* number of its rail + 1, or 0 (see system/rail.h) */
-  int slides;       /* wire slides through: its velocity is not how the node moves */
+  int slides;       /* wire slides through: the wire's velocity differs from the node's */
   sw_vec local;     /* [m] */
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
   sw_vec own_force; /* inertia minus forces before the last solve [N] */
@@ -34,35 +34,34 @@ typedef struct sw_held_node {
 
 enum { SW_BOOK_STAGES = 2 };
 
-/* How the impulse from a step's start up to a stage, of what acts from outside, is made up of
- * forces and earlier impulses, as the stage's velocity is. */
+/* Impulse of outside forces from a step's start up to a stage, as a sum of forces and earlier
+ * impulses: the same sum as the stage's velocity. */
 typedef struct sw_booking {
   int stage;     /* number; what it had before is replaced [-] */
   double own;    /* share of the forces of the last evaluation [s] */
-  double start;  /* of those at the step's start, which the last step ended with [s] */
-  double first;  /* of the impulse up to stage 0, as it was [-] */
+  double start;  /* share of those at the step's start, with which the last step ended [s] */
+  double first;  /* share of the impulse up to stage 0 [-] */
   double before; /* of that of the step before, backwards [-] */
 } sw_booking;
 
-/* What acts besides the wires' own forces. Every function may be NULL. All get
- * user first. */
+/* A coupling: forces besides the wires' own. Every function may be NULL. All get user first. */
 typedef struct sw_coupling {
   void *user;
   /* Pose of hold number k at a time. */
   sw_status (*place)(void *user, int hold, double time, sw_hold_state *out, sw_error *err);
-  /* A stage begins; first: share of the step's first stage in what it begins from [-]. */
+  /* A stage begins; first: the share of the step's first stage at which it begins [-]. */
   sw_status (*begin_stage)(void *user, sw_system *system, double time, double first, sw_error *err);
-  /* It couples no bodies, and from now on acts on system->part alone; parts come in their order,
-   * each once in a stage, and then all again. NULL: it acts on all together. */
+  /* The coupling joins no bodies. From now on it acts on system->part alone; parts come in their
+   * order, each once in a stage, and then all again. NULL: it acts on all together. */
   void (*part)(void *user, sw_system *system);
   /* Add forces and matrix rows at y to the bodies' fields. */
   sw_status (*eval)(void *user, sw_system *system, double time, double hbar, const double *y,
                     unsigned want, sw_error *err);
-  /* Before eval at y: out = 1, its stiffness there is that of the last eval that was asked for it,
-   * but for small turns. NULL: never. */
+  /* Before eval at y: out = 1, the stiffness of the last eval serves again, but for small turns.
+   * NULL: never. */
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
-  /* The system's delta solves the last eval's linearisation. Make it fit forces that depend on it
-   * in other ways, by solving again with the factors that there are. */
+  /* delta solves the last eval's linearisation. Make it fit forces that depend on it in other ways,
+   * by more solves with the same factors. */
   void (*refine)(void *user, sw_system *system);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);

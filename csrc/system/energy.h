@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Energies and powers of the system's state, or of a state that it might go to. */
+/* Energies and powers of the system's state, or of a trial state. */
 #ifndef SW_SYSTEM_ENERGY_H
 #define SW_SYSTEM_ENERGY_H
 
@@ -10,20 +10,20 @@ typedef struct sw_glance {
   double *x, *v, *rates;
 } sw_glance;
 
-/* The system as it would be with nodes at x and velocities v (freedoms each), rates of strain
- * (edges, or NULL: those of the velocities), holds as last placed and axial forces as stored;
- * read-outs tell of that until sw_system_look_back. */
+/* Show the system with nodes at x and velocities v (freedoms each), rates of strain (edges; NULL:
+ * from the velocities), holds as last placed and axial forces as stored. Read-outs see that until
+ * sw_system_look_back. */
 void sw_system_look_at(sw_system *system, sw_glance *glance, const double *x, const double *v,
                        const double *rates);
 void sw_system_look_back(sw_system *system, const sw_glance *glance);
 
 typedef struct sw_energies {
   double kinetic, gravity, stored; /* [J] */
-  double loads;                    /* potential of dead loads, which are work from outside [J] */
+  double loads;                    /* potential of dead loads, which counts as outside work [J] */
 } sw_energies;
 
-/* All but contact's and joins'. lumped: masses of explicit methods, which also have no axial force
- * of their own but that of the edges' lengths. */
+/* All but those of contact and joins. lumped: masses of explicit methods, whose axial forces come
+ * from the edges' lengths alone. */
 void sw_system_energies(sw_system *system, int lumped, sw_energies *out);
 
 /* Of what sw_system_dissipated counts, what friction took [J]. */

@@ -8,19 +8,19 @@
 #include "system/bridge.h"
 #include "system/web.h"
 
-/* Factors serve while no edge has changed by more than this share of its length [-], and for so
- * many solves of a stage, one after another. */
+/* Factors serve while no edge has changed by more than this share of its length [-], and for this
+ * many solves of a stage in a row. */
 static const double SERVES = 0.02;
 enum { MOST_SOLVES = 3 };
 
-/* A Newton step leaves an error of about half the square of what it changes edges by. What these
- * solves leave, by how much smaller the last one was than the one before, is to be half of that at
- * most, or a change that no force can be told from [-]. How fast they get there nobody knows
- * before: a turn of what is stiff goes into what is soft, as many times as it is softer. */
+/* A Newton step leaves an error of about half the square of the edges' change. Solves with old
+ * factors may leave at most half of that, judged by the decrease of the last two solves, or a
+ * change below any force [-]. Their speed is not known before: a turn of a stiff part goes into a
+ * soft one, multiplied by the ratio of stiffnesses. */
 static const double GOOD = 0.25, NOTHING = 1e-8;
-static const double SLOW = 0.3; /* solves that are not by so much smaller are given up [-] */
+static const double SLOW = 0.3; /* solves that decrease more slowly are given up [-] */
 
-/* Stiffness that does not jump: that of elements, and of what takes power from the motion. */
+/* Stiffness without jumps: of elements, and of terms that take power from the motion. */
 static int is_smooth(const sw_body *b) {
   const sw_web *w = b->plan->web;
   if (!w || !w->solids || w->links || w->folds || w->creases || w->slides || b->web_room) return 0;
@@ -53,7 +53,7 @@ void sw_factors_keep(sw_system *s, const sw_stage *stage, const sw_newton *newto
   memcpy(s->factor_at, stage->y, 3 * s->nodes * sizeof *s->factor_at);
 }
 
-/* The largest change of an edge by the move from - to, of its length. */
+/* The largest relative change of an edge by the move from - to. */
 static double change(const sw_system *s, const double *from, const double *to) {
   double largest = 0;
   SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {

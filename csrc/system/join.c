@@ -196,11 +196,11 @@ sw_vec sw_join_hub_moment(const sw_join_hub *h, size_t number, const double *x) 
   return sw_scale(sw_cross(arms[number].p, arms[number].r), h->arms[number].k);
 }
 
-/* What keeps a free axis from being singular, of all arms' stiffness [-]. */
+/* Keeps a free axis from being singular, share of all arms' stiffness [-]. */
 static const double FREE_AXIS = 1e-9;
 
-/* The inverse of the hub's own stiffness against turning, zero about an axis in which all
- * arms lie, about which it is free. */
+/* The inverse of the hub's own stiffness against turning; zero about an axis along all arms, about
+ * which the hub is free. */
 static void turn_compliance(const sw_join_hub *h, const arm *arms, double out[9]) {
   double H[9] = {0}, sum = 0;
   for (size_t a = 0; a < h->count; a++) {
@@ -210,7 +210,7 @@ static void turn_compliance(const sw_join_hub *h, const arm *arms, double out[9]
     add_outer(H, arms[a].r, arms[a].p, -0.5 * k);
     sum += k;
   }
-  /* arms of one line have no say in that axis: any stiffness there gives the same */
+  /* parallel arms do not feel that axis: any stiffness there gives the same result */
   add_unit(H, FREE_AXIS * sum);
   invert(H, out);
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds wires together at a point: springs that keep nodes at each other's place, and
- * hubs that keep directions of edges
- * to each other. */
+/* Joins of wires: springs that keep nodes together, and hubs that keep directions of edges. */
 #ifndef SW_SYSTEM_JOIN_H
 #define SW_SYSTEM_JOIN_H
 
@@ -21,8 +19,8 @@ typedef struct sw_join_spring {
 
 enum { SW_HUB_ARMS = 8 };
 
-/* A rigid piece that wires stick in: with the directions p of their arms, given ones d and
- * the rotation R that fits best, it has the energy sum k (1 - p . R d). */
+/* A rigid piece with wires stuck in. With the directions p of their arms, the given ones d and the
+ * best rotation R its energy is sum k (1 - p . R d). */
 typedef struct sw_join_hub {
   size_t count;
   struct sw_join_arm {
@@ -57,8 +55,8 @@ sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
 
 double sw_joins_energy(const sw_system *system); /* at the state [J] */
 
-/* 1: the edges that start at nodes one and two are so near a join of their wires that they
- * are not told apart: within reach along both [m]. */
+/* 1: the edges that start at nodes one and two are within reach of a join of their wires, along
+ * both: they do not touch each other [m]. */
 int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two, double reach);
 
 void sw_joins_free(sw_system *system);

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A body's small motions about the state: stiffness K, consistent mass M, and
- * factors of K - shift M. Held nodes do not move.
- *
- * The product with K goes by edges, not by matrix rows: a row adds blocks that
- * are larger than what a smooth motion feels by up to the fourth power of the
- * number of segments, and that rounding would drown it. */
+/* Small motions of a body about the state: stiffness K, consistent mass M, and factors of K - shift
+ * M. Held nodes do not move. The product with K goes edge by edge. Rows of the matrix would add
+ * blocks larger than the force of a smooth motion by up to the fourth power of the number of
+ * segments, and their rounding would drown it. */
 #include "system/linear.h"
 
 #include <math.h>
@@ -59,9 +57,9 @@ size_t sw_system_free_unknowns(const sw_system *s, size_t body) {
   return 3 * (b->plan->nodes - held) + (b->spin_block ? sw_spin_free_turns(s, b) : 0);
 }
 
-/* A factor: that of the band, then for twist its inverse times the slopes of the
- * spans (nodes x 3), and each span's term of Sherman and Morrison. With frames: the band of
- * four, and room for that of three. */
+/* A factor: of the band; for twist also its inverse times the slopes of the spans (nodes x 3), and
+ * each span's term of Sherman and Morrison. With frames: the band of four, and work space for
+ * three. */
 size_t sw_system_factor_size(const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
   if (b->spin_block) return (SW_ROW4_SIZE + SW_ROW_SIZE) * b->plan->nodes;

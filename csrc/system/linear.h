@@ -5,20 +5,20 @@
 
 #include "system/system.h"
 
-/* Forces and stiffness at the state, velocities taken as zero and axial forces as
- * stored. What follows is valid until the next evaluation of any kind. Motions are
- * (unknowns) values; in those given, held nodes must be zero. */
+/* Forces and stiffness at the state, with zero velocities and the stored axial forces. The
+ * functions below are valid until the next evaluation of any kind. Motions are (unknowns) values;
+ * given ones are zero at held nodes. */
 sw_status sw_system_linearise(sw_system *system, double time, sw_error *err);
 
 /* Forces that the particles of a body that is a mesh exert on each other at the state, on each
  * (particles x 3) [N]. */
 sw_status sw_system_inner_forces(sw_system *system, size_t body, double *out, sw_error *err);
 
-/* Small motions of a body that is a mesh, in a system that was linearised, by those of some of its
- * particles, whose flags are 1 (particles). Once only; fails as sw_blocks_factor. */
+/* Small motions of a mesh, in a linearised system, from those of some particles with flag 1
+ * (particles). Once only; fails as sw_blocks_factor. */
 sw_status sw_system_fix_particles(sw_system *system, size_t body, const unsigned char *fixed);
-/* Then, for any number of them: motion (particles x 3) is given for these particles and 0 for the
- * others, which follow so that nothing pushes them; push receives what does push [m], [N]. */
+/* Then, any number of times: motion (particles x 3) is given for these particles and 0 for the
+ * others, which follow without load; push receives the loads on the given ones [m], [N]. */
 void sw_system_carry(const sw_system *system, size_t body, const unsigned char *fixed,
                      double *motion, double *push);
 
@@ -30,8 +30,8 @@ size_t sw_system_factor_size(const sw_system *system, size_t body); /* in double
 void sw_system_residual(const sw_system *system, size_t body, double *out);
 /* How far the nodes go in a motion: (nodes x 3) [m]. */
 void sw_system_shifts(const sw_system *system, size_t body, const double *motion, double *out);
-/* How much the stored axial forces differ from those after the motion, of the largest of
- * them, the wire's weight and its buckling force [-]. */
+/* Change of the stored axial forces by the motion, relative to the largest of them, the wire's
+ * weight and its buckling force [-]. */
 double sw_system_axial_error(const sw_system *system, size_t body, const double *motion);
 /* Zero a motion's held unknowns. */
 void sw_system_fix_held(const sw_system *system, size_t body, double *motion);

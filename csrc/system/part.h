@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bodies that nothing couples are solved one after another: each iterates until it has converged,
- * and no longer, and all that it needs stays in the cache. Of this room only. */
+/* Bodies without coupling are solved one after another. Each iterates until it has converged, with
+ * its data in the cache. Of this room only. */
 #ifndef SW_SYSTEM_PART_H
 #define SW_SYSTEM_PART_H
 
@@ -8,7 +8,7 @@
 
 /* Does nothing couple the bodies in this stage? */
 int sw_parts_any(const sw_system *system, const sw_newton *newton);
-/* A stage begins: all bodies at once, with the lists of what is held of each. */
+/* A stage begins: all bodies at once, with each one's list of held nodes. */
 void sw_parts_begin(sw_system *system);
 
 /* The nodes and edges of the bodies that are solved now. */

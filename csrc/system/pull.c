@@ -6,7 +6,7 @@
 #include "system/arrays.h"
 #include "system/axial.h"
 
-/* Changes in a step of more than this are blows, which do not go on [-]. */
+/* Relative changes in a step above this are blows, which do not last [-]. */
 static const double SMOOTH = 0.1;
 
 sw_status sw_system_add_even(sw_system *s) {

@@ -11,11 +11,11 @@
 #include "system/bridge.h"
 #include "system/twist.h"
 
-/* An update is the last one when the curve leaves its tangent by less than this share of an edge,
- * whose strain is known to it; at a hundred times that a stiff wire's tension was off by 1e-3 [-].
- */
+/* An update is the last one if the curve leaves its tangent by less than this share of an edge,
+ * relative to the known strain; with a hundred times that a stiff wire's tension was off by 1e-3
+ * [-]. */
 static const double STRAIGHT = 1e-10;
-/* An update goes no further than the curve turns by so much [rad]. */
+/* Largest turn of the curve in one update [rad]. */
 static const double LARGEST_TURN = 0.5;
 /* Force across, by which friction is known [-]. */
 static const double KNOWN = 1e-7;
@@ -51,7 +51,7 @@ static sw_vec across(const sw_rail *r, sw_vec f) {
 
 /* --- where nodes are ---------------------------------------------------------------- */
 
-/* At place p with rates v and a; what is not NULL is filled. */
+/* At place p with rates v and a; results that are not NULL are filled. */
 static void place(const sw_system *s, const sw_rail *r, const double p[3], double *x, double *v,
                   double *a) {
   const sw_hold_state *h = &s->hold_states[node_of(s, r)->hold];
@@ -317,13 +317,13 @@ static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
 
 /* --- the rails' own equations ----------------------------------------------------------- */
 
-/* Friction on what goes is that of the force across, which is taken in its present direction. */
+/* Friction of a moving place is that of the force across, taken in its present direction. */
 static sw_vec test_of(const sw_rail *r) {
   const sw_vec n = sw_unit_or(across(r, r->before), sw_v(0, 0, 0));
   return sw_madd(r->along, n, r->way * r->friction);
 }
 
-/* Where the place has to go when it is not the forces that say so; 1: it has to. */
+/* Where the place must go for other reasons than forces; 1: it must. */
 static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *step) {
   const double to = r->state == SW_RAIL_STICKS    ? stage->xhat[at]
                     : r->state == SW_RAIL_AT_FROM ? r->from
@@ -399,14 +399,14 @@ static void take_gains(sw_system *s) {
   }
 }
 
-/* It goes, for it is held by more along the curve than can be. */
+/* It slides if the force along the curve is above friction's limit. */
 static void let_go(sw_rail *r, double along) {
   r->state = SW_RAIL_GOES;
   r->way = along > 0 ? -1.0 : 1.0;
   r->open = 1;
 }
 
-/* Does it still stand, or go where it went, after the update? */
+/* After the update, does it still stand, or still go the same way? */
 static void review(const sw_system *s, const sw_stage *stage, size_t k) {
   sw_rail *r = &s->rails[k];
   const size_t at = sw_rail_freedom(s, k);
@@ -432,7 +432,8 @@ static void review(const sw_system *s, const sw_stage *stage, size_t k) {
   }
 }
 
-/* Does the curve leave its tangent on the way, by more than the edges beside it may be off? */
+/* Does the curve leave its tangent on the way, by more than the error that edges beside it may
+ * have? */
 static int is_long(const sw_system *s, const sw_rail *r) {
   const sw_held_node *h = node_of(s, r);
   const sw_body *b = &s->bodies[h->body];

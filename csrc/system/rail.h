@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes that keep on curves. The place p on its curve c, by arc length, is a freedom of the system
- * as nodes' coordinates are, so that every implicit method advances it with its own order. The node
- * is held where the curve has it, in a frame with place X, rotation R and rates V, w:
- *   x = X + R c,  v = V + w x R c + R c' p.,  a = ... + R c' p.. + R c'' p.^2,
- * so it stays on it to rounding. The equation for p: of the reaction F on the node, c'.F is what
- * friction makes of the part across. It is solved with the others by its Schur complement: they
- * follow a shift of the node by K^-1 times its column, one more solve with the factors at hand. */
+/* Nodes that stay on curves. The place p on the curve c, by arc length, is a freedom of the system
+ * like the nodes' coordinates, so every implicit method advances it with its own order. The node is
+ * held on the curve in a frame with place X, rotation R and rates V, w: x = X + R c, v = V + w x R
+ * c + R c' p., a = ... + R c' p.. + R c'' p.^2, exact to rounding. The equation for p: the reaction
+ * F on the node has c'.F equal to the friction of its part across. It is solved with the others by
+ * its Schur complement: they follow a shift of the node by K^-1 times its column, one more solve
+ * with the same factors. */
 #ifndef SW_SYSTEM_RAIL_H
 #define SW_SYSTEM_RAIL_H
 
@@ -33,15 +33,14 @@ typedef struct sw_rail {
   int open;           /* 1: the last update is not the stage's last */
   double own[9];      /* the node's own block [N/m] */
   sw_vec along, bend; /* at the iterate, world axes [-], [1/m] */
-  sw_vec before;      /* reaction that the other unknowns' update alone would leave [N] */
+  sw_vec before;      /* reaction left by the update of the other unknowns alone [N] */
 } sw_rail;
 
 /* After the held nodes: the rails (count), their places into the state. SW_ENOMEM. */
 sw_status sw_system_set_rails(sw_system *system, const sw_rail *rails, size_t count);
 /* Where in x, v and a the place of rail k is. */
 size_t sw_rail_freedom(const sw_system *system, size_t rail);
-/* Where rails' nodes are for the places in x, the rates in v and a; each may be NULL, v and a go
- * with x. */
+/* Rails' nodes for the places in x, with rates in v and a; each may be NULL, v and a go with x. */
 void sw_rails_place(const sw_system *system, const double *x, double *v, double *a, double *to);
 
 /* The nodes of a body are given the velocity v + omega x (x - about): its rails' places go on with
@@ -58,7 +57,7 @@ void sw_rail_take(sw_rail *rail, const sw_body *body, size_t i);
 /* The other unknowns are solved for: the rails, and what follows them. */
 void sw_rails_solve(sw_system *system, const sw_stage *stage, size_t *negative);
 void sw_rails_apply(sw_system *system, const sw_stage *stage, double share);
-/* 1: one that was moving has stuck, come to an end, or left it, in the trial. */
+/* 1: in the trial a moving one has stuck, or reached or left an end. */
 int sw_rails_struck(const sw_system *system);
 int sw_rails_settled(const sw_system *system);
 

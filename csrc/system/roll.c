@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The turn of an edge within a step is counted from its frame at the step's start,
- * carried straight (along a great circle) to where its tangent is. Frames go there by
- * way of the iterates, which turns them by the area between both ways. */
+/* The turn of an edge within a step is counted from its frame at the step's start, carried along a
+ * great circle to its present tangent. Frames get there through the iterates, and turn by the area
+ * between both ways. */
 #include "system/roll.h"
 
 #include <math.h>

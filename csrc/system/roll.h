@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires whose edges turn about themselves with inertia, and whose surface friction can
- * take hold of. The turns are freedoms of the system like the nodes' places; the frames
- * of spin.h go with them. All do nothing for other bodies. Private to this room. */
+/* Wires whose edges turn about themselves with inertia, so that friction can roll them. Turns are
+ * freedoms of the system like the nodes' places; the frames of spin.h go with them. No effect on
+ * other bodies. Private to this room. */
 #ifndef SW_SYSTEM_ROLL_H
 #define SW_SYSTEM_ROLL_H
 
@@ -29,7 +29,7 @@ void sw_roll_load(const sw_system *system, const sw_body *body, double *right);
  * carried on to it. */
 void sw_roll_store(const sw_system *system, const sw_body *body, double *y);
 
-/* How far y has the edges beyond the frames: the way that is left for them [rad]. */
+/* Turn of y's edges beyond the frames: the way left for them [rad]. */
 void sw_roll_rest(const sw_system *system, const sw_body *body, const double *y, double *out);
 
 /* Kinetic energy of the state's turning [J]. */

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames are kept as one vector per edge, not as angles against a reference: an
- * update carries it along with the tangent and turns it about the tangent, so
- * that many turns have no branch and no drift. Only the twist of hinges needs its
- * last value, to tell which of the equal angles is meant; valid while an
- * iteration turns no hinge by more than pi. Spins have no inertia, torsional waves
- * being much faster than what a wire does in handling, unless it rolls (roll.h). */
+/* Frames are kept as one vector per edge, not as angles. An update carries it with the tangent and
+ * turns it about the tangent, so many turns have no branch and no drift. Only the twist of hinges
+ * needs its last value, to choose among equal angles; valid while an iteration turns no hinge by
+ * more than pi. Spins have no inertia, because torsional waves are far faster than handling, unless
+ * the wire rolls (roll.h). */
 #include "system/spin.h"
 
 #include <math.h>

@@ -20,8 +20,8 @@ long sw_spin_held_edge(const sw_system *system, const sw_body *body, size_t numb
 /* Frames and twist of the iterate start from those of the state. */
 void sw_spin_begin(sw_system *system, sw_body *body);
 
-/* Spins do not come to rest: start again, with the section's inertia over hbar^2 against
- * turning away from the state's frames; rate2 = 1/hbar^2. */
+/* Spins do not come to rest: start again, with the section's inertia over hbar^2 against turns from
+ * the state's frames; rate2 = 1/hbar^2. */
 void sw_spin_slow_down(sw_system *system, double rate2);
 
 /* Carry the iterate's frames on to the field's present tangents. */

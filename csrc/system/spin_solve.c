@@ -18,9 +18,8 @@ static inline void widen(const double *restrict from, double last, double *restr
   out[0] = from[0], out[1] = from[1], out[2] = from[2], out[3] = last;
 }
 
-/* What couples nodes to spins: node i (k-th component) with spin i and with spin i + 1,
- * nodes i + 1 and i + 2 with spin i. An edge's own spin and those of its neighbours pull
- * at both its ends. */
+/* Couplings of nodes to spins: node i (k-th component) with spins i and i + 1; nodes i + 1 and i +
+ * 2 with spin i. An edge's own spin and its neighbours' act on both its ends. */
 static inline void couple(const sw_body *b, size_t i, double *restrict row) {
   double *const *c = b->field.spin_edge;
   const int *held = b->plan->held;
@@ -98,7 +97,7 @@ sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *n
   return SW_OK;
 }
 
-/* The square of the largest, or what is no number. */
+/* The square of the largest one, or one that is no number. */
 SW_HOT
 static double largest_turn2(size_t m, const double *restrict delta) {
   double most = 0, any = 0;

@@ -5,9 +5,9 @@
 
 #include "system/system.h"
 
-/* Newton starts from the free flight y. Where that turns an edge over or halves it, the start may
- * lie on the wrong side of the edge's own length, and the solve could end in a wire folded through
- * itself: SW_ENOCONV. */
+/* Newton starts from the free flight y. If that turns an edge over or halves it, the start may lie
+ * on the wrong side of the edge's length, and the solve may end in a wire folded through itself:
+ * SW_ENOCONV. */
 sw_status sw_start_check(const sw_system *system, const double *y, sw_error *err);
 
 #endif

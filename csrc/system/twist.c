@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Following the twist of spans. The twist of a hinge changes, from tangents
- * (a0, b0) to (a, b), by minus the area of the two spherical triangles
- * (a0, a, b) and (a0, b, b0): exact for any step and free of branch cuts while
- * one step turns nothing by pi. Summed over a span that is Fuller's writhe
+/* The twist of spans is followed. From tangents (a0, b0) to (a, b) the twist of a hinge changes by
+ * minus the area of the spherical triangles (a0, a, b) and (a0, b, b0): exact for any step, without
+ * branch cuts while one step turns nothing by pi. Summed over a span this is Fuller's writhe
  * formula, so many turns add up without error. */
 #include "system/twist.h"
 
@@ -175,8 +174,8 @@ double sw_twist_dot(const sw_body *b, const sw_span *span, const double *x) {
   return sum;
 }
 
-/* The spans are apart in the matrix (a clamp holds the node between them), so
- * one solve serves all, and Sherman and Morrison's formula each. */
+/* Spans are separate in the matrix, because a clamp holds the node between them: one solve serves
+ * all, with Sherman and Morrison's formula for each. */
 size_t sw_twist_correct(sw_body *b, double *delta) {
   size_t fewer = 0;
   sw_twist_gather(b);

@@ -20,7 +20,7 @@ static void crease_pairs(const sw_web_crease *f, sw_blocks_pair out[SW_FIELD_CRE
   memcpy(out, six, sizeof six);
 }
 
-/* All pairs of particles that something joins, into out (may be NULL); their number. */
+/* All joined pairs of particles, into out (may be NULL); their number. */
 static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   size_t n = 0;
   for (size_t e = 0; e < w->links; e++, n++)
@@ -101,10 +101,10 @@ static void fill_slots(sw_body *b) {
   b->field.slide_slot = slide, b->field.crease_slot = crease;
 }
 
-/* Within a step matrices differ little from one another. From this number of particles on the
- * first one's factor leads conjugate gradients to the solutions of those that follow, as long as
- * that goes fast: a factor costs as much as some dozens of iterations then. A step begins with a
- * factor of its own, so that it depends on nothing but the state it starts from. */
+/* Within a step matrices differ little. From this number of particles on, the first one's factor
+ * preconditions conjugate gradients for the following ones, as long as that is fast: a factor costs
+ * some dozens of iterations. Each step begins with its own factor, so that it depends only on its
+ * starting state. */
 enum { LARGE = 30000, MOST_ITERATIONS = 20, EARLY = 5 };
 static const double EXACT = 1e-7; /* error that is left, of the solution's energy norm [-] */
 static const double PROMISE =
@@ -233,7 +233,8 @@ static double dot(size_t n, const double *a, const double *b) {
   return sum;
 }
 
-/* Solve for delta, which is the right side; 0: it would take too long, and delta is as before. */
+/* Solve for delta, which holds the right side; 0: it would take too long, and delta is as before.
+ */
 static int iterate(const sw_body *b, double *delta) {
   const size_t particles = b->plan->nodes, n = 3 * particles;
   double *x = b->web_room, *r = x + n, *z = x + 2 * n, *p = x + 3 * n, *Ap = x + 4 * n;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bodies that are webs of particles: their matrix, its solution, and the axial forces of their
- * springs, which are unknowns of the mixed Newton as a rod's are. Of this room only. */
+/* Bodies that are webs of particles: the matrix, its solution, and the springs' axial forces, which
+ * are unknowns of the mixed Newton method as in a rod. Of this room only. */
 #ifndef SW_SYSTEM_WEB_H
 #define SW_SYSTEM_WEB_H
 
@@ -18,8 +18,8 @@ size_t sw_web_couples(const sw_body *body, sw_sparse_pair *out);
 /* The 3 x 3 block of rows of i and columns of j, i <= j. */
 void sw_web_block(const sw_body *body, size_t i, size_t j, double out[9]);
 
-/* An evaluation with stiffness begins; it is over, and what nodes have in the field's rows
- * joins the rest. */
+/* An evaluation with stiffness begins; it ends, and the nodes' part in the field's rows is added.
+ */
 void sw_web_begin(sw_body *body);
 void sw_web_gather(sw_body *body);
 

@@ -55,7 +55,8 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, point);
     row[SW_LOG_SPAN] = sw_hold_span(s, mean);
-    if (sw_hold_passes(h)) h->feed.drive = sw_hold_way_of(s, h, sw_scene_time(s), system->x).force;
+    if (sw_hold_passes(h))
+      h->cls->hold->guide(h)->drive = sw_hold_way_of(s, h, sw_scene_time(s), system->x).force;
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
   }

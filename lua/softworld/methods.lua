@@ -2,9 +2,39 @@
 --- Methods know whose they are: called with a dot, or with another object, they say so, instead of
 -- failing somewhere inside of the library. Methods written in C look after that themselves.
 -- @module softworld.methods
+local checks = require "softworld.checks"
 local core = require "softworld.core"
+local sealed = require "softworld.sealed"
 
 local methods = {}
+
+--- Names of fields and of the methods of a class, for completion at the prompt.
+function methods.names(class, fields)
+  local names = table.move(fields, 1, #fields, 1, {})
+  for name in pairs(class) do
+    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
+  end
+  return names
+end
+
+--- A class whose objects tell what was found: these fields, and some that are not named, can only be read.
+function methods.found(kind, class, fields, unnamed)
+  local readable = checks.set(table.concat(fields, " ") .. " " .. (unnamed or ""))
+  function class.__names() return methods.names(class, fields) end
+  function class.__index(self, key)
+    local value = readable[key] and rawget(sealed.fields(self), key)
+    if value ~= nil and readable[key] then return value end
+    if class[key] ~= nil then return class[key] end
+    local names = class.__names()
+    local near = core.nearest(checks.shown(key), names)
+    error(("a %s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
+      or "it has: " .. table.concat(names, " ")), 2)
+  end
+  function class.__newindex(_, key)
+    error(("a %s has no '%s' to set; what it found can only be read"):format(kind, checks.shown(key)), 2)
+  end
+  methods.guard_table(kind, class)
+end
 
 local function described(value)
   local kind = core.type(value)

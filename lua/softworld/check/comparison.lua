@@ -2,8 +2,6 @@
 --- What sw.compare gives: prints what is different, is written as CSV and JSON.
 -- @module softworld.check.comparison
 local cells = require "softworld.check.cells"
-local checks = require "softworld.checks"
-local core = require "softworld.core"
 local json = require "softworld.output.json"
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
@@ -99,32 +97,7 @@ end
 
 -- --- the object --------------------------------------------------------------------------------------
 
-local fields = { "same", "reason", "rows" }
-
---- Names of methods and fields, for completion at the prompt.
-function Comparison.__names()
-  local names = table.move(fields, 1, #fields, 1, {})
-  for name in pairs(Comparison) do
-    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
-  end
-  return names
-end
-
-methods.guard_table("comparison", Comparison)
-
-local shown = checks.set(table.concat(fields, " "))
-
-function Comparison:__index(key)
-  if shown[key] then return rawget(sealed.fields(self), key) end
-  if Comparison[key] ~= nil then return Comparison[key] end
-  local near = core.nearest(checks.shown(key), Comparison.__names())
-  error(("a comparison has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "it has: " .. table.concat(Comparison.__names(), " ")), 2)
-end
-
-function Comparison.__newindex(_, key)
-  error(("a comparison has no '%s' to set; what it found can only be read"):format(checks.shown(key)), 2)
-end
+methods.found("comparison", Comparison, { "same", "reason", "rows" })
 
 local function counted(count, what) return ("%d %s%s"):format(count, what, count == 1 and "" or "s") end
 

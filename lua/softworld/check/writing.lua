@@ -138,34 +138,9 @@ function Check:row(name)
     and ("did you mean '%s'?"):format(near) or "there are: " .. table.concat(names, " ")), 2)
 end
 
-local fields = { "verdict", "ok", "reason", "rows", "skipped", "name", "start", "time" }
-
---- Names of methods and fields, for completion at the prompt.
-function Check.__names()
-  local names = table.move(fields, 1, #fields, 1, {})
-  for name in pairs(Check) do
-    if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
-  end
-  return names
-end
-
 rows.later(Check, "softworld.check.page", "report")
-methods.guard_table("check", Check)
-
-local readable = checks.set(table.concat(fields, " ") .. " use")
-
-function Check:__index(key)
-  local value = readable[key] and rawget(sealed.fields(self), key)
-  if value ~= nil and readable[key] then return value end
-  if Check[key] ~= nil then return Check[key] end
-  local near = core.nearest(checks.shown(key), Check.__names())
-  error(("a check has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "it has: " .. table.concat(Check.__names(), " ")), 2)
-end
-
-function Check.__newindex(_, key)
-  error(("a check has no '%s' to set; what it found can only be read"):format(checks.shown(key)), 2)
-end
+methods.found("check", Check,
+  { "verdict", "ok", "reason", "rows", "skipped", "name", "start", "time" }, "use")
 
 --- A check of these fields.
 function writing.new(own) return sealed.new(Check, own) end

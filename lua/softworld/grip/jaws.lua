@@ -50,6 +50,30 @@ function jaws.order(self, args, what)
   return { mode = "to", opening = 0, speed = speed, force = contact }
 end
 
+-- Raise why the jaws cannot do it.
+local function give_up(self, order, wire, state, crushed, longest)
+  self.tool:jaws{ mode = "still" }
+  local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
+  if crushed then
+    note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
+    error(("gripper '%s' crushes the wire: %.3g mm are left of its %.3g mm between the pads, at %.4g N "
+      .. "per finger; %s is not reached"):format(self.name, 1e3 * state.opening,
+      2e3 * wire.radius, state.squeeze, force), 0)
+  end
+  if state.jaws == "empty" then
+    note(self, "missed", {})
+    local far = ""
+    if wire then
+      local _, d = stand.nearest_place(wire, (self.tool:pose()))
+      far = (": wire '%s' is %.3g mm from the tool centre"):format(wire.name, 1e3 * d)
+    end
+    error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
+  end
+  note(self, "unreached", { opening = state.opening, squeeze = state.squeeze })
+  error(("gripper '%s': %s is not reached in %.3g s; it is %.4g N at an opening of %.4g mm"):format(
+    self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
+end
+
 -- Wait until the jaws are done; raises when they cannot do it.
 local function wait_for_jaws(self, p, order)
   local state, crushed
@@ -72,26 +96,7 @@ local function wait_for_jaws(self, p, order)
     end
     return state
   end
-  self.tool:jaws{ mode = "still" }
-  local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
-  if crushed then
-    note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
-    error(("gripper '%s' crushes the wire: %.3g mm are left of its %.3g mm between the pads, at %.4g N "
-      .. "per finger; %s is not reached"):format(self.name, 1e3 * state.opening,
-      2e3 * wire.radius, state.squeeze, force), 0)
-  end
-  if state.jaws == "empty" then
-    note(self, "missed", {})
-    local far = ""
-    if wire then
-      local _, d = stand.nearest_place(wire, (self.tool:pose()))
-      far = (": wire '%s' is %.3g mm from the tool centre"):format(wire.name, 1e3 * d)
-    end
-    error(("gripper '%s' closed on nothing%s"):format(self.name, far), 0)
-  end
-  note(self, "unreached", { opening = state.opening, squeeze = state.squeeze })
-  error(("gripper '%s': %s is not reached in %.3g s; it is %.4g N at an opening of %.4g mm"):format(
-    self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
+  give_up(self, order, wire, state, crushed, longest)
 end
 
 --- Give an order; in a process wait until it is done: returns the state then.

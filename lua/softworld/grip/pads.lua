@@ -112,6 +112,28 @@ local function add_arm(scene, tool, name, arm, at, q, base)
   return obstacle
 end
 
+-- The parts of a finger, added to the obstacles of the tool.
+local function add_finger(scene, tool, name, p, given, finger, at, q, opening, obstacles)
+  local around = turn(X, 2 * math.pi * (finger - 1) / p.fingers)
+  local opens = vec.rotate(around, { 0, 0.5, 0 })
+  local mirrored = p.fingers == 2 and finger == 2 and p.shape ~= "mesh"
+  local function of_finger(value) return type(value) == "table" and value[finger] or value end
+  for number, part in ipairs(makers[p.shape](given)) do
+    local place = mirrored and { part.at[1], -part.at[2], part.at[3] } or vec.rotate(around, part.at)
+    local facing = part.rotation or { 1, 0, 0, 0 }
+    if mirrored then facing = { facing[1], -facing[2], facing[3], -facing[4] }
+    else facing = vec.multiply(around, facing) end
+    part.at = vec.add(at, vec.rotate(q, vec.add(place, opens, opening)))
+    part.rotation = vec.multiply(q, facing)
+    part.friction, part.kinetic_friction = of_finger(p.friction), of_finger(p.kinetic_friction)
+    part.restitution = p.restitution
+    part.name = ("%s.finger%d%s"):format(name, finger, number > 1 and "." .. number or "")
+    local obstacle = scene:obstacle(part)
+    tool:pad(obstacle, finger, opens)
+    obstacles[#obstacles + 1] = obstacle
+  end
+end
+
 --- Make a gripper's tool and fingers in the scene, open, at a pose. Returns the tool and what its
 -- obstacles are.
 function pads.make(scene, gripper, at, rotation, radius)
@@ -129,26 +151,7 @@ function pads.make(scene, gripper, at, rotation, radius)
   local tool = scene:tool{ name = name, at = at, rotation = rotation, opening = opening }
   local obstacles, _, q = {}, tool:pose()
   for finger = 1, p.fingers do
-    local around = turn(X, 2 * math.pi * (finger - 1) / p.fingers)
-    local opens = vec.rotate(around, { 0, 0.5, 0 })
-    for number, part in ipairs(makers[p.shape](given)) do
-      local mirrored = p.fingers == 2 and finger == 2 and p.shape ~= "mesh"
-      local place = mirrored and { part.at[1], -part.at[2], part.at[3] }
-        or vec.rotate(around, part.at)
-      local facing = part.rotation or { 1, 0, 0, 0 }
-      if mirrored then facing = { facing[1], -facing[2], facing[3], -facing[4] }
-      else facing = vec.multiply(around, facing) end
-      part.at = vec.add(at, vec.rotate(q, vec.add(place, opens, opening)))
-      part.rotation = vec.multiply(q, facing)
-      part.friction = type(p.friction) == "table" and p.friction[finger] or p.friction
-      part.kinetic_friction = type(p.kinetic_friction) == "table" and p.kinetic_friction[finger]
-        or p.kinetic_friction
-      part.restitution = p.restitution
-      part.name = ("%s.finger%d%s"):format(name, finger, number > 1 and "." .. number or "")
-      local obstacle = scene:obstacle(part)
-      tool:pad(obstacle, finger, opens)
-      obstacles[#obstacles + 1] = obstacle
-    end
+    add_finger(scene, tool, name, p, given, finger, at, q, opening, obstacles)
   end
   if gripper.arm then
     obstacles[#obstacles + 1] = add_arm(scene, tool, name, gripper.arm, at, q, height - given.below)

@@ -56,14 +56,9 @@ function fixing.all(scene)
   return list
 end
 
---- A class whose objects answer methods, then properties (functions of the object), and
--- name the nearest word for a typo. `own` lists fields that may be nil.
-function fixing.class(kind, properties, own)
-  local class = { __name = kind }
-  local known = {}
-  for _, name in ipairs(own or {}) do known[name] = true end
-  sealed.class(class)
-  function class.__index(self, key)
+-- Reading a field, a property or a method; a typo names the nearest word. known: fields that may be nil.
+local function reader(kind, class, properties, known)
+  return function(self, key)
     local field = rawget(sealed.fields(self), key)
     if field ~= nil then return field end
     if properties[key] then return build.call(3, properties[key], self) end
@@ -74,7 +69,11 @@ function fixing.class(kind, properties, own)
     error(("%s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
       or "it has: " .. table.concat(names, " ")), 2)
   end
-  function class.__newindex(self, key, value)
+end
+
+-- Setting: for the library alone.
+local function writer(kind, class)
+  return function(self, key, value)
     if not sealed.by_library() then
       local near = core.nearest(checks.shown(key), class.__names())
       error(("%s has no '%s' to set%s"):format(kind, checks.shown(key),
@@ -83,16 +82,28 @@ function fixing.class(kind, properties, own)
     end
     rawset(sealed.fields(self), key, value)
   end
-  function class.__names()
-    local names = { "name" }
-    for _, list in ipairs{ class, properties } do
-      for name in pairs(list) do
-        if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
-      end
+end
+
+-- Names of methods and properties, for completion at the prompt.
+local function names_of(class, properties)
+  local names = { "name" }
+  for _, list in ipairs{ class, properties } do
+    for name in pairs(list) do
+      if name:sub(1, 2) ~= "__" then names[#names + 1] = name end
     end
-    table.sort(names)
-    return names
   end
+  table.sort(names)
+  return names
+end
+
+--- A class whose objects answer methods, then properties (functions of the object), and
+-- name the nearest word for a typo. `own` lists fields that may be nil.
+function fixing.class(kind, properties, own)
+  local class = { __name = kind }
+  local known = checks.set(table.concat(own or {}, " "))
+  sealed.class(class)
+  class.__index, class.__newindex = reader(kind, class, properties, known), writer(kind, class)
+  function class.__names() return names_of(class, properties) end
   keep.class(kind, class)
   local meta = { __index = { solids = function() return {} end } } -- pictures show obstacles only
   function meta.__newindex(_, name, value) -- errors of methods have a place

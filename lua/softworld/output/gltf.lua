@@ -34,15 +34,6 @@ local function add_accessor(file, accessor)
   return #file.accessors - 1
 end
 
-local function packed(format, values)
-  local parts = {}
-  for i = 1, #values, 200 do
-    local n = math.min(200, #values - i + 1)
-    parts[#parts + 1] = ("<" .. format:rep(n)):pack(table.unpack(values, i, i + n - 1))
-  end
-  return table.concat(parts)
-end
-
 -- As 32-bit floats, as which bounds are told too.
 local function rounded(x) return (("<f"):unpack(("<f"):pack(x))) end
 
@@ -54,7 +45,7 @@ local function add_values(file, values, width, kind, target)
     x = rounded(x)
     low[c], high[c] = math.min(low[c] or x, x), math.max(high[c] or x, x)
   end
-  return add_accessor(file, { bufferView = add_bytes(file, packed("f", values), target),
+  return add_accessor(file, { bufferView = add_bytes(file, sink.packed("f", values), target),
     componentType = FLOAT,
     count = #values // width, type = kind, min = low, max = high })
 end
@@ -97,7 +88,8 @@ local function add_shape(file, shape, colour)
     local mesh = solid.triangles(shape, rounds)
     file.shapes[shape][key] = add_mesh(file, { primitives = { {
       attributes = json.object { POSITION = add_values(file, mesh.vertices, 3, "VEC3", VERTICES) },
-      indices = add_corners(file, packed("I4", mesh.indices)), material = material(file, colour, 0.7) } } })
+      indices = add_corners(file, sink.packed("I4", mesh.indices)),
+      material = material(file, colour, 0.7) } } })
   end
   return file.shapes[shape][key]
 end
@@ -159,7 +151,7 @@ local function add_wire(file, run, shown, lists, colour, corners)
   if not skin then return end
   local primitive = { attributes = attributes(file, skin, 1), material = material(file, colour, 0.45) }
   if skin.count > 0 then primitive.indices = add_corners(file, skin.triangles)
-  elseif corners and #corners > 0 then primitive.indices = add_corners(file, packed("I4", corners))
+  elseif corners and #corners > 0 then primitive.indices = add_corners(file, sink.packed("I4", corners))
   else primitive.mode = 0 end -- points
   local mesh, count = { name = shown.name, primitives = { primitive } }, #file.numbers
   if count > 1 then
@@ -236,7 +228,7 @@ local function add_obstacle(file, run, i, o)
     local piece = solid.plane_piece({ normal = o.normal }, nil, { 0, 0, 0 }, 1.5 * solid.bounds(run).size)
     mesh = add_mesh(file, { primitives = { {
       attributes = json.object { POSITION = add_values(file, piece.vertices, 3, "VEC3", VERTICES) },
-      indices = add_corners(file, packed("I4", piece.indices)),
+      indices = add_corners(file, sink.packed("I4", piece.indices)),
       material = material(file, o.color or povscene.colours.plane, 0.9) } } })
   else
     mesh = add_shape(file, o, o.color or povscene.colours.obstacle)

@@ -19,11 +19,24 @@ function gnuplot.quote(text)
   return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
 end
 
+--- Width and height of a drawing; see softworld.output.chart.
+function gnuplot.size_of(options, width, height)
+  if options.size then return options.size end
+  if not options.path then return { 79, 24 } end
+  if sink.extension(options.path) == "pdf" then return { 7, math.max(4, height / 130) } end
+  return { width, height }
+end
+
+--- Is there a number, and a finite one?
+function gnuplot.finite(x)
+  return x ~= nil and x == x and x ~= math.huge and x ~= -math.huge
+end
+
 --- A number for gnuplot; one that is not finite leaves a gap.
 -- @tparam ?number x
 -- @treturn string
 function gnuplot.number(x)
-  if x == nil or x ~= x or x == math.huge or x == -math.huge then return "NaN" end
+  if not gnuplot.finite(x) then return "NaN" end
   return sink.number(x)
 end
 

@@ -100,21 +100,9 @@ local function doubled(colours)
   return out
 end
 
--- Corners of a surface away from the middle line by a factor.
-local function thickened(surface, line, factor)
-  local points, n = surface.points, 3 * surface.around
-  if factor == 1 then return points end
-  local out = {}
-  for i = 1, #points do
-    local middle = line[3 * ((i - 1) // n) + (i - 1) % 3 + 1]
-    out[i] = middle + factor * (points[i] - middle)
-  end
-  return out
-end
-
 -- A wire that is a mesh of particles: its surface, or the particles on it.
 local function add_surface(drawing, look, surface, line, radius, colours)
-  local points = thickened(surface, line, look.thickness)
+  local points = solid.thickened(surface, line, look.thickness)
   if look.technique == "particles" then
     return drawing:balls(points, 1.1 * radius * math.pi / surface.around, colours, 0.3)
   end

@@ -221,18 +221,6 @@ local function jaw(add, w, from, to)
   add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w / 2, from, -0.6 * w, w / 2, to, 2 * w))
 end
 
--- A surface's points, away from the middle line by a factor.
-local function thickened(surface, line, factor)
-  local points, n = surface.points, 3 * surface.around
-  if factor == 1 then return points end
-  local out = {}
-  for i = 1, #points do
-    local middle = line[3 * ((i - 1) // n) + (i - 1) % 3 + 1]
-    out[i] = middle + factor * (points[i] - middle)
-  end
-  return out
-end
-
 -- At each point the sum of the normals of the faces there.
 local function normals(points, quads)
   local out = {}
@@ -253,7 +241,7 @@ end
 
 -- The ends have points of their own, so that their edges stay sharp.
 local function tube(add, surface, line, factor, c)
-  local points = thickened(surface, line, factor)
+  local points = solid.thickened(surface, line, factor)
   local quads, ends = solid.tube_faces(surface)
   local n, vertices, across, faces = normals(points, quads), {}, {}, {}
   local function face(a, b, d) faces[#faces + 1] = format("<%d,%d,%d>", a, b, d) end

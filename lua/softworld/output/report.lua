@@ -22,15 +22,6 @@ local function add_blob(page, bytes)
   return #page.blobs - 1
 end
 
-local function packed(format, values)
-  local parts = {}
-  for i = 1, #values, 200 do
-    local n = math.min(200, #values - i + 1)
-    parts[#parts + 1] = ("<" .. format:rep(n)):pack(table.unpack(values, i, i + n - 1))
-  end
-  return table.concat(parts)
-end
-
 -- --- series -----------------------------------------------------------------------------
 
 -- Where a column has its least and its largest number in rows from .. to, in their order.
@@ -70,10 +61,10 @@ end
 local function series_of(page, run)
   if not run.series or #run.series.time == 0 then return nil end
   local series, every = thinned(run.series)
-  local bytes, columns = { packed("d", series.time) }, {}
+  local bytes, columns = { sink.packed("d", series.time) }, {}
   for c, column in ipairs(series.columns) do
     columns[c] = { name = column.name, unit = column.unit or "" }
-    bytes[#bytes + 1] = packed("f", column.values)
+    bytes[#bytes + 1] = sink.packed("f", column.values)
   end
   return { rows = #series.time, of = #run.series.time, thinned = every > 1, columns = columns,
     blob = add_blob(page, core.deflate(table.concat(bytes))) }
@@ -84,7 +75,7 @@ end
 local function shape_of(page, entry)
   if solid.flat(entry) then return { normal = solid.normal(entry) } end
   local shape = solid.triangles(entry, 48)
-  local bytes = packed("f", shape.vertices) .. packed("I4", shape.indices)
+  local bytes = sink.packed("f", shape.vertices) .. sink.packed("I4", shape.indices)
   return { vertices = #shape.vertices // 3, indices = #shape.indices,
     blob = add_blob(page, core.deflate(bytes)) }
 end

@@ -293,4 +293,14 @@ function sink.need(program, package, purpose)
   sink.fail("%s needs the program %s, which is not installed: apt-get install %s", purpose, program, package)
 end
 
+--- Numbers as bytes, each by a format of string.pack.
+function sink.packed(format, values)
+  local parts = {}
+  for i = 1, #values, 200 do
+    local n = math.min(200, #values - i + 1)
+    parts[#parts + 1] = ("<" .. format:rep(n)):pack(table.unpack(values, i, i + n - 1))
+  end
+  return table.concat(parts)
+end
+
 return sink

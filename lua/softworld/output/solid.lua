@@ -320,6 +320,18 @@ local function all_finite(points)
   return true
 end
 
+--- A surface's points, away from the middle line by a factor.
+function solid.thickened(surface, line, factor)
+  local points, n = surface.points, 3 * surface.around
+  if factor == 1 then return points end
+  local out = {}
+  for i = 1, #points do
+    local middle = line[3 * ((i - 1) // n) + (i - 1) % 3 + 1]
+    out[i] = middle + factor * (points[i] - middle)
+  end
+  return out
+end
+
 --- A run without the frames that cannot be drawn, as a run that diverged has.
 -- @tparam table run
 -- @treturn table the run itself, or a copy with fewer frames; raises if none is left

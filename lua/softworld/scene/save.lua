@@ -14,6 +14,7 @@ local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local keep = require "softworld.scene.keep"
 local process = require "softworld.run.process"
+local turns = require "softworld.run.turns"
 local sealed = require "softworld.sealed"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
@@ -295,7 +296,7 @@ function save.resume(scene, file)
   note = take(scene, text)
   data.origin, data.going, data.from_file = note.origin, note.run, file
   data.restores = data.restores + 1
-  process.take_up(scene)
+  turns.take_up(scene)
   return true
 end
 

@@ -5,29 +5,21 @@
 --
 -- A list: { scene = values, run = values, items = { { id =, kind =, name =, values =, process = } } }.
 -- @module softworld.view.draft
-local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local fill = require "softworld.view.fill"
 local functions = require "softworld.view.functions"
 local kinds = require "softworld.view.kinds"
 local json = require "softworld.output.json"
-local literal = require "softworld.scene.literal"
 local remarks = require "softworld.remarks"
+local written = require "softworld.view.written"
 
 local draft = {}
 local Draft = {}
 Draft.__index = Draft
 
 local MOST_ITEMS = 400
-local MOST_LOCALS = 120 -- of the 200 that Lua allows
 local MOST_UNDONE = 200
-local PROCESSES = 6
-
-local order = { "obstacle", "wire", "particles", "gripper", "hold", "fixing", "force", "contact", "observer",
-  "step", "check" }
-local rank = {}
-for i, class in ipairs(order) do rank[class] = i end
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -42,104 +34,6 @@ function draft.new(may)
 end
 
 -- --- the script ------------------------------------------------------------------------------------
-
--- Not of objects: what the script and functions that are typed in speak of.
-local taken_words = checks.set "scene sw p run require _ENV"
-for word in pairs(functions.names()) do taken_words[word] = true end
-
--- Words of the objects that others speak of: { [name] = word }, and which of them are locals.
-local function words_of(items)
-  local needed, words, used, count = {}, {}, {}, 0
-  for _, item in ipairs(items) do
-    for _, name in ipairs(fill.names(item.kind, item.values)) do needed[name] = true end
-  end
-  for _, item in ipairs(items) do
-    local name = item.name
-    if name and needed[name] and literal.is_name(name) and not taken_words[name] and not used[name]
-      and count < MOST_LOCALS then
-      words[name], used[name], count = name, true, count + 1
-    end
-  end
-  return words
-end
-
-local function in_order(items)
-  local sorted, place = {}, {}
-  for i, item in ipairs(items) do sorted[i], place[item] = item, i end
-  table.sort(sorted, function(a, b)
-    local ra, rb = rank[a.kind.class], rank[b.kind.class]
-    if ra ~= rb then return ra < rb end
-    return place[a] < place[b]
-  end)
-  return sorted
-end
-
-local function word_in(words, items)
-  local known = {}
-  for _, item in ipairs(items) do
-    if item.name then known[item.name] = true end
-  end
-  return function(name)
-    if not known[name] then fail("there is nothing named '%s'", name) end
-    return words[name] or ("scene:find(%s)"):format(fill.source(name))
-  end
-end
-
--- Where functions are in the script: { from, to = lines of the script, what }.
-local function places_of(lines, owners)
-  local places, at = {}, 1
-  for i, text in ipairs(lines) do
-    local count = select(2, text:gsub("\n", ""))
-    local item = owners[i]
-    for _, field in ipairs(item and item.kind.fields or {}) do
-      if field.type == "function" and item.values[field.name] then
-        local before = text:sub(1, (text:find("function(" .. field.args .. ")\n", 1, true) or 1) - 1)
-        local head = at + select(2, before:gsub("\n", ""))
-        local size = 1 + select(2, item.values[field.name]:gsub("\n", ""))
-        places[#places + 1] = { from = head + 1, to = head + size,
-          what = ("%s of %s"):format(field.name, item.name or item.kind.kind:gsub("_", " ")) }
-      end
-    end
-    at = at + count + 1
-  end
-  return places
-end
-
-local function steps_of(items, lines, word, texts, owners)
-  for number = 1, PROCESSES do
-    local own = {}
-    for _, item in ipairs(items) do
-      if item.kind.class == "step" and item.process == number then own[#own + 1] = item end
-    end
-    if #own > 0 then lines[#lines + 1] = "\nscene:process(function(p)" end
-    for _, item in ipairs(own) do
-      texts[item.id] = fill.line(item.kind, item.values, word)
-      lines[#lines + 1], owners[#lines + 1] = "  " .. texts[item.id], item
-    end
-    if #own > 0 then lines[#lines + 1] = "end)" end
-  end
-end
-
--- The script that builds what a list says; by id the line of each item; where its functions are.
-local function script_of(now)
-  local owners, texts, lines = {}, {}, { "-- Written by SoftWorld " .. core.version .. ".",
-    'local sw = require "softworld"', "", "local scene = sw.scene " .. fill.source(now.scene) }
-  local items = in_order(now.items)
-  local words = words_of(items)
-  local word = word_in(words, items)
-  for _, item in ipairs(items) do
-    if item.kind.class == "check" then
-      texts[item.id] = fill.line(item.kind, item.values, word)
-    elseif item.kind.class ~= "step" then
-      local text = fill.line(item.kind, item.values, word)
-      texts[item.id] = text
-      owners[#lines + 1] = item
-      lines[#lines + 1] = words[item.name] and ("local %s = %s"):format(item.name, text) or text
-    end
-  end
-  steps_of(items, lines, word, texts, owners)
-  return table.concat(lines, "\n") .. "\n", texts, places_of(lines, owners)
-end
 
 --- The script that builds the scene.
 function Draft:script() return self.text end
@@ -193,7 +87,7 @@ end
 
 -- Take a list, if a scene can be built of it; else all stays, and the text of the error is raised.
 local function try(self, now)
-  local text, texts, places = script_of(now)
+  local text, texts, places = written.script(now)
   local scene, said = build_text(self, text)
   self.now, self.text, self.texts, self.places, self.remarks = now, text, texts, places, said
   return scene
@@ -244,15 +138,15 @@ end
 local function process_of(kind, m)
   if kind.class ~= "step" then return nil end
   local number = m.process == nil and 1 or m.process
-  if math.type(number) ~= "integer" or number < 1 or number > PROCESSES then
-    fail("process must be an integer from 1 to %d", PROCESSES)
+  if math.type(number) ~= "integer" or number < 1 or number > written.processes then
+    fail("process must be an integer from 1 to %d", written.processes)
   end
   return number
 end
 
 local function read(self, m)
   local kind, values = fill.read(m.class, m.kind, m.values, self.may)
-  if not rank[kind.class] then fail("a %s cannot be added", kind.class) end
+  if not written.rank[kind.class] then fail("a %s cannot be added", kind.class) end
   if kind.class == "step" then fill.check(kind, values) end
   return kind, values
 end
@@ -403,7 +297,7 @@ function Draft:shown()
       values = json.object(plain_copy(item.values)), process = item.process, text = self.texts[item.id] }
   end
   return { items = items, scene = self.now.scene, run = json.object(plain_copy(self.now.run)),
-    undo = #self.past > 0, redo = #self.future > 0, remarks = self.remarks, processes = PROCESSES }
+    undo = #self.past > 0, redo = #self.future > 0, remarks = self.remarks, processes = written.processes }
 end
 
 --- The table of the scene:run that is meant; nil when it would have no end.
@@ -418,7 +312,7 @@ local unbuilt = draft.new
 --- The same, ready to be shown.
 function draft.new(may)
   local self = unbuilt(may)
-  self.text, self.texts, self.places = script_of(self.now)
+  self.text, self.texts, self.places = written.script(self.now)
   return self
 end
 

@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
+local held = require "softworld.view.held"
 local literal = require "softworld.scene.literal"
 local methods = require "softworld.methods"
 local observe = require "softworld.run.observe"
@@ -20,9 +21,6 @@ local work = require "softworld.view.work"
 
 local view = {}
 local View = { __name = "view" }
-
-local GAP = 1 / 30        -- between two looks, on the clock [s]
-local IDLE = 0.1          -- longest wait for a message [s]
 
 local new = rows.call("scene:view", "{...}", "shows the scene in a browser of this machine while it runs", {
   gives = "a view",
@@ -44,96 +42,6 @@ rows.calls{
 }
 
 local function fields(self) return sealed.fields(self) end
-
--- --- while a run goes on -------------------------------------------------------------------------
-
--- For how long it is to be held now [s].
-local function holding(own)
-  if own.stopped then return 0 end
-  if own.paused then
-    if own.steps > 0 then return 0 end
-    return IDLE
-  end
-  if not own.speed then return 0 end
-  local clock = core.clock()
-  own.base = own.base or { time = own.scene.time, clock = clock }
-  local ahead = (own.scene.time - own.base.time) / own.speed - (clock - own.base.clock)
-  if ahead < -0.5 then own.base = nil end -- it cannot go so fast: nothing is to be made up for
-  return math.max(0, ahead)
-end
-
--- Show and listen as long as the run is held. Returns whether something is to be changed.
-local function hold(own)
-  while true do
-    work.hear(own)
-    if #own.queue > 0 then return true end
-    local left = holding(own)
-    own.holds = left > 0 and own.paused
-    show.all(own)
-    if left <= 0 then
-      own.steps = math.max(0, own.steps - 1)
-      return false
-    end
-    own.server:wait(math.min(left, IDLE))
-  end
-end
-
-local function end_run(own)
-  own.lines[#own.lines + 1] = { time = own.scene.time }
-  own.lines_due, own.stopped = true, nil
-  return "stopped from the page"
-end
-
--- Between two steps, while the run is held by this: changes, as long as there are some.
-local function change(own, observer)
-  repeat work.inside(own) until own.wants_again or not hold(own)
-  if own.wants_again then
-    fields(observer).reason = "gone back from the page"
-  elseif own.stopped then
-    fields(observer).reason = end_run(own)
-  end
-end
-
-local function told_again(own, why)
-  local ask, words = returning.finish(own, why)
-  show.answer(own, ask, not why, words)
-end
-
--- In a run that is done again up to a time nothing is waited for.
-local function look_again(own, observer)
-  fields(observer).each = true
-  if core.clock() >= own.again.looked then
-    own.again.looked = core.clock() + GAP
-    work.hear(own)
-    show.all(own)
-  end
-  local due = returning.due(own)
-  if own.stopped then
-    told_again(own, "going back was stopped")
-    observer:stop(end_run(own))
-  elseif due == "stop" then
-    returning.stopped(own)
-    observer:stop "stopped from the page"
-  elseif due then
-    observer:change(function()
-      if not returning.lines(own) then return end
-      told_again(own)
-      change(own, observer)
-    end)
-  end
-end
-
-local function look(own, observer)
-  if own.again then return look_again(own, observer) end
-  if own.wants_again then return observer:stop "gone back from the page" end
-  local changes = hold(own)
-  local o = fields(observer)
-  if own.stopped and not changes then observer:stop(end_run(own)) end
-  if changes then observer:change(function() change(own, observer) end) end
-  -- each step counts while it is held or goes slowly
-  o.every = own.speed and own.speed * GAP or nil
-  o.each = own.paused or nil
-end
 
 -- --- views ---------------------------------------------------------------------------------------
 
@@ -231,12 +139,12 @@ function follower.begin(scene, args)
   own.running, own.ended = false, nil
   if #own.snapshots == 0 and not own.failed and not own.again then returning.keep(own) end
   own.running, own.runs[#own.runs + 1], own.lines_due = true, args, true
-  own.observer = scene:observe { wall = GAP, call = function(observer) look(own, observer) end }
+  own.observer = scene:observe { wall = held.gap, call = function(observer) held.look(own, observer) end }
   fields(own.observer).each = own.paused or nil
   fields(own.observer).soon = true
-  if own.again and returning.lines(own) then told_again(own) end
+  if own.again and returning.lines(own) then held.told_again(own) end
   if own.paused then
-    while not own.wants_again and hold(own) do work.all(own) end
+    while not own.wants_again and held.hold(own) do work.all(own) end
   end
 end
 
@@ -305,10 +213,10 @@ local function run_again(own)
   for _, args in ipairs(r.runs) do
     local _, result = run_now(own, args)
     if not own.again then return end -- it is there, or was given up
-    if type(result) == "string" then return told_again(own, plain(result)) end
+    if type(result) == "string" then return held.told_again(own, plain(result)) end
   end
   returning.lines(own)
-  told_again(own, r.state.inside and "the run ended before it was there" or nil)
+  held.told_again(own, r.state.inside and "the run ended before it was there" or nil)
 end
 
 -- Between runs: what pages ask for is done at once.
@@ -322,7 +230,7 @@ local function idle(own, due)
     if own.wants_run then run_on(own) end
     if own.wants_start then run_draft(own) end
     if own.wants_again then run_again(own) end
-    own.server:wait(IDLE)
+    own.server:wait(held.idle)
   until core.clock() >= due
 end
 

@@ -1,0 +1,163 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- A run goes on: steps of the core between those of processes, observers and the progress bar.
+-- @module softworld.run.go
+local core = require "softworld.core"
+local advice = require "softworld.run.advice"
+local build = require "softworld.scene.build"
+local document = require "softworld.run.document"
+local kept = require "softworld.run.kept"
+local ledger = require "softworld.run.ledger"
+local observe = require "softworld.run.observe"
+local process = require "softworld.run.process"
+local turns = require "softworld.run.turns"
+local progress = require "softworld.output.progress"
+local reactions = require "softworld.grip.reactions"
+local save = require "softworld.scene.save"
+local tables = require "softworld.rows"
+local waiting = require "softworld.run.waiting"
+
+local go = {}
+local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
+local default_frame = 1 / 30 -- [s]
+local progress_after = 1 -- of computing [s]
+
+--- What `frames` may have.
+go.frames = tables.list{
+  { "memory", "number", "B", "that all frames of the scene may take; when full every second one goes",
+    min = 1e4, max = 1e12, default = 256e6 },
+}
+
+local function merge(total, part)
+  for _, key in ipairs{ "steps", "rejected", "iterations", "evaluations", "jumps" } do
+    total[key] = total[key] + part[key]
+  end
+  total.smallest_dt = math.min(total.smallest_dt, part.smallest_dt)
+  total.ok, total.reason, total.time = part.ok, part.reason, part.time
+  total.last_jump = part.last_jump or total.last_jump
+end
+
+local function new_bar(args, scene, level)
+  local host = package.loaded["softworld.host"]
+  local wanted = args.progress
+  local usual = wanted == nil -- on a terminal, for runs that last
+  if usual then wanted = host and host.terminal and os.getenv "TERM" ~= "dumb" end
+  return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
+    name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
+    after = usual and progress_after or nil,
+    terminal = host and host.terminal or nil,
+    clock = core.clock, width = host and host.columns or nil }
+end
+
+local advance = core.class.scene.advance
+
+-- What the core is to know of scene:run's arguments.
+local function options_of(args)
+  local options = {}
+  for k, v in pairs(args) do options[k] = v end
+  options.progress, options.duration, options.save, options.resume, options.guard = nil, nil, nil, nil, nil
+  options.frame = args.frames ~= false and (options.frame or default_frame) or nil
+  options.frames = nil
+  return options
+end
+
+-- Advance until the end of time or of the processes. Gives the reason of the end, and of one that leaves
+-- things undone "stopped" or "unfinished".
+local function drive(scene, args, total, bar)
+  local start = total.start
+  local stop = args.duration and start + args.duration or math.huge
+  local options = options_of(args)
+  local bounds = type(args.frames) == "table" and go.frames:read(args.frames, "scene:run: frames")
+  core.keep_frames(scene, bounds and bounds.memory or nil)
+  local left = (args.max_steps or math.huge) - total.steps
+  while true do
+    if args.guard then args.guard:look(options, total) end
+    local alive, wake, watching = turns.step(scene)
+    if args.guard then args.guard:stepped(total) end
+    if stop == math.huge and alive == 0 then return "all processes have ended" end
+    if process.reached(scene, stop) then
+      waiting.at_end(scene)
+      return ("%g s have passed"):format(args.duration), alive > 0 and "unfinished" or nil
+    end
+    local target = math.min(stop, wake)
+    if target == math.huge then
+      waiting.look(scene, bar, args.progress == false)
+      -- a process that waits for a condition without an end: go on step by step
+      target = scene.time + (args.dt or 0.01)
+    end
+    options.max_steps = math.min(left, watching and 1 or chunk)
+    local part = build.call(6, advance, scene, options, target, observe.arguments(scene))
+    merge(total, part)
+    left = left - part.steps
+    bar:update(scene.time - start, total.steps)
+    if not part.ok then return part.reason end
+    local asked = observe.settle(scene)
+    local stopped = reactions.look(scene) or asked
+    if stopped then return stopped, "stopped" end
+    if left <= 0 then
+      waiting.at_end(scene)
+      return "the allowed number of steps was used", "stopped"
+    end
+  end
+end
+
+local function new_total(scene)
+  return { steps = 0, rejected = 0, iterations = 0, evaluations = 0, jumps = 0, smallest_dt = math.huge,
+    ok = true, reason = "", time = scene.time, start = scene.time, wall = 0, cpu = 0 }
+end
+
+-- Everything is ready for the first step.
+local function begin(scene, args)
+  local data = build.data(scene)
+  local total = data.going or new_total(scene)
+  turns.check_steps(scene)
+  kept.begin(scene)
+  data.origin = data.origin or save.origin(scene)
+  if not data.going then build.call(3, core.begin_run, scene, args.wear) end -- else the file's run goes on
+  data.going = nil
+  observe.begin(scene, args)
+  total.drawn = document.wires(scene)
+  return data, total
+end
+
+-- Gives 1. whether it came to an end without an error, 2. the reason or that error, 3. see drive.
+local function drive_shown(scene, args, total, level, hindrance)
+  local bar <close> = new_bar(args, scene, level)
+  local data = build.data(scene)
+  local fine, reason, cut
+  data.running = true
+  if hindrance then
+    fine, reason, total.ok = true, ("at t = %.6g s: %s"):format(scene.time, hindrance), false
+  else -- protected: a coroutine that dies by an error leaves its variables unclosed
+    fine, reason, cut = pcall(drive, scene, args, total, bar)
+  end
+  data.running, data.saving = nil, nil
+  if fine and total.ok then bar:finish() elseif fine then bar:fail(reason) end
+  observe.finish(scene, fine and total.ok, reason)
+  return fine, reason, cut
+end
+
+--- One run: its fields. level names it where it is one of several, and hindrance tells why it cannot even
+-- begin.
+function go.once(scene, args, level, hindrance)
+  local data, total = begin(scene, args)
+  local wall, cpu = core.clock() - total.wall, os.clock() - total.cpu
+  local function note_time() total.wall, total.cpu = core.clock() - wall, os.clock() - cpu end
+  data.saving = args.save and function()
+    note_time()
+    save.write(scene, args.save, total)
+  end
+  local fine, reason, cut = drive_shown(scene, args, total, level, hindrance)
+  if not fine then error(reason, 0) end
+  note_time()
+  total.reason, total.scene, total.name = reason, scene, scene.name
+  ledger.close(total)
+  if not total.ok and not level and not total.reason:find("take smaller steps", 1, true) then
+    total.reason = ("%s; try %s"):format(total.reason, advice.of(total.reason, args))
+  end
+  total.restores, total.cut = data.restores, cut
+  data.runs = (data.runs or 0) + 1
+  total.number = data.runs
+  return total
+end
+
+return go

@@ -1,0 +1,123 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Whose turn it is: processes go on when their time has come, one after the other, and what they raise
+-- has the place of the script's line.
+-- @module softworld.run.turns
+local build = require "softworld.scene.build"
+local process = require "softworld.run.process"
+
+local turns = {}
+
+local library = debug.getinfo(1, "S").source:match "^(.*)run/turns%.lua$" or "@softworld/"
+
+-- Where in the user's script the library was called that failed a process:
+-- "file:line: "; "" when the script's own code failed, whose errors stay as they are.
+local function place_in(thread)
+  local inside = false
+  for level = 0, 50 do
+    local info = debug.getinfo(thread, level, "Sl")
+    if not info then break end
+    if info.currentline > 0 then
+      local ours = info.source:sub(1, #library) == library
+      if not ours then
+        return inside and ("%s:%d: "):format(info.short_src, info.currentline) or ""
+      end
+      inside = true
+    end
+  end
+  return ""
+end
+
+-- A process that has come to its end must have had all the steps that the file has.
+local function check_end(self)
+  local done, data = process.done(self), build.data(self.scene)
+  if self.steps < #done then
+    error(("%s has ended before step '%s', which the file '%s' has; a script that goes on must have "
+      .. "the same steps"):format(tostring(self), tostring(done[self.steps + 1].name),
+      tostring(data.from_file)), 0)
+  end
+  data.ended = data.ended or {}
+  data.ended[self.number] = true
+end
+
+-- What it uses was taken away from outside of processes, as by hand: it ends, and an event tells.
+local function is_bereft(self, message)
+  local why = build.data(self.scene).bereft and type(message) == "string"
+    and message:match "[^\n]* was taken away[^\n]*"
+  if not why then return false end
+  self.scene:tell{ kind = "removed", text = ("process %d ends: %s"):format(self.number, why) }
+  return true
+end
+
+local function resume(self)
+  self.wake, self.watching, self.begun, self.between = nil, nil, true, nil
+  self.moves = self.moves + 1
+  local ok, message = coroutine.resume(self.thread, self)
+  if not ok and is_bereft(self, message) then return end
+  if not ok then
+    self.failed, self.traceback = true, debug.traceback(self.thread)
+    if type(message) == "string" and not message:find "^[^\n:]+:%d+: " then
+      message = place_in(self.thread) .. message
+    end
+    error(message, 0)
+  end
+  if coroutine.status(self.thread) == "dead" then check_end(self) end
+  if not self.wake then self.watching, self.wake = true, math.huge end -- a plain yield
+end
+
+local function is_due(p, second)
+  if coroutine.status(p.thread) ~= "suspended" then return false end
+  if second then return p.between or not p.begun end
+  return not p.wake or p.watching or process.reached(p.scene, p.wake)
+end
+
+-- Let those go on whose time has come; second: those that ended a step just now.
+local function go_on(data, second)
+  local alive, wake, watching, between, inside = {}, math.huge, false, false, false
+  for _, p in ipairs(data.processes) do
+    if is_due(p, second) then resume(p) end
+    if coroutine.status(p.thread) == "suspended" then
+      alive[#alive + 1] = p
+      wake = math.min(wake, p.wake)
+      watching = watching or p.watching or false
+      between = between or p.between or false
+      inside = inside or not p.between
+    end
+  end
+  data.processes = alive
+  return wake, watching, between, inside
+end
+
+--- Let every process whose time has come go on. Returns the number of living
+-- processes, the next wake-up time [s] and whether one watches a condition.
+function turns.step(scene)
+  local data = build.data(scene)
+  local wake, watching, between, inside = go_on(data, false)
+  while between do
+    if data.saving and not inside then data.saving() end
+    wake, watching, between, inside = go_on(data, true)
+  end
+  return #data.processes, wake, watching
+end
+
+--- After a file was read: processes that had ended without steps are not to begin again.
+function turns.take_up(scene)
+  local data = build.data(scene)
+  for _, p in ipairs(data.processes) do
+    if data.ended and data.ended[p.number] and #process.done(p) == 0 then p:finish() end
+  end
+end
+
+--- Before a run: every process whose steps the file has must be there.
+function turns.check_steps(scene)
+  local data = build.data(scene)
+  turns.take_up(scene)
+  for number, done in pairs(data.done or {}) do
+    if #done > 0 and number > (data.process_count or 0) then
+      error(("scene:run: the file '%s' has process %d with step '%s', which this script has not made; "
+        .. "make all processes before the run that goes on"):format(tostring(data.from_file), number,
+        tostring(done[1].name)), 0)
+    end
+  end
+end
+
+return turns

@@ -1,0 +1,82 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Whose line an error is told at: an error of this library or of the core has the place of the script's
+-- line that was being done; one of a script's own function keeps its place.
+-- @module softworld.scene.blame
+local blame = {}
+
+-- Where this library lies, as places in messages begin; long paths are cut there, those of files with
+-- longer names earlier.
+local library = debug.getinfo(1, "S").source:match "^@(.*)scene/blame%.lua$" or "softworld/"
+
+local function is_ours(source)
+  local cut = source:sub(1, 3) == "..."
+  return source:find(cut and "softworld/" or library, 1, true) ~= nil
+end
+
+-- "file:line: " of the script's line that is being done; "" where there is none.
+local function place()
+  for level = 3, 200 do
+    local info = debug.getinfo(level, "Sl")
+    if not info then return "" end
+    if info.currentline > 0 and not is_ours(info.short_src) then
+      return ("%s:%d: "):format(info.short_src, info.currentline)
+    end
+  end
+  return ""
+end
+
+-- Lua's own message on a mistake in this library: its place must be seen.
+local function is_mistake(text)
+  return text:find "^attempt to " or text:find "^bad argument #%d+ to '[^f]" or text:find "^stack overflow"
+end
+
+local function finish(of_core, ok, ...)
+  if ok then return ... end
+  local message = ...
+  if type(message) ~= "string" then error(message, 0) end
+  local where, text = message:match "^([^\n]-:%d+: )(.*)$"
+  if where and (not is_ours(where) or is_mistake(text)) or not where and of_core then
+    error(message, 0) -- a script's own
+  end
+  text = (text or message):gsub("^bad argument #(%d+) to 'f' %((.*)%)$", "argument %1: %2")
+  error(place() .. text, 0)
+end
+
+local function all(...) return ... end
+
+-- An error of the core has the place of this line; an error of a script's function keeps its own.
+local function of_core(f, ...) return all(f(...)) end
+
+local kinds = setmetatable({}, { __mode = "k" }) -- function -> "C", "Lua"
+
+local function kind_of(f)
+  local kind = kinds[f]
+  if not kind then
+    kind = debug.getinfo(f, "S").what
+    kinds[f] = kind
+  end
+  return kind
+end
+
+--- Call f; an error of this library or of the core gets the place of the script's line. f as a
+-- function of this library raises errors without a place, error(text, 0).
+function blame.call(_, f, ...)
+  if kind_of(f) == "C" then return finish(true, pcall(of_core, f, ...)) end
+  return finish(false, pcall(f, ...))
+end
+
+--- The same of a function of this library that places its errors itself, but counts levels as if the
+-- script called it.
+function blame.through(f, ...) return finish(true, pcall(of_core, f, ...)) end
+
+--- f, with errors placed as by blame.call.
+function blame.placed(f)
+  return function(...) return blame.call(3, f, ...) end
+end
+
+--- An error's text without the place in this library where it was raised.
+function blame.plain(message)
+  return (tostring(message):gsub("^[^\n:]*softworld/[%w_/]+%.lua:%d+: ", ""))
+end
+
+return blame
