@@ -8,6 +8,7 @@
 #include "body/guide.h"
 #include "scene/course.h"
 #include "step/blow.h"
+#include "step/coarse.h"
 #include "step/passing.h"
 #include "step/restart.h"
 #include "step/slip.h"
@@ -42,24 +43,27 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
-/* The trial converged, but it contains a blow, or went past a force. over: its way as a share of
- * the way that forces allow [-]. */
-static int is_too_long(const sw_ladder *p, parts *k, double *over) {
+/* The trial converged, but it contains a blow, went past a force, or is coarse. may_grow: 1, one of
+ * twice the size would not be. */
+static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   if (sw_blow_begins(p->s, k->part)) return 1;
-  *over = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
-  const double shorter = sw_passing_part(k->part, *over);
+  const double passes = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
+  const double coarse = sw_coarse_of(p->s);
+  const double shorter =
+      fmin(sw_passing_part(k->part, passes), sw_coarse_part(k->part, k->h, coarse));
+  *may_grow = passes <= 0.5 && sw_coarse_may_grow(coarse);
   if (!(shorter < k->part)) return 0;
   k->part = shorter;
   return 1;
 }
 
-static sw_status take(sw_ladder *p, parts *k, double over, sw_error *err) {
+static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->done += k->part;
   k->longest = fmax(k->longest, k->part);
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
   if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
   SW_TRY(sw_ladder_record(p, k->part, err));
-  k->part = k->starts || k->cut ? k->h : over > 0.5 ? k->part : 2 * k->part;
+  k->part = k->starts || k->cut ? k->h : may_grow ? 2 * k->part : k->part;
   k->starts = k->cut = 0;
   return SW_OK;
 }
@@ -96,14 +100,14 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   p->cuts = 0;
   p->changed = sw_restart_changed(p->s);
   while (k.done < h) {
-    double over = 0;
+    int may_grow = 1;
     SW_TRY(begin(p, &k, err));
     const int smallest = 0.5 * k.part < SW_SMALLEST_SHARE * h;
     const sw_status status = sw_ladder_try(p, k.part, smallest, err);
-    if (status == SW_OK && is_too_long(p, &k, &over))
+    if (status == SW_OK && is_too_long(p, &k, &may_grow))
       sw_ladder_undo(p);
     else
-      SW_TRY(status == SW_OK ? take(p, &k, over, err) : refuse(p, &k, status, err));
+      SW_TRY(status == SW_OK ? take(p, &k, may_grow, err) : refuse(p, &k, status, err));
   }
   remember(p->s, &k);
   return SW_OK;
