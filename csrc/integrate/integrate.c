@@ -231,8 +231,8 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
   return SW_OK;
 }
 
-/* Spins go along: they are bound to the nodes' motion by friction, or by twist, which is much faster
- * than a step. */
+/* Spins go along: they are bound to the nodes' motion by friction, or by twist, which is much
+ * faster than a step. */
 double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
   const sw_integrator *m = p->used;
   double largest = 0;

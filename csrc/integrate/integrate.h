@@ -93,10 +93,10 @@ struct sw_stepper {
   const sw_integrator *used;    /* by the last trial, of an implicit method */
   double trial_h;               /* of the last trial [s] */
   int restart;                  /* next step starts anew: a_n is stale */
-  int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
-  int booked;      /* 1: an evaluation of the explicit step was booked */
-  double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
-  void *outside;   /* an outside library's stepper */
+  int plastic;    /* the next trials are of implicit Euler: what strikes does not bounce */
+  int booked;     /* 1: an evaluation of the explicit step was booked */
+  double **extra; /* explicit methods' work arrays (SW_EXTRA of n) */
+  void *outside;  /* an outside library's stepper */
   void (*free_outside)(void *outside);
   sw_newton newton;
   size_t iterations; /* of the last trial, all stages */

@@ -4,6 +4,7 @@
 
 #include "scene/course.h"
 #include "scene/parts.h"
+#include "step/blow.h"
 #include "step/restart.h"
 #include "system/system.h"
 
@@ -20,6 +21,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   const sw_system *system = sw_scene_system(s);
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
   double h = course->next_dt > 0 ? fmin(course->next_dt, most) : 0.1 * most;
+  h = sw_blow_part(s, h);
   SW_TRY(sw_ladder_make_room(p, &h, err));
   sw_restart_at_jerk(s);
   p->changed = sw_restart_changed(s);
@@ -32,6 +34,11 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const int fine = status == SW_OK && (error <= tolerance || is_short_enough(p, h));
     double next =
         status == SW_OK ? sw_stepper_next_h(&course->stepper, h, error, tolerance) : 0.25 * h;
+    if (fine && p->args->parts && sw_blow_begins(s, h)) {
+      sw_ladder_undo(p);
+      h = sw_blow_part(s, h);
+      continue;
+    }
     if (fine) {
       const int unknown = !(error > 0); /* implicit Euler gives no estimate */
       const double before = sw_scene_time(s);
