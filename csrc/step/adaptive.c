@@ -34,7 +34,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const int fine = status == SW_OK && (error <= tolerance || is_short_enough(p, h));
     double next =
         status == SW_OK ? sw_stepper_next_h(&course->stepper, h, error, tolerance) : 0.25 * h;
-    if (fine && p->args->parts && sw_blow_begins(s, h)) {
+    if (fine && sw_blow_begins(s, h)) {
       sw_ladder_undo(p);
       h = sw_blow_part(s, h);
       continue;

@@ -46,7 +46,7 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
 /* The trial converged, but it contains a blow, went past a force, or is coarse. may_grow: 1, one of
  * twice the size would not be. */
 static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
-  if (p->args->parts && sw_blow_begins(p->s, k->part)) return 1;
+  if (sw_blow_begins(p->s, k->part)) return 1;
   const double passes = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
   const double coarse = p->args->parts ? sw_coarse_of(p->s, p->args->dt) : 0.0;
   const double shorter =
