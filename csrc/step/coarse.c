@@ -8,9 +8,10 @@
 #include "system/system.h"
 
 /* Allowed in a step of the usual size or more: so much of a wire's length and of its radius,
- * whichever is less [-], [s]; of a shorter one less in proportion, so that results get better with dt
- * everywhere. A metre of cable of 2 mm that is laid at 0.25 m/s is beyond that in 3 of 100 steps; one
- * that whips, falls on a peg or is struck, in most of those that make its largest tension. */
+ * whichever is less [-], [s]; of a shorter one less in proportion, so that results get better with
+ * dt everywhere. A metre of cable of 2 mm that is laid at 0.25 m/s is beyond that in 3 of 100
+ * steps; one that whips, falls on a peg or is struck, in most of those that make its largest
+ * tension. */
 static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1, USUAL = 0.01;
 /* The estimate goes with this power of the step [-]. */
 static const double POWER = 3.0;
@@ -44,5 +45,11 @@ double sw_coarse_part(double h, double dt, double over) {
   if (!(over > 1.0) || h < 2.0 * least) return h;
   return fmax(least, h * exp2(-ceil(log2(over) / POWER)));
 }
+
+/* Half a part of smooth motion has an eighth of its error, one with a jump in it half or all of it.
+ */
+static const double HELPS = 0.7;
+
+int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, HELPS * before); }
 
 int sw_coarse_may_grow(double over) { return over * exp2(POWER) <= 1.0; }

@@ -26,6 +26,9 @@ typedef struct parts {
   double done, part; /* so much is behind; what is tried now [s] */
   double longest;    /* part that was taken [s] */
   int refused;       /* parts */
+  double doubted;    /* a part that is coarse, while a shorter one is tried instead; 0: none [s] */
+  double over;       /* by so much it is [-] */
+  int rough;         /* 1: shorter ones do not help in this step */
   int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
   sw_error failed;   /* why a part was refused last */
 } parts;
@@ -43,16 +46,35 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
+/* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
+ * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
+static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
+  const double over = p->args->parts && !k->rough ? sw_coarse_of(p->s, p->args->dt) : 0.0;
+  const double shorter = sw_coarse_part(k->part, p->args->dt, over);
+  *may_grow = sw_coarse_may_grow(over);
+  if (k->doubted > 0 && !sw_coarse_helps(k->over, over)) {
+    k->rough = 1;
+    k->part = k->doubted, k->doubted = 0;
+    return 1;
+  }
+  k->doubted = 0;
+  if (!(shorter < k->part)) return 0;
+  k->doubted = k->part, k->over = over;
+  k->part = shorter;
+  return 1;
+}
+
 /* The trial converged, but it contains a blow, went past a force, or is coarse. may_grow: 1, one of
  * twice the size would not be. */
 static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   if (sw_blow_begins(p->s, k->part)) return 1;
   const double passes = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
-  const double coarse = p->args->parts ? sw_coarse_of(p->s, p->args->dt) : 0.0;
-  const double shorter =
-      fmin(sw_passing_part(k->part, passes), sw_coarse_part(k->part, p->args->dt, coarse));
-  *may_grow = passes <= 0.5 && sw_coarse_may_grow(coarse);
-  if (!(shorter < k->part)) return 0;
+  const double shorter = sw_passing_part(k->part, passes);
+  if (!(shorter < k->part)) {
+    const int coarse = is_coarse(p, k, may_grow);
+    *may_grow &= passes <= 0.5;
+    return coarse;
+  }
   k->part = shorter;
   return 1;
 }
@@ -77,6 +99,11 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   p->cuts += k->cut;
   if (!k->cut) sw_blow_refused(p->s, k->part);
   sw_restart_refused(p, k->cut);
+  if (k->doubted > 0) { /* it went well */
+    k->rough = 1, k->cut = 0;
+    k->part = k->doubted, k->doubted = 0;
+    return SW_OK;
+  }
   k->part = k->cut ? p->soonest : 0.5 * k->part;
   return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
 }
