@@ -108,7 +108,7 @@ local function climb(case, segments, integrator)
   local clean = true
   for _, dt in ipairs(ladder) do
     local state = benchcases[case].make{ segments = segments }
-    local r = state.scene:advance({ dt = dt, integrator = integrator }, state.duration)
+    local r = state.scene:advance({ dt = dt, integrator = integrator, parts = false }, state.duration)
     state.scene:close()
     if not r.ok then
       row.status, row.reason = "diverged", r.reason

@@ -234,12 +234,13 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
   return SW_OK;
 }
 
-/* The method's estimate, largest over nodes. Spins go along: they are bound to the nodes' motion by
- * friction, or by twist, which is much faster than a step. */
-static double embedded_error(const sw_stepper *p, const sw_integrator *m, const sw_system *s,
-                             double h) {
+/* Spins go along: they are bound to the nodes' motion by friction, or by twist, which is much
+ * faster than a step. */
+double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
+  const sw_integrator *m = p->used;
   double largest = 0;
-  for (size_t i = 0; i < 3 * s->nodes; i += 3) {
+  if (!m || m->error[0] == 0) return 0;
+  for (size_t i = 3 * first; i < 3 * end; i += 3) {
     double sum = 0;
     for (size_t c = i; c < i + 3; c++) {
       double e = m->error[0] * s->v[c];
@@ -248,7 +249,7 @@ static double embedded_error(const sw_stepper *p, const sw_integrator *m, const 
     }
     largest = fmax(largest, sum);
   }
-  return h * sqrt(largest);
+  return p->trial_h * sqrt(largest);
 }
 
 sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_error *err) {
@@ -256,7 +257,8 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
   sw_system_begin_step(s);
   p->iterations = 0;
   p->rotation = 0;
-  p->error = 0;
+  p->used = NULL;
+  p->trial_h = h;
   p->booked = 0;
   p->mean = NULL;
   if (!(p->method->flags & SW_INTEGRATOR_IMPLICIT)) {
@@ -273,7 +275,7 @@ sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_e
                                                   : p->method;
   if (p->restart) SW_TRY(sw_system_held_anew(s, t, err));
   SW_TRY(implicit_trial(p, m, s, t, h, err));
-  if (p->wants_error && m->error[0] != 0) p->error = embedded_error(p, m, s, h);
+  p->used = m;
   return SW_OK;
 }
 
@@ -309,9 +311,9 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
   p->plastic = 0;
 }
 
-double sw_stepper_next_h(const sw_stepper *p, double h, double tolerance) {
+double sw_stepper_next_h(const sw_stepper *p, double h, double error, double tolerance) {
   const double safety = 0.9, most = 2.0, least = 0.2; /* of the last step [-] */
-  if (!(p->error > 0)) return h;
-  const double factor = safety * pow(tolerance / p->error, 1.0 / (p->method->order + 1));
+  if (!(error > 0)) return h;
+  const double factor = safety * pow(tolerance / error, 1.0 / (p->method->order + 1));
   return h * fmin(most, fmax(least, factor));
 }

@@ -90,13 +90,13 @@ struct sw_stepper {
   sw_between between;           /* where those of the trial are that are read out */
   double turning[SW_TURN_SIZE]; /* what it keeps of wires that turn */
   double last_h;                /* of the last accepted step; 0 = none [s] */
+  const sw_integrator *used;    /* by the last trial, of an implicit method */
+  double trial_h;               /* of the last trial [s] */
   int restart;                  /* next step starts anew: a_n is stale */
-  int plastic;     /* the next trials are of implicit Euler: what strikes does not bounce */
-  int booked;      /* 1: an evaluation of the explicit step was booked */
-  double error;    /* estimate of the last trial; 0 without one [m] */
-  int wants_error; /* the step size follows the error */
-  double **extra;  /* explicit methods' work arrays (SW_EXTRA of n) */
-  void *outside;   /* an outside library's stepper */
+  int plastic;    /* the next trials are of implicit Euler: what strikes does not bounce */
+  int booked;     /* 1: an evaluation of the explicit step was booked */
+  double **extra; /* explicit methods' work arrays (SW_EXTRA of n) */
+  void *outside;  /* an outside library's stepper */
   void (*free_outside)(void *outside);
   sw_newton newton;
   size_t iterations; /* of the last trial, all stages */
@@ -117,6 +117,10 @@ size_t sw_stepper_history(const sw_stepper *stepper, const sw_system *system);
  * apart from the tension, which sw_stepper_reject puts back. */
 sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, double h,
                            sw_error *err);
+/* Error of the last trial by its method's estimate, the largest of nodes from first up to end; 0
+ * when it has none [m]. */
+double sw_stepper_error(const sw_stepper *stepper, const sw_system *system, size_t first,
+                        size_t end);
 void sw_stepper_reject(sw_stepper *stepper, sw_system *system);
 /* Make the trial the system's state. */
 void sw_stepper_accept(sw_stepper *stepper, sw_system *system, double h);
@@ -124,7 +128,7 @@ void sw_stepper_accept(sw_stepper *stepper, sw_system *system, double h);
 /* Explicit methods, after each evaluation: its forces act on the velocity for so long [s]. */
 void sw_stepper_book(sw_stepper *stepper, sw_system *system, double share);
 
-/* The next step size for a tolerance on the step error [s]. */
-double sw_stepper_next_h(const sw_stepper *stepper, double h, double tolerance);
+/* The next step size after one of size h with such an error, for a tolerance of it [s]. */
+double sw_stepper_next_h(const sw_stepper *stepper, double h, double error, double tolerance);
 
 #endif

@@ -4,7 +4,9 @@
 
 #include "scene/course.h"
 #include "scene/parts.h"
+#include "step/blow.h"
 #include "step/restart.h"
+#include "system/system.h"
 
 /* A strike is a jump, which no step is short enough for: one that starts anew and is this short is
  * taken as it is. */
@@ -16,8 +18,10 @@ static int is_short_enough(const sw_ladder *p, double h) {
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
   sw_course *course = sw_scene_course(s);
+  const sw_system *system = sw_scene_system(s);
   const double tolerance = p->args->tolerance, most = fmin(p->args->dt, left);
   double h = course->next_dt > 0 ? fmin(course->next_dt, most) : 0.1 * most;
+  h = sw_blow_part(s, h);
   SW_TRY(sw_ladder_make_room(p, &h, err));
   sw_restart_at_jerk(s);
   p->changed = sw_restart_changed(s);
@@ -26,11 +30,17 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
-    const int fine =
-        status == SW_OK && (course->stepper.error <= tolerance || is_short_enough(p, h));
-    double next = status == SW_OK ? sw_stepper_next_h(&course->stepper, h, tolerance) : 0.25 * h;
+    const double error = sw_stepper_error(&course->stepper, system, 0, system->nodes);
+    const int fine = status == SW_OK && (error <= tolerance || is_short_enough(p, h));
+    double next =
+        status == SW_OK ? sw_stepper_next_h(&course->stepper, h, error, tolerance) : 0.25 * h;
+    if (fine && sw_blow_begins(s, h)) {
+      sw_ladder_undo(p);
+      h = sw_blow_part(s, h);
+      continue;
+    }
     if (fine) {
-      const int unknown = !(course->stepper.error > 0); /* implicit Euler gives no estimate */
+      const int unknown = !(error > 0); /* implicit Euler gives no estimate */
       const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);
       if (!(sw_scene_time(s) > before))

@@ -63,7 +63,6 @@ sw_status sw_ladder_make_room(sw_ladder *p, double *h, sw_error *err) {
   sw_ledger_forget(s);
   system->counters = before;
   SW_TRY(sw_ladder_method(s, p->args, err));
-  sw_scene_course(s)->stepper.wants_error = isfinite(p->args->tolerance);
   sw_restart_resume(s, pending);
   sw_free(p->v_start);
   p->v_start = sw_alloc(sw_scene_has_contact(s) ? system->freedoms : 1, sizeof(double));

@@ -8,6 +8,7 @@
 #include "body/guide.h"
 #include "scene/course.h"
 #include "step/blow.h"
+#include "step/coarse.h"
 #include "step/passing.h"
 #include "step/restart.h"
 #include "step/slip.h"
@@ -25,6 +26,9 @@ typedef struct parts {
   double done, part; /* so much is behind; what is tried now [s] */
   double longest;    /* part that was taken [s] */
   int refused;       /* parts */
+  double doubted;    /* a part that is coarse, while a shorter one is tried instead; 0: none [s] */
+  double over;       /* by so much it is [-] */
+  int rough;         /* 1: shorter ones do not help in this step */
   int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
   sw_error failed;   /* why a part was refused last */
 } parts;
@@ -42,24 +46,46 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
-/* The trial converged, but it contains a blow, or went past a force. over: its way as a share of
- * the way that forces allow [-]. */
-static int is_too_long(const sw_ladder *p, parts *k, double *over) {
-  if (sw_blow_begins(p->s, k->part)) return 1;
-  *over = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
-  const double shorter = sw_passing_part(k->part, *over);
+/* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
+ * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
+static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
+  const double over = p->args->parts && !k->rough ? sw_coarse_of(p->s, p->args->dt) : 0.0;
+  const double shorter = sw_coarse_part(k->part, p->args->dt, over);
+  *may_grow = sw_coarse_may_grow(over);
+  if (k->doubted > 0 && !sw_coarse_helps(k->over, over)) {
+    k->rough = 1;
+    k->part = k->doubted, k->doubted = 0;
+    return 1;
+  }
+  k->doubted = 0;
   if (!(shorter < k->part)) return 0;
+  k->doubted = k->part, k->over = over;
   k->part = shorter;
   return 1;
 }
 
-static sw_status take(sw_ladder *p, parts *k, double over, sw_error *err) {
+/* The trial converged, but it contains a blow, went past a force, or is coarse. may_grow: 1, one of
+ * twice the size would not be. */
+static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
+  if (sw_blow_begins(p->s, k->part)) return 1;
+  const double passes = sw_passing_of(p->s, sw_scene_course(p->s)->stepper.trial_x);
+  const double shorter = sw_passing_part(k->part, passes);
+  if (!(shorter < k->part)) {
+    const int coarse = is_coarse(p, k, may_grow);
+    *may_grow &= passes <= 0.5;
+    return coarse;
+  }
+  k->part = shorter;
+  return 1;
+}
+
+static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->done += k->part;
   k->longest = fmax(k->longest, k->part);
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
   if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
   SW_TRY(sw_ladder_record(p, k->part, err));
-  k->part = k->starts || k->cut ? k->h : over > 0.5 ? k->part : 2 * k->part;
+  k->part = k->starts || k->cut ? k->h : may_grow ? 2 * k->part : k->part;
   k->starts = k->cut = 0;
   return SW_OK;
 }
@@ -73,6 +99,11 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   p->cuts += k->cut;
   if (!k->cut) sw_blow_refused(p->s, k->part);
   sw_restart_refused(p, k->cut);
+  if (k->doubted > 0) { /* it went well */
+    k->rough = 1, k->cut = 0;
+    k->part = k->doubted, k->doubted = 0;
+    return SW_OK;
+  }
   k->part = k->cut ? p->soonest : 0.5 * k->part;
   return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
 }
@@ -96,14 +127,14 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   p->cuts = 0;
   p->changed = sw_restart_changed(p->s);
   while (k.done < h) {
-    double over = 0;
+    int may_grow = 1;
     SW_TRY(begin(p, &k, err));
     const int smallest = 0.5 * k.part < SW_SMALLEST_SHARE * h;
     const sw_status status = sw_ladder_try(p, k.part, smallest, err);
-    if (status == SW_OK && is_too_long(p, &k, &over))
+    if (status == SW_OK && is_too_long(p, &k, &may_grow))
       sw_ladder_undo(p);
     else
-      SW_TRY(status == SW_OK ? take(p, &k, over, err) : refuse(p, &k, status, err));
+      SW_TRY(status == SW_OK ? take(p, &k, may_grow, err) : refuse(p, &k, status, err));
   }
   remember(p->s, &k);
   return SW_OK;

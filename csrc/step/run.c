@@ -48,7 +48,6 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
   const double t0 = sw_scene_time(s), span = until - t0;
   const double count = fmax(1.0, ceil(span / p->args->dt - 1e-9));
   if (span > 0 && span < SW_SHORTEST_STEP) sw_scene_set_time(s, until);
-  sw_scene_course(s)->stepper.wants_error = isfinite(p->args->tolerance);
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
   for (size_t k = 1; sw_scene_time(s) < until - slack;) {

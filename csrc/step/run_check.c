@@ -34,6 +34,9 @@ static sw_param run_rows[] = {
     {"frames", SW_PARAM_OTHER, "-", 0, 0, 0, 0, NULL, 0,
      "{ memory = [B] } that they may take (default 256e6), when full every second one goes; false: "
      "none"},
+    {"parts", SW_PARAM_BOOLEAN, "-", 1, 0, 1, 0, NULL, offsetof(sw_run_args, parts),
+     "false: steps are not taken in parts where wires move too fast for dt, as error bars have it; "
+     "see help 'peaks'"},
     {"quasistatic", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_run_args, quasistatic),
      "true: equilibrium at every step instead of motion; dt is then the pose step, less where "
      "pads hold a wire"},

@@ -18,6 +18,7 @@ typedef struct sw_run_args {
   long max_steps;   /* stop after this many [-] */
   double window;    /* peaks are of means over this time; 0: of values of single steps [s] */
   int unstable;     /* 1: an explicit method may take steps above its limit */
+  int parts;        /* 1: steps too coarse for how wires move are taken in parts */
   int wear;         /* 1: what wears wires is kept; told when the run begins */
 } sw_run_args;
 extern const sw_params sw_run_params;

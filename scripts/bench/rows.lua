@@ -111,7 +111,7 @@ end
 local function options_of(config)
   if not config.integrator then return {} end
   return { dt = config.dt, tolerance = config.tolerance, integrator = config.integrator,
-    unstable = true } -- limits are looked for here
+    unstable = true, parts = false } -- limits are looked for here, and errors of steps dt
 end
 
 -- Run a made case from its start to its end.

@@ -36,6 +36,7 @@ local function steps_of(job, args)
     local options = {}
     for key, value in pairs(args) do options[key] = value end
     options.dt = dt / job.share / 2 ^ (k - 1)
+    if options.parts == nil then options.parts = false end -- levels would be of like steps
     if adaptive then options.tolerance = error_of_step / 8 ^ (k - 1) end
     return options
   end

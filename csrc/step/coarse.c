@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "step/coarse.h"
+
+#include <math.h>
+
+#include "scene/course.h"
+#include "scene/parts.h"
+#include "system/system.h"
+
+/* Allowed in a step of the usual size or more: so much of a wire's length and of its radius,
+ * whichever is less [-], [s]; of a shorter one less in proportion, so that results get better with
+ * dt everywhere. A metre of cable of 2 mm that is laid at 0.25 m/s is beyond that in 3 of 100
+ * steps; one that whips, falls on a peg or is struck, in most of those that make its largest
+ * tension. */
+static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1, USUAL = 0.01;
+/* The estimate goes with this power of the step [-]. */
+static const double POWER = 3.0;
+/* What a part of this share of a step, or this short, does not resolve is no smooth motion [-],
+ * [s].
+ */
+static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
+
+/* Of more wires one is too fast all the time, and all would take the parts of each [-]. */
+enum { MOST_WIRES = 32 };
+
+/* Sections of meshes swing far faster than any step, which is to damp that. */
+double sw_coarse_of(const sw_scene *s, double dt) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
+  const double share = fmin(1.0, dt / USUAL);
+  double over = 0;
+  if (sw_scene_wire_slots(s) > MOST_WIRES) return 0;
+  SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
+    const sw_plan *p = b->plan;
+    if (p->web) continue;
+    const double allowed = share * fmin(OF_LENGTH * p->length, OF_RADIUS * p->beam.radius);
+    const double error = sw_stepper_error(stepper, system, b->first_node, b->first_node + p->nodes);
+    over = fmax(over, error / allowed);
+  }
+  return over;
+}
+
+double sw_coarse_part(double h, double dt, double over) {
+  const double least = fmax(SMALLEST * dt, SHORTEST);
+  if (!(over > 1.0) || h < 2.0 * least) return h;
+  return fmax(least, h * exp2(-ceil(log2(over) / POWER)));
+}
+
+/* Half a part of smooth motion has an eighth of its error, one with a jump in it half or all of it.
+ */
+static const double HELPS = 0.7;
+
+int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, HELPS * before); }
+
+int sw_coarse_may_grow(double over) { return over * exp2(POWER) <= 1.0; }

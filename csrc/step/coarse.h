@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steps of fixed size that are too coarse for how a wire moves in them are taken in parts. Shared
+ * by the files of this room only. */
+#ifndef SW_STEP_COARSE_H
+#define SW_STEP_COARSE_H
+
+#include "scene/scene.h"
+
+/* Error of the last trial, by the method's estimate, as a share of what a wire is allowed in a run
+ * of steps dt: up to 1 is fine; 0: the method has no estimate [-]. */
+double sw_coarse_of(const sw_scene *scene, double dt);
+/* The part that is to be taken instead of one of size h with such an error, in a run of steps
+ * dt [s]. */
+double sw_coarse_part(double h, double dt, double over);
+/* Was it right to take a shorter part, with an error over, instead of one with an error before? */
+int sw_coarse_helps(double before, double over);
+/* 1: a part of twice the size would be fine too. */
+int sw_coarse_may_grow(double over);
+
+#endif
