@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a touch remembers, of the steps before and of the iterate before. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -208,6 +209,15 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
   return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
 }
 
+/* Where nothing touched before, a shift along the surface that is no more than so many roundings of
+ * places is none: it would give friction a direction by chance, of each touch another one [-]. */
+static const double ROUNDINGS = 16.0 * DBL_EPSILON;
+
+static sw_vec without_rounding(sw_vec u, sw_vec normal, sw_vec place) {
+  const double most = ROUNDINGS * sw_norm(place), away = sw_dot(u, normal);
+  return sw_norm2(sw_madd(u, normal, -away)) <= most * most ? sw_scale(normal, away) : u;
+}
+
 /* What only now begins to touch has been moving freely: it slides first. A wire that has been
  * rolling is not called a slide for a long spring: on a curved surface both its shift and its
  * turn are predicted less exactly than that. */
@@ -219,6 +229,8 @@ static void begin_friction(const sw_contact *c, const sw_system *s, const sw_mem
     u = sw_add(u, sw_rotate(c->now[t->obstacle].pose.q, m->kept.elastic));
   else if (press->gap >= 0 && press->active)
     u = sw_v(0, 0, 0);
+  else
+    u = without_rounding(u, press->normal, t->point);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == c->stage, c->first);
   const int turned = last && last->press.reversals > 0, moving = c->regime == SW_CONTACT_IMPLICIT;
   if (turned && (moving ? c->updates > 0 : sw_contact_moves(c)))

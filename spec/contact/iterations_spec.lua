@@ -68,3 +68,22 @@ describe("a wire that begins to slide", function()
     assert.is_true(math.abs(0.5 * (least + most) / right - 1) < 0.03, least .. " for " .. right)
   end)
 end)
+
+describe("a long wire that lands flat on a table", function()
+  -- Its nodes are metres from the origin: what places are rounded by is more than what friction's
+  -- spring is told by, and no shift.
+  it("finds no friction in what places are rounded by", function()
+    local s = core.scene{}
+    s:obstacle{ shape = "plane", friction = 0.3 }
+    local w = scenes.add_wire(s, { 0, 0, 0.01 }, { 20, 0, 0.01 }, 2000)
+    assert.is_true(s:advance({ dt = 0.01 }, 0.03).ok)
+    local row = s:advance({ dt = 0.01 }, 0.04)
+    assert.is_true(row.ok and row.iterations < 25, row.iterations .. " iterations") -- 31 with it
+    local most = 0
+    for i = 0, 2000 do
+      local v = w:velocity(0.01 * i)
+      most = math.max(most, math.abs(v[1]), math.abs(v[2]))
+    end
+    assert.is_true(most < 1e-9, most .. " m/s along the table")
+  end)
+end)
