@@ -75,4 +75,23 @@ double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t 
 double sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
                              double enough);
 
+/* --- how lines are pressed ---------------------------------------------------------------- */
+
+/* Places that do not count: middle and half length, with an edge and a half beside [m]. place: of
+ * the frame's largest load, from there a node is pressed [-]. */
+typedef struct sw_press_request {
+  double (*span)[2];
+  size_t spans;
+  double place;
+} sw_press_request;
+/* Of a frame: the largest load, and the largest from both sides [N/m]; the nodes between which the
+ * line is pressed, of how many. */
+typedef struct sw_press {
+  double load, squeeze;
+  size_t first, last, count;
+} sw_press;
+/* 0: nothing presses on wire w in that frame. */
+int sw_scene_frame_press(const sw_scene *scene, size_t frame, size_t w,
+                         const sw_press_request *request, sw_press *out);
+
 #endif

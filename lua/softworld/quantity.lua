@@ -308,6 +308,14 @@ function quantity.size(a)
   return is_vector(a) and sum ^ 0.5 or most
 end
 
+--- The value k times the way from a to b beyond b.
+function quantity.onward(a, b, k)
+  if type(a) == "number" then return b + k * (b - a) end
+  local list = {}
+  for i, x in ipairs(a) do list[i] = quantity.onward(x, b[i], k) end
+  return list
+end
+
 --- The sum of products of the changes a to b and b to c: below 0 when they turn back.
 function quantity.agreement(a, b, c)
   if type(a) == "number" then return (b - a) * (c - b) end

@@ -50,6 +50,11 @@ function facts.touched(w, look)
   end
 end
 
+--- What presses on line w in those frames, rows of five: see core.frames_press.
+function facts.press(w, place, but)
+  return core.frames_press(kept.scene, w, kept.start, place, but)
+end
+
 --- Swept boxes of the wires { x1, y1, z1, x2, y2, z2, step = how far points move between frames } [m]; the
 -- largest angle by which one turns along its length [rad]; the largest acceleration of what moves along the
 -- frames, by second differences [m/s2], nil where there are less than three.

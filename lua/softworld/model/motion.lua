@@ -12,7 +12,6 @@ local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be
 local SAFETY = 3     -- coarse steps do not see all that swings [-]
 local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
 local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
-local STEPS = 8       -- of a computation in a first period that follow the swing [-]
 local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
@@ -73,11 +72,21 @@ function motion.begin(context)
   if context.job.rests then context.period = period(context.scene) end
 end
 
---- Do the steps of a computation of dynamics follow the first swing, so that what swings is not damped away?
--- Or does it hardly speed up?
-function motion.resolves(f)
-  if f.acceleration and f.acceleration <= SMALL * f.weight then return true end
-  return f.period ~= nil and f.dt <= f.period / STEPS
+-- What the damping of tr-bdf2 leaves of a swing after a step of so much of its phase [rad]: the size of its
+-- stability function (Bank et al., IEEE Trans. CAD 4, 1985).
+local function kept(phase)
+  local g = 2 - 2 ^ 0.5
+  local up = (2 * (2 - g)) ^ 2 + ((1 + (1 - g) ^ 2) * phase) ^ 2
+  local down = (2 * (2 - g) - g * (1 - g) * phase ^ 2) ^ 2 + ((2 - g ^ 2) * phase) ^ 2
+  return (up / down) ^ 0.5
+end
+
+--- The share of a swing that the steps of a computation of dynamics show: what is left of it after half of
+-- the first period, at the step next to its peak. All where it hardly speeds up.
+function motion.shows(f)
+  if f.acceleration and f.acceleration <= SMALL * f.weight then return 1 end
+  local steps = f.period and f.period / f.dt or 0
+  return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
 --- What the coarsest steps damp away: what rings after a jump, or where inertia counts.

@@ -12,7 +12,7 @@
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
 --     changes.shape(k) makes other models of wires on level k. rungs: of all choices, by their names
 --   expected(context, rung, k): time of a run on level k, where it may cost much [s]
---   resolves(facts): the computation by the next rung follows what that adds
+--   shows(facts): the share of what the next rung adds that its computation shows [-], where not all
 --   blurred(facts, above, share): the coarsest level tells too little of the next rung, whose facts are
 --     above, to stay
 --   look(context, run): what a computation tells about the choice, read at its end

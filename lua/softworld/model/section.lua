@@ -94,7 +94,7 @@ end
 
 local function look_at_line(context, worst, w, i)
   local body = flat.body(w.object)
-  local q, from, to = pressed.line(context, w.object, i, body)
+  local q, from, to, both = pressed.line(context, w.object, i, body)
   if q <= 0 then return end
   local share = flat.share(body, q)
   if not body.known and share < CRUSHED then
@@ -102,7 +102,7 @@ local function look_at_line(context, worst, w, i)
     return
   end
   note(context, w, body, q, from, to)
-  local squeeze = flat.share(body, pressed.squeeze(context, w.object, i))
+  local squeeze = flat.share(body, both)
   if squeeze > (worst.squeeze or 0) then worst.squeeze, worst.squeezed = squeeze, w.name end
   if share > worst.share then
     worst.q, worst.share, worst.wire, worst.of = q, share, w.name, body.of
