@@ -216,13 +216,16 @@ local function climb(context, state, rungs, here)
   if not above.ok then
     return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
+  local costly = choice.costly and choice.costly(rung, here, above)
+  if costly then
+    decide.raise(context, state, costly)
+    return false
+  end
   local c, blind = compare(context, state, rungs, up)
   if blind then
     return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
   end
-  local costly = choice.costly and choice.costly(rung, here, above)
-  if costly then decide.raise(context, state, costly)
-  elseif c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
+  if c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
   else
     state.change = c.all
     return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))

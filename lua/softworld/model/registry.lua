@@ -20,9 +20,9 @@
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
 --     suffice without another computation, and where it counts what share of a value is left out; else
 --     nil, and perhaps why not. share: the tightest of the tolerances over its value
---   broken(facts, share): a sentence where what a run told so far speaks against what the free check of the
---     first rung said; onward(context, options): the next rung from here on, in the run that goes on with
---     options; raises where that is not possible
+--   broken(facts, share, rung): a sentence where what a run told so far speaks against what the free check of
+--     the rung said; onward(context, options): the next rung from here on, in the run that goes on with
+--     options; raises where that is not possible. Without it the run begins again
 --   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
 --   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
 --   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing

@@ -166,6 +166,18 @@ function section.free(context, rung, f, share)
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
 end
 
+--- Why the rung does not suffice any more, of what was seen of a run on the way.
+function section.broken(f, share, rung)
+  local left = section.left(rung, f)
+  if rung == 1 and f.share > share then
+    return ("'%s' was pressed by %s and flattened by %s of its width (limit %s)"):format(f.wire,
+      number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
+  elseif left and left > LEFT * share then
+    return ("walls were flattened by %s, of which springs leave out %s (limit %s)"):format(
+      facts.percent(f.flat), facts.percent(left), facts.percent(LEFT * share))
+  end
+end
+
 --- The next rung is not tried where nobody knows how stiff what is pressed is.
 function section.skip(_, rung, f, share)
   if rung > 1 or not f.unknown or f.share > share then return nil end
