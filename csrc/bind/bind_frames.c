@@ -222,12 +222,11 @@ static size_t wire_index(lua_State *L, int at, const sw_scene *scene) {
 
 /* core.frames_sweep(scene, w, start [s]) -> { x1, y1, z1, x2, y2, z2, step = } of what wire w
  * swept [m], the angle it turned by along its length at most [rad], and the largest acceleration
- * of a node [m/s2], or nil */
+ * of a node by frames one after the other, and by every second one [m/s2], or nil */
 static int mod_frames_sweep(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene);
   const double start = lsw_number(L, 3, "frames_sweep: start", "s");
-  const double most = sw_scene_frames_acceleration(scene, start, w);
   sw_swept swept;
   sw_scene_frames_sweep(scene, start, w, &swept);
   lua_createtable(L, 6, 1);
@@ -239,11 +238,14 @@ static int mod_frames_sweep(lua_State *L) {
   }
   lsw_set_number(L, "step", swept.step);
   lua_pushnumber(L, swept.turning);
-  if (most >= 0)
-    lua_pushnumber(L, most);
-  else
-    lua_pushnil(L);
-  return 3;
+  for (size_t stride = 1; stride <= 2; stride++) {
+    const double most = sw_scene_frames_acceleration(scene, start, w, stride);
+    if (most >= 0)
+      lua_pushnumber(L, most);
+    else
+      lua_pushnil(L);
+  }
+  return 4;
 }
 
 /* core.frames_apart(scene, w, v, start [s], enough [m]) -> least distance of their axes [m] */

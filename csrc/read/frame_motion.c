@@ -62,14 +62,14 @@ void sw_scene_frames_sweep(const sw_scene *s, double start, size_t w, sw_swept *
   }
 }
 
-double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w) {
+double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w, size_t stride) {
   double most = -1;
-  for (size_t f = 2; f < sw_scene_frames(s); f++) {
-    const double a = sw_scene_frame_time(s, f - 2), b = sw_scene_frame_time(s, f - 1);
+  for (size_t f = 2 * stride; f < sw_scene_frames(s); f++) {
+    const size_t g = f - stride, e = g - stride;
+    const double a = sw_scene_frame_time(s, e), b = sw_scene_frame_time(s, g);
     const double second = sw_scene_frame_time(s, f) - b, first = b - a;
     size_t n, m, k;
-    const float *x = sw_scene_frame_wire(s, f - 2, w, &n);
-    const float *y = sw_scene_frame_wire(s, f - 1, w, &m);
+    const float *x = sw_scene_frame_wire(s, e, w, &n), *y = sw_scene_frame_wire(s, g, w, &m);
     const float *z = sw_scene_frame_wire(s, f, w, &k);
     if (a < start || first <= 0 || second <= 0 || !x || !y || !z || n != m || m != k) continue;
     for (size_t i = 0; i < n; i++) {

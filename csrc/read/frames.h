@@ -67,8 +67,9 @@ typedef struct sw_swept {
   double low[3], high[3], step, turning;
 } sw_swept;
 void sw_scene_frames_sweep(const sw_scene *scene, double start, size_t w, sw_swept *out);
-/* Largest acceleration of a node, by second differences [m/s2]; -1: less than three frames. */
-double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w);
+/* Largest acceleration of a node, by second differences over so many frames each [m/s2]; -1: there
+ * are not as many. */
+double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w, size_t stride);
 /* How near the axes of wires w and v come at least, or one to itself where it turns by more than
  * half a turn between two places: less what moves between frames, and what bows beside the edges
  * [m]. What is no more than enough is not searched for better; infinite: they cannot meet. */

@@ -26,15 +26,16 @@ local function on_the_finest(levels, name, d)
   return quantity.distance(quantity.onward(c, a, on), quantity.onward(e, b, on))
 end
 
--- What a change of d here may be on the finest level: times the choice's safety; or, by two levels, the
--- larger of it and where they lead to, over the share of it that they show, if that is less.
+-- What a change of d here may be on the finest level: times the choice's safety; or, if that is less, over the
+-- share of it that the level shows, 1.5 times as much, and by two levels the larger of it and of where they
+-- lead to.
 -- levels: { here =, above = } of the rungs, also before.
 local function bound(state, levels, name, d)
   local choice = state.choice
   local most, finest = choice.safety * d, on_the_finest(levels, name, d)
   local shown = choice.shows and choice.shows(levels.above.facts[choice.name]) or 1
-  if not finest or shown <= 0 then return most end
-  return math.min(most, math.max(d, finest) / shown)
+  if shown <= 0 then return most end
+  return math.min(most, (finest and math.max(d, finest) or SAFETY * d) / shown)
 end
 
 -- The same of a rung whose next one has edges of its own, which change it too.

@@ -144,7 +144,7 @@ local function broken(context, result)
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
     local checked = state.by == "free" and not state.went_on
-    if checked and not state.choice.free(context, state.rung, f, SLACK * share) then
+    if checked and state.choice.broken(f, SLACK * share, state.rung) then
       given_up(context, state, context.scene.time)
       again = true
     end

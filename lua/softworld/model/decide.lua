@@ -12,7 +12,7 @@ local decide = {}
 
 local MODEL = change.MODEL
 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
-local DOUBT = 4
+local DOUBT = 2
 local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
@@ -102,6 +102,7 @@ local function compare(context, state, rungs, above)
     c, before = change.between(context, state, now, left_by_others), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if clear and not is_blurred(context, state, now, c) then return c end
+    if c.worst > 1 and state.choice.costly and state.choice.costly(state.rung, here, there, true) then return c end
   end
   return c
 end

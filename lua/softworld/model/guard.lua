@@ -31,7 +31,7 @@ function guard.new(context, share)
   local open, switches = {}, false
   for _, state in ipairs(context.states) do
     state.went_on, state.no_way, state.broke = nil, nil, nil
-    if state.by == "free" and state.choice.broken and state.rung < state.last then
+    if state.by == "free" and state.rung < state.last then
       open[#open + 1], switches = state, switches or state.choice.onward ~= nil
     end
   end

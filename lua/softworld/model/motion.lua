@@ -59,15 +59,24 @@ local function period(scene)
   return longest
 end
 
+-- A wire that lay on a table and is lifted swings more slowly than it did: the longest period also counts of
+-- where the first poses end.
+local function look_at_end(context)
+  if not context.period or context.period_of_end or speed(context.scene) > 0 then return end
+  context.period_of_end = period(context.scene) or 0
+  context.period = math.max(context.period, context.period_of_end)
+end
+
 function motion.look(context, run)
   local scene = context.scene
-  local _, _, acceleration = facts.swept()
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration,
+  look_at_end(context)
+  local _, _, acceleration, slower = facts.swept()
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration, slower = slower,
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
     period = context.period, dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
---- The first period, of the scene at rest as it begins [s].
+--- The first period, of the scene at rest as it begins [s]; look_at_end may find a longer one.
 function motion.begin(context)
   if context.job.rests then context.period = period(context.scene) end
 end
@@ -89,11 +98,18 @@ function motion.shows(f)
   return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
---- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
+--- What the coarsest steps damp away: what rings after a jump, or where inertia counts. Not where they show
+-- it well enough; and where steps of half the size show none of the swing either, they tell no more.
 function motion.blurred(poses, dynamics, share)
+  local hidden = dynamics.period and dynamics.dt >= dynamics.period
+  if hidden or motion.shows(dynamics) >= 1 / SAFETY then return false end
   local fast = dynamics.weight > 0 and (dynamics.acceleration or 0) > share * dynamics.weight
   return fast or poses.jumps > 0
 end
+
+-- Acceleration in the frames of the finest run over that in those of the coarsest, four times as far apart:
+-- of what moves smoothly it is the same in frames twice as far apart, of a sudden start or stop half [-].
+local function growth(f) return f.slower and f.slower > 0 and math.max(1, f.acceleration / f.slower) ^ 2 or 1 end
 
 function motion.free(_, rung, f, share)
   if rung ~= 1 then return nil end
@@ -101,7 +117,7 @@ function motion.free(_, rung, f, share)
     return nil, ("poses jump from one equilibrium to another, %d times"):format(f.jumps)
   end
   if not f.acceleration or not f.period or f.weight == 0 then return nil end
-  local inertia, long = f.acceleration / f.weight, f.lasts / f.period
+  local inertia, long = growth(f) * f.acceleration / f.weight, f.lasts / f.period
   if long < PERIODS or inertia > INERTIA * share then return nil end
   return ("it lasts %.3g of its first periods of %s (%d are slow), and inertia is up to %s of the weight "
     .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia),
@@ -134,8 +150,9 @@ end
 
 --- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
 -- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
-function motion.costly(rung, here, above)
-  if rung == 1 and here.iterations >= COSTLY * above.iterations then
+-- in_doubt: it is not known whether they suffice; then they are no saving already where they need as many.
+function motion.costly(rung, here, above, in_doubt)
+  if rung == 1 and here.iterations >= (in_doubt and 1 or COSTLY) * above.iterations then
     return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
       above.iterations)
   end

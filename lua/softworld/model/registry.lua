@@ -26,8 +26,8 @@
 --   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
 --   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
 --   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
---   costly(rung, here, above): a sentence where the rung costs no less than the next one; here and above:
---     coarse computations by both, with iterations =
+--   costly(rung, here, above, in_doubt): a sentence where the rung costs no less than the next one, which is
+--     in doubt or not; here and above: coarse computations by both, with iterations =
 --   short(context, facts, share, state): a sentence where the rung leaves out too much all the same
 -- @module softworld.model.registry
 local registry = {}

@@ -169,7 +169,9 @@ end
 --- Why the rung does not suffice any more, of what was seen of a run on the way.
 function section.broken(f, share, rung)
   local left = section.left(rung, f)
-  if rung == 1 and f.share > share then
+  if rung == 1 and f.unknown then
+    return ("how stiff the section of '%s' is, which was pressed, is not known"):format(f.unknown)
+  elseif rung == 1 and f.share > share then
     return ("'%s' was pressed by %s and flattened by %s of its width (limit %s)"):format(f.wire,
       number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
   elseif left and left > LEFT * share then
