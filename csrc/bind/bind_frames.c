@@ -254,7 +254,10 @@ static int mod_frames_apart(lua_State *L) {
   const size_t w = wire_index(L, 2, scene), v = wire_index(L, 3, scene);
   const double start = lsw_number(L, 4, "frames_apart: start", "s");
   const double enough = lsw_number(L, 5, "frames_apart: enough", "m");
-  lua_pushnumber(L, sw_scene_frames_apart(scene, start, w, v, enough));
+  double apart = 0;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_frames_apart(scene, start, w, v, enough, &apart, &err), &err);
+  lua_pushnumber(L, apart);
   return 1;
 }
 

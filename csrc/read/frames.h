@@ -73,8 +73,8 @@ double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t 
 /* How near the axes of wires w and v come at least, or one to itself where it turns by more than
  * half a turn between two places: less what moves between frames, and what bows beside the edges
  * [m]. What is no more than enough is not searched for better; infinite: they cannot meet. */
-double sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
-                             double enough);
+sw_status sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
+                                double enough, double *out, sw_error *err);
 
 /* --- how lines are pressed ---------------------------------------------------------------- */
 
