@@ -98,11 +98,10 @@ function motion.shows(f)
   return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
---- What the coarsest steps damp away: what rings after a jump, or where inertia counts. Not where they show
--- it well enough; and where steps of half the size show none of the swing either, they tell no more.
+--- What the coarsest steps damp away: what rings after a jump, or where inertia counts. Where steps of half
+-- the size show none of the swing either, they tell no more.
 function motion.blurred(poses, dynamics, share)
-  local hidden = dynamics.period and dynamics.dt >= dynamics.period
-  if hidden or motion.shows(dynamics) >= 1 / SAFETY then return false end
+  if dynamics.period and dynamics.dt >= dynamics.period then return false end
   local fast = dynamics.weight > 0 and (dynamics.acceleration or 0) > share * dynamics.weight
   return fast or poses.jumps > 0
 end
