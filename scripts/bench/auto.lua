@@ -335,17 +335,17 @@ end
 
 local function print_aims(f)
   local aims = auto.aims
-  print(("  %.1f %% of %d bars hold (aim %g: %s); %.1f %% the cheapest that suffices (aim %g: %s), %.1f %% too "
-    .. "cheap (aim %g: %s)"):format(100 * f.held / f.rows, f.rows, 100 * aims.held,
+  print(("  %.1f %% of %d bars hold (aim %g: %s); %.1f %% the cheapest that suffices (aim %g: %s), %.1f %% "
+    .. "too cheap (aim %g: %s)"):format(100 * f.held / f.rows, f.rows, 100 * aims.held,
     verdict(f.held >= aims.held * f.rows), 100 * f.cheapest / f.choices,
     100 * aims.cheapest, verdict(f.cheapest >= aims.cheapest * f.choices),
     100 * f.too_cheap / f.scenes, 100 * aims.too_cheap, verdict(f.too_cheap <= aims.too_cheap * f.scenes)))
   local gain = f.finest / (f.choosing + f.run)
   print(("  choosing %.3g s, over 20 ms and 0.3 of the run in %d scenes; the runs %.3g s; the finest model "
-    .. "everywhere at least %.3g times as much (aim %g: %s)"):format(f.choosing, f.over, f.run, gain, aims.gain,
-    verdict(gain >= aims.gain)))
-  print(("  the same bits twice in %d of %d scenes; 1 %% stiffer, the same model in %d, %d of %d values within "
-    .. "their bars and 2 %%"):format(f.same, f.looked, f.choice, f.near, f.near_rows))
+    .. "everywhere at least %.3g times as much (aim %g: %s)"):format(f.choosing, f.over, f.run, gain,
+    aims.gain, verdict(gain >= aims.gain)))
+  print(("  the same bits twice in %d of %d scenes; 1 %% stiffer, the same model in %d, %d of %d values "
+    .. "within their bars and 2 %%"):format(f.same, f.looked, f.choice, f.near, f.near_rows))
 end
 
 --- Draw twenty scenes by each of two seeds and print what comes of it.

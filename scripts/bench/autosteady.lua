@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Whether runs that choose their model give the same bits twice, and a wire that is 1 % stiffer another model.
+--- Whether runs that choose their model give the same bits twice, and another model of a wire that is 1 %
+-- stiffer.
 -- @module bench.autosteady
 local autosteady = {}
 

@@ -26,10 +26,9 @@ local function on_the_finest(levels, name, d)
   return quantity.distance(quantity.onward(c, a, on), quantity.onward(e, b, on))
 end
 
--- What a change of d here may be on the finest level: times the choice's safety; or, if that is less, over the
--- share of it that the level shows, 1.5 times as much, and by two levels the larger of it and of where they
--- lead to.
--- levels: { here =, above = } of the rungs, also before.
+-- What a change of d here may be on the finest level: times the choice's safety. Or, if that is less, over
+-- the share of it that the level shows: 1.5 times as much; by two levels the larger of it and of where they
+-- lead to. levels: { here =, above = } of the rungs, also before.
 local function bound(state, levels, name, d)
   local choice = state.choice
   local most, finest = choice.safety * d, on_the_finest(levels, name, d)

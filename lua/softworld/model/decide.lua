@@ -104,7 +104,8 @@ local function compare(context, state, rungs, above)
     c, before = change.between(context, state, now, left_by_others), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if clear and not is_blurred(context, state, now, c) then return c end
-    if c.worst > 1 and state.choice.costly and state.choice.costly(state.rung, here, there, true) then return c end
+    local costly = state.choice.costly
+    if c.worst > 1 and costly and costly(state.rung, here, there, true) then return c end
   end
   return c
 end

@@ -108,7 +108,9 @@ end
 
 -- Acceleration in the frames of the finest run over that in those of the coarsest, four times as far apart:
 -- of what moves smoothly it is the same in frames twice as far apart, of a sudden start or stop half [-].
-local function growth(f) return f.slower and f.slower > 0 and math.max(1, f.acceleration / f.slower) ^ 2 or 1 end
+local function growth(f)
+  return f.slower and f.slower > 0 and math.max(1, f.acceleration / f.slower) ^ 2 or 1
+end
 
 function motion.free(_, rung, f, share)
   if rung ~= 1 then return nil end

@@ -23,10 +23,10 @@ local function pads_on(context, wire)
   return list
 end
 
---- What presses on a line, of the stored frames: the largest force per length of touches [N/m]; from where to
--- where it is pressed [m], whenever that flattens it by a tenth, or is a tenth of its largest; and the largest
--- by which it is pressed from both sides [N/m]. No line tells that force, as faces that leave it no room push
--- as hard as can be.
+--- What presses on a line, of the stored frames: the largest force per length of touches [N/m]; from where
+-- to where it is pressed [m], whenever that flattens it by a tenth, or is a tenth of its largest; and the
+-- largest by which it is pressed from both sides [N/m]. No line tells that force, as faces that leave it no
+-- room push as hard as can be.
 function pressed.line(context, wire, w, body)
   local rows = facts.press(w, PLACE, pads_on(context, wire))
   local most, squeeze, from, to = 0, 0, nil, nil
