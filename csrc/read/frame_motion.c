@@ -72,7 +72,7 @@ double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w, s
     size_t n, m, k;
     const float *x = sw_scene_frame_wire(s, e, w, &n), *y = sw_scene_frame_wire(s, g, w, &m);
     const float *z = sw_scene_frame_wire(s, f, w, &k);
-    if (a < start || first <= 0 || second <= 0 || !x || !y || !z || n != m || m != k) continue;
+    if (a <= start || first <= 0 || second <= 0 || !x || !y || !z || n != m || m != k) continue;
     for (size_t i = 0; i < n; i++) {
       const sw_vec before = sw_scale(sw_sub(node(y, i), node(x, i)), 1 / first);
       const sw_vec after = sw_scale(sw_sub(node(z, i), node(y, i)), 1 / second);

@@ -68,7 +68,8 @@ typedef struct sw_swept {
 } sw_swept;
 void sw_scene_frames_sweep(const sw_scene *scene, double start, size_t w, sw_swept *out);
 /* Largest acceleration of a node, by second differences over so many frames each [m/s2]; -1: there
- * are not as many. */
+ * are not as many. The frame at the start is left out: of poses it is not yet at rest on its mesh.
+ */
 double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w, size_t stride);
 /* How near the axes of wires w and v come at least, or one to itself where it turns by more than
  * half a turn between two places: less what moves between frames, and what bows beside the edges
