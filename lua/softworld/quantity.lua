@@ -308,11 +308,11 @@ function quantity.size(a)
   return is_vector(a) and sum ^ 0.5 or most
 end
 
---- The value k times the way from a to b beyond b.
-function quantity.onward(a, b, k)
-  if type(a) == "number" then return b + k * (b - a) end
+--- a less b, of values of the same shape.
+function quantity.minus(a, b)
+  if type(a) == "number" then return a - b end
   local list = {}
-  for i, x in ipairs(a) do list[i] = quantity.onward(x, b[i], k) end
+  for i, x in ipairs(a) do list[i] = quantity.minus(x, b[i]) end
   return list
 end
 

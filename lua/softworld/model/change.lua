@@ -13,28 +13,26 @@ local NONE = 0 / 0 -- the value of a check's row that a computation has not
 
 local function is_finite(v) return v ~= nil and quantity.size(v) < math.huge end
 
--- The change on the finest level: edges and steps are the same for both rungs, and so are most of their
--- errors. One that shrinks goes on by no more than from the level before, as it does at first order; one that
--- grows, by 1.5 times that. d: the change here. nil: there is no level before.
-local function on_the_finest(levels, name, d)
+-- By how much the change itself changed from the level before: edges and steps are the same for both rungs,
+-- and so are most of their errors. nil: there is no level before.
+local function moved(levels, name)
   local now, before = levels, levels.before
   local a, b = now.here.values[name], now.above.values[name]
-  local c, e = before and before.here.values[name], before and before.above.values[name]
-  if not (is_finite(a) and is_finite(b) and is_finite(c) and is_finite(e)) then return nil end
-  if not (quantity.alike(a, b) and quantity.alike(a, c) and quantity.alike(a, e)) then return nil end
-  local on = d <= quantity.distance(c, e) and 1 or SAFETY
-  return quantity.distance(quantity.onward(c, a, on), quantity.onward(e, b, on))
+  local c, d = before and before.here.values[name], before and before.above.values[name]
+  if not (is_finite(a) and is_finite(b) and is_finite(c) and is_finite(d)) then return nil end
+  if not (quantity.alike(a, b) and quantity.alike(a, c) and quantity.alike(a, d)) then return nil end
+  return quantity.distance(quantity.minus(a, c), quantity.minus(b, d))
 end
 
 -- What a change of d here may be on the finest level: times the choice's safety. Or, if that is less, over
--- the share of it that the level shows: 1.5 times as much; by two levels the larger of it and of where they
--- lead to. levels: { here =, above = } of the rungs, also before.
+-- the share of it that the level shows: 1.5 times as much; by two levels, with 1.5 times what it moved by.
+-- levels: { here =, above = } of the rungs, also before.
 local function bound(state, levels, name, d)
   local choice = state.choice
-  local most, finest = choice.safety * d, on_the_finest(levels, name, d)
+  local most, move = choice.safety * d, moved(levels, name)
   local shown = choice.shows and choice.shows(levels.above.facts[choice.name]) or 1
   if shown <= 0 then return most end
-  return math.min(most, (finest and math.max(d, finest) or SAFETY * d) / shown)
+  return math.min(most, (move and d + SAFETY * move or SAFETY * d) / shown)
 end
 
 -- The same of a rung whose next one has edges of its own, which change it too.

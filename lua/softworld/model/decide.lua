@@ -85,8 +85,6 @@ local function is_blurred(context, state, now, c)
   if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
   if c.worst > 1 then return c.worst <= FAR end
   local share = decide.tightest(context, now.above.values)
-  local shown = choice.shows and choice.shows(now.above.facts[choice.name]) or 0
-  if shown > 0 and c.worst / shown < 1 / DOUBT then return false end -- nor is what is hidden too much
   return choice.blurred and choice.blurred(now.here.facts[choice.name], now.above.facts[choice.name], share)
 end
 

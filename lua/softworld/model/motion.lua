@@ -98,10 +98,8 @@ function motion.shows(f)
   return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
---- What the coarsest steps damp away: what rings after a jump, or where inertia counts. Where steps of half
--- the size show none of the swing either, they tell no more.
+--- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
 function motion.blurred(poses, dynamics, share)
-  if dynamics.period and dynamics.dt >= dynamics.period then return false end
   local fast = dynamics.weight > 0 and (dynamics.acceleration or 0) > share * dynamics.weight
   return fast or poses.jumps > 0
 end
