@@ -236,26 +236,6 @@ static int mod_frame_range(lua_State *L) {
   return 2;
 }
 
-/* core.frame_squeeze(scene, i, w) -> for each node of wire w in frame i: the sum of the sizes of
- * the contact forces on it, less the size of their sum [N]; 0 where it is pressed from one side
- * only. */
-static int mod_frame_squeeze(lua_State *L) {
-  const sw_scene *scene = lsw_check_scene(L);
-  const lua_Integer i = lsw_integer(L, 2, "frame_squeeze: frame");
-  const lua_Integer w = lsw_integer(L, 3, "frame_squeeze: wire");
-  size_t count = 0;
-  const float *p = NULL;
-  if (i >= 1 && (size_t)i <= sw_scene_frames(scene) && w >= 1 &&
-      sw_scene_frame_wire(scene, (size_t)i - 1, (size_t)w - 1, &count))
-    p = sw_scene_frame_values(scene, (size_t)i - 1, (size_t)w - 1, &count);
-  lua_createtable(L, p ? (int)count : 0, 0);
-  for (size_t n = 0; p && n < count; n++, p += SW_FRAME_VALUES) {
-    lua_pushnumber(L, (double)p[SW_FRAME_CONTACT] - sw_norm(vec_of(p + SW_FRAME_FORCE)));
-    lua_rawseti(L, -2, (lua_Integer)n + 1);
-  }
-  return 1;
-}
-
 /* Number of a wire, from 1, as an index. */
 static size_t wire_index(lua_State *L, int at, const sw_scene *scene) {
   const lua_Integer w = lsw_integer(L, at, "frames: wire");
@@ -267,12 +247,11 @@ static size_t wire_index(lua_State *L, int at, const sw_scene *scene) {
 
 /* core.frames_sweep(scene, w, start [s]) -> { x1, y1, z1, x2, y2, z2, step = } of what wire w
  * swept [m], the angle it turned by along its length at most [rad], and the largest acceleration
- * of a node [m/s2], or nil */
+ * of a node by frames one after the other, and by every second one [m/s2], or nil */
 static int mod_frames_sweep(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene);
   const double start = lsw_number(L, 3, "frames_sweep: start", "s");
-  const double most = sw_scene_frames_acceleration(scene, start, w);
   sw_swept swept;
   sw_scene_frames_sweep(scene, start, w, &swept);
   lua_createtable(L, 6, 1);
@@ -284,11 +263,14 @@ static int mod_frames_sweep(lua_State *L) {
   }
   lsw_set_number(L, "step", swept.step);
   lua_pushnumber(L, swept.turning);
-  if (most >= 0)
-    lua_pushnumber(L, most);
-  else
-    lua_pushnil(L);
-  return 3;
+  for (size_t stride = 1; stride <= 2; stride++) {
+    const double most = sw_scene_frames_acceleration(scene, start, w, stride);
+    if (most >= 0)
+      lua_pushnumber(L, most);
+    else
+      lua_pushnil(L);
+  }
+  return 4;
 }
 
 /* core.frames_apart(scene, w, v, start [s], enough [m]) -> least distance of their axes [m] */
@@ -297,7 +279,10 @@ static int mod_frames_apart(lua_State *L) {
   const size_t w = wire_index(L, 2, scene), v = wire_index(L, 3, scene);
   const double start = lsw_number(L, 4, "frames_apart: start", "s");
   const double enough = lsw_number(L, 5, "frames_apart: enough", "m");
-  lua_pushnumber(L, sw_scene_frames_apart(scene, start, w, v, enough));
+  double apart = 0;
+  sw_error err = {""};
+  lsw_must(L, sw_scene_frames_apart(scene, start, w, v, enough, &apart, &err), &err);
+  lua_pushnumber(L, apart);
   return 1;
 }
 
@@ -320,9 +305,45 @@ static int mod_frame_contact(lua_State *L) {
   return 2;
 }
 
+static sw_press_request check_press(lua_State *L) {
+  const size_t count = (size_t)lua_rawlen(L, 5) / 2;
+  sw_press_request r = {.spans = count, .place = lsw_number(L, 4, "frames_press: place", "-")};
+  r.span = lua_newuserdatauv(L, (count + 1) * sizeof *r.span, 0);
+  for (size_t k = 0; k < 2 * count; k++) {
+    lua_rawgeti(L, 5, (lua_Integer)k + 1);
+    r.span[k / 2][k % 2] = luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return r;
+}
+
+/* core.frames_press(scene, w, start [s], place, { middle, half length, ... } [m]) -> flat list, of
+ * each frame from start on in which something presses on line w outside those places: the largest
+ * load [N/m], the largest from both sides [N/m], first and last node with place of it, nodes */
+static int mod_frames_press(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const size_t w = wire_index(L, 2, scene);
+  const double start = lsw_number(L, 3, "frames_press: start", "s");
+  luaL_checktype(L, 5, LUA_TTABLE);
+  const sw_press_request request = check_press(L);
+  lua_Integer at = 0;
+  lua_newtable(L);
+  for (size_t f = 0; f < sw_scene_frames(scene); f++) {
+    sw_press p;
+    if (sw_scene_frame_time(scene, f) < start) continue;
+    if (!sw_scene_frame_press(scene, f, w, &request, &p)) continue;
+    const double row[] = {p.load, p.squeeze, (double)p.first, (double)p.last, (double)p.count};
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+      lua_pushnumber(L, row[k]);
+      lua_rawseti(L, -2, ++at);
+    }
+  }
+  return 1;
+}
+
 const luaL_Reg lsw_module_frames[] = {
     {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
     {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
-    {"frames_thinned", mod_frames_thinned}, {"frame_squeeze", mod_frame_squeeze},
+    {"frames_thinned", mod_frames_thinned}, {"frames_press", mod_frames_press},
     {"frames_sweep", mod_frames_sweep},     {"frames_apart", mod_frames_apart},
     {"frame_contact", mod_frame_contact},   {NULL, NULL}};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What frames tell of how wires moved between them. */
+#include "base/alloc.h"
 #include "base/segments.h"
 #include "read/frames.h"
 
@@ -62,16 +63,16 @@ void sw_scene_frames_sweep(const sw_scene *s, double start, size_t w, sw_swept *
   }
 }
 
-double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w) {
+double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w, size_t stride) {
   double most = -1;
-  for (size_t f = 2; f < sw_scene_frames(s); f++) {
-    const double a = sw_scene_frame_time(s, f - 2), b = sw_scene_frame_time(s, f - 1);
+  for (size_t f = 2 * stride; f < sw_scene_frames(s); f++) {
+    const size_t g = f - stride, e = g - stride;
+    const double a = sw_scene_frame_time(s, e), b = sw_scene_frame_time(s, g);
     const double second = sw_scene_frame_time(s, f) - b, first = b - a;
     size_t n, m, k;
-    const float *x = sw_scene_frame_wire(s, f - 2, w, &n);
-    const float *y = sw_scene_frame_wire(s, f - 1, w, &m);
+    const float *x = sw_scene_frame_wire(s, e, w, &n), *y = sw_scene_frame_wire(s, g, w, &m);
     const float *z = sw_scene_frame_wire(s, f, w, &k);
-    if (a < start || first <= 0 || second <= 0 || !x || !y || !z || n != m || m != k) continue;
+    if (a <= start || first <= 0 || second <= 0 || !x || !y || !z || n != m || m != k) continue;
     for (size_t i = 0; i < n; i++) {
       const sw_vec before = sw_scale(sw_sub(node(y, i), node(x, i)), 1 / first);
       const sw_vec after = sw_scale(sw_sub(node(z, i), node(y, i)), 1 / second);
@@ -84,21 +85,26 @@ double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w) {
 /* --- how near lines come ----------------------------------------------------------------- */
 
 /* An edge of a line: its first node, the way to the second, half of its length, and by how much
- * what is there may be off it: moved since the frame before, or bowed. */
+ * what is there may be off it: moved since the frame before, or bowed; the angle by which the line
+ * turns before it. */
 typedef struct edge {
   sw_vec from, way;
-  double half, off; /* [m] */
+  double half, off, turn; /* [m], [m], [rad] */
 } edge;
 
-static edge edge_of(const line *l, size_t i) {
-  edge e = {.from = node(l->x, i)};
-  double bend = 0;
-  e.way = sw_sub(node(l->x, i + 1), e.from);
-  e.half = sw_norm(e.way) / 2;
-  if (i > 0) bend = angle_at(l, i);
-  if (i + 2 < l->count) bend = fmax(bend, angle_at(l, i + 1));
-  e.off = fmax(moved(l, i), moved(l, i + 1)) + e.half * bend / 4; /* of an arc: length angle/8 */
-  return e;
+/* The edges of a line, one less than its nodes; returns how many. */
+static size_t edges_of(const line *l, edge *edges) {
+  const size_t count = l->count > 0 ? l->count - 1 : 0;
+  double angle = 0, turn = 0;
+  for (size_t i = 0; i < count; i++) {
+    edge e = {.from = node(l->x, i), .turn = turn += angle};
+    const double next = i + 1 < count ? angle_at(l, i + 1) : 0;
+    e.way = sw_sub(node(l->x, i + 1), e.from);
+    e.half = sw_norm(e.way) / 2;
+    e.off = fmax(moved(l, i), moved(l, i + 1)) + e.half * fmax(angle, next) / 4; /* of an arc */
+    edges[i] = e, angle = next;
+  }
+  return count;
 }
 
 static double gap_of(const edge *a, const edge *b, double enough) {
@@ -112,37 +118,44 @@ static double gap_of(const edge *a, const edge *b, double enough) {
 
 /* Of a line with itself, places between which it turns by less than half a turn cannot meet: a
  * closed polygon turns by 2 pi at least, and by no more than pi where it closes (Fenchel). */
-static double near_itself(const line *l, double best, double enough) {
-  for (size_t i = 0; i + 2 < l->count; i++) {
-    const edge a = edge_of(l, i);
-    double turn = 0;
-    for (size_t j = i + 1; j + 1 < l->count && best > enough; j++) {
-      turn += angle_at(l, j);
-      if (turn < HALF_TURN) continue;
-      const edge b = edge_of(l, j);
-      best = fmin(best, gap_of(&a, &b, best));
-    }
-  }
+static double near_itself(const edge *e, size_t count, double best, double enough) {
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = i + 1; j < count && best > enough; j++)
+      if (e[j].turn - e[i].turn >= HALF_TURN) best = fmin(best, gap_of(&e[i], &e[j], best));
   return best;
 }
 
-static double near_other(const line *l, const line *m, double best, double enough) {
-  for (size_t i = 0; i + 1 < l->count; i++) {
-    const edge a = edge_of(l, i);
-    for (size_t j = 0; j + 1 < m->count && best > enough; j++) {
-      const edge b = edge_of(m, j);
-      best = fmin(best, gap_of(&a, &b, best));
-    }
-  }
+static double near_other(const edge *e, size_t count, const edge *f, size_t other, double best,
+                         double enough) {
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = 0; j < other && best > enough; j++)
+      best = fmin(best, gap_of(&e[i], &f[j], best));
   return best;
 }
 
-double sw_scene_frames_apart(const sw_scene *s, double start, size_t w, size_t v, double enough) {
+/* The largest number of nodes of wire w in a frame. */
+static size_t most_nodes(const sw_scene *s, size_t w) {
+  size_t most = 0, count;
+  for (size_t f = 0; f < sw_scene_frames(s); f++)
+    if (sw_scene_frame_wire(s, f, w, &count) && count > most) most = count;
+  return most;
+}
+
+sw_status sw_scene_frames_apart(const sw_scene *s, double start, size_t w, size_t v, double enough,
+                                double *out, sw_error *err) {
   double best = INFINITY;
+  edge *e SW_LOCAL = sw_alloc(most_nodes(s, w) + 1, sizeof *e);
+  edge *g SW_LOCAL = sw_alloc(most_nodes(s, v) + 1, sizeof *g);
+  if (!e || !g) return sw_fail(err, SW_ENOMEM, "out of memory for how near lines come");
   for (size_t f = 0; f < sw_scene_frames(s) && best > enough; f++) {
     if (sw_scene_frame_time(s, f) < start) continue;
     const line l = line_of(s, f, w, start), m = line_of(s, f, v, start);
-    best = w == v ? near_itself(&l, best, enough) : near_other(&l, &m, best, enough);
+    const size_t n = edges_of(&l, e);
+    if (w == v)
+      best = near_itself(e, n, best, enough);
+    else
+      best = near_other(e, n, g, edges_of(&m, g), best, enough);
   }
-  return best;
+  *out = best;
+  return SW_OK;
 }

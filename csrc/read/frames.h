@@ -67,12 +67,33 @@ typedef struct sw_swept {
   double low[3], high[3], step, turning;
 } sw_swept;
 void sw_scene_frames_sweep(const sw_scene *scene, double start, size_t w, sw_swept *out);
-/* Largest acceleration of a node, by second differences [m/s2]; -1: less than three frames. */
-double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w);
+/* Largest acceleration of a node, by second differences over so many frames each [m/s2]; -1: there
+ * are not as many. The frame at the start is left out: of poses it is not yet at rest on its mesh.
+ */
+double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w, size_t stride);
 /* How near the axes of wires w and v come at least, or one to itself where it turns by more than
  * half a turn between two places: less what moves between frames, and what bows beside the edges
  * [m]. What is no more than enough is not searched for better; infinite: they cannot meet. */
-double sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
-                             double enough);
+sw_status sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
+                                double enough, double *out, sw_error *err);
+
+/* --- how lines are pressed ---------------------------------------------------------------- */
+
+/* Places that do not count: middle and half length, with an edge and a half beside [m]. place: of
+ * the frame's largest load, from there a node is pressed [-]. */
+typedef struct sw_press_request {
+  double (*span)[2];
+  size_t spans;
+  double place;
+} sw_press_request;
+/* Of a frame: the largest load, and the largest from both sides [N/m]; the nodes between which the
+ * line is pressed, of how many. */
+typedef struct sw_press {
+  double load, squeeze;
+  size_t first, last, count;
+} sw_press;
+/* 0: nothing presses on wire w in that frame. */
+int sw_scene_frame_press(const sw_scene *scene, size_t frame, size_t w,
+                         const sw_press_request *request, sw_press *out);
 
 #endif

@@ -308,6 +308,14 @@ function quantity.size(a)
   return is_vector(a) and sum ^ 0.5 or most
 end
 
+--- a less b, of values of the same shape.
+function quantity.minus(a, b)
+  if type(a) == "number" then return a - b end
+  local list = {}
+  for i, x in ipairs(a) do list[i] = quantity.minus(x, b[i]) end
+  return list
+end
+
 --- The sum of products of the changes a to b and b to c: below 0 when they turn back.
 function quantity.agreement(a, b, c)
   if type(a) == "number" then return (b - a) * (c - b) end

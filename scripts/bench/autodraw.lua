@@ -16,10 +16,12 @@ function draw.wire_of(random)
     { EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3, mass_per_length = 0.02, radius = 0.0015 } })
 end
 
---- A wire of that section, with more arguments, as the options of a model say.
+local STIFF = { E = true, EI = true, EA = true, GJ = true }
+
+--- A wire of that section, with more arguments, as the options of a model say; options.stiffer: a factor.
 function draw.made(scene, section, options, more)
   local args = { segments = 24, rolls = options.rolls, model = options.auto and "auto" or nil }
-  for key, value in pairs(section) do args[key] = value end
+  for key, value in pairs(section) do args[key] = STIFF[key] and value * (options.stiffer or 1) or value end
   for key, value in pairs(more) do args[key] = value end
   return scene:wire(args)
 end

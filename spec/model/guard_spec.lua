@@ -4,7 +4,9 @@
 local sw = require "softworld"
 local core = sw.core
 
+local grip = require "softworld.model.grip"
 local rod = require "spec.model.rod"
+local section = require "softworld.model.section"
 
 local function event_of(run, words)
   for _, e in ipairs(run.events) do
@@ -18,18 +20,20 @@ local function choice(run, name)
   end
 end
 
--- A wire hangs between two clamps at rest. In the second half one clamp sets off at once: what coarse poses
--- take for 1 % of the weight is four times as much in poses a quarter as far apart.
-local function sets_off(options, more)
-  local scene = sw.scene { name = "off" }
+-- A wire hangs between two clamps at rest. In the second half one clamp moves gently in the first run, and
+-- sets off at once in all from a number on, here the second: what coarse poses took for slow is not in these.
+local function sets_off(options, more, since)
+  local scene, count = sw.scene { name = "off" }, 0
   scene:force { kind = "damping", mass = 5 }
   local w = rod.wire(scene, options)
   scene:clamp(w, { s = 0 })
   local right = scene:clamp(w, { s = 0.6, name = "right" })
   scene:settle()
   scene:process(function(p)
+    count = count + 1
     p:wait(20)
-    right:follow { points = { { 0.6, 0, 0 }, { 0.5, 0, 0 } }, duration = 20, law = "linear" }
+    right:follow { points = { { 0.6, 0, 0 }, { 0.5, 0, 0 } }, duration = 20,
+      law = count >= (since or 2) and "linear" or nil }
     p:wait(20)
   end)
   local all = { tolerance = { ["right.force"] = { relative = 0.1 } } }
@@ -48,7 +52,7 @@ describe("a run that chose its model", function()
     assert.is_near(20, e.time, 0.2)
     assert.is_true(run.met)
     local fine = sets_off({ model = "rod" }, { levels = 5, tolerance = {
-      ["right.force"] = { relative = 0.005 } } })
+      ["right.force"] = { relative = 0.005 } } }, 1)
     local q, t, off = run.quantities["right.force"], fine.quantities["right.force"], 0
     for k = 1, 3 do off = off + (q.value[k] - t.value[k]) ^ 2 end
     assert.is_true(off ^ 0.5 <= q.error + t.error, ("%g off, %g stated"):format(off ^ 0.5, q.error))
@@ -96,6 +100,42 @@ describe("a run that chose its model", function()
     assert.are_not.equal("switched", choice(run, "twist").by)
     assert.truthy(tostring(run:why()):find("and the run began again: ", 1, true), tostring(run:why()))
     assert.truthy(tostring(run:why()):find("is twisted by", 1, true), tostring(run:why()))
+  end)
+
+  -- The same way in a fifth of the time bears more on the pads: 29 % become more than 50 %.
+  it("ends a run whose pads bear too much, compares the grip and begins again", function()
+    local scene, count = sw.scene { name = "carry" }, 0
+    scene:force { kind = "damping", mass = 8 }
+    local w = rod.wire(scene, { E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0.003 },
+      to = { 0.24, 0, 0.003 } })
+    local hand = scene:gripper { name = "hand", pads = { width = 0.012, friction = 0.6, opening = 0.009 } }
+    scene:obstacle { name = "table", shape = "plane", friction = 0.2 }
+    scene:process(function(p)
+      count = count + 1
+      local fast = count > 1
+      hand:grasp(w, { s = 0.12, approach = "auto", force = 0.3 })
+      hand:move { by = { 0, 0, 0.04 }, duration = fast and 0.1 or 0.5 }
+      p:wait(1)
+    end)
+    local run = scene:run { quasistatic = false, tolerance = { tip = 0.003 } }
+    local e = event_of(run, "the pads of 'hand' bore")
+    assert.truthy(e, tostring(run:why()))
+    assert.is_true(e.time < 1.1, ("%g s"):format(e.time))
+    assert.truthy(tostring(run:why()):find("began again: no run goes on with another grip", 1, true))
+    assert.are_not.equal("free", choice(run, "grip").by)
+  end)
+
+  -- Looked at between two frames of a run on the way, as the checks before it were.
+  it("watches what presses on wires and what pads bear, by rung", function()
+    local f = { share = 0.03, q = 9.7, wire = "w", flat = 0.2, wall = 0.2 }
+    assert.truthy(section.broken(f, 0.02, 1):find("'w' was pressed by 9.7", 1, true))
+    assert.is_nil(section.broken(f, 0.04, 1))
+    assert.truthy(section.broken(f, 0.02, 2):find("of which springs leave out 6.8 %", 1, true))
+    assert.is_nil(section.broken(f, 0.1, 2))
+    local g = { load = 0.6, gripper = "hand", flat = 0.01, wire = "w" }
+    assert.truthy(grip.broken(g, 0.02, 1):find("the pads of 'hand' bore 60 %", 1, true))
+    assert.is_nil(grip.broken(g, 0.02, 2))
+    assert.truthy(grip.broken(g, 0.005, 2):find("pads flattened 'w' by 1 %", 1, true))
   end)
 
   it("lets wires touch from where they come near", function()

@@ -70,7 +70,7 @@ local function guarded(context, steps)
   return function(k)
     local options = steps(k)
     if context.guard then context.guard:close() end
-    context.guard = share and guard.new(context, SLACK * share)
+    context.guard = share and not context.unwatched and guard.new(context, SLACK * share) or nil
     options.guard = context.guard
     return options
   end
@@ -118,16 +118,20 @@ local function refined(context)
 end
 
 -- A free check that the finest run does not bear out is no reason any more: its choice is compared.
-local function given_up(context, state)
+-- time: when that was seen [s].
+local function given_up(context, state, time)
   local was, why = state.choice.rungs[state.rung].as, state.known
   state.checked, state.by, state.known = true, nil, nil
   local rung = state.rung
   repeat until decide.look(context, state)
   local text = ("in the fine run it does not hold any more that %s"):format(why)
-  if state.no_way then text = ("%s, and the run began again: %s"):format(text, state.no_way) end
+  if state.no_way then
+    text = ("%s: by %s %s, and the run began again: %s"):format(text, number.text(time, "s"), state.broke,
+      state.no_way)
+  end
   state.why = state.why and text .. "; " .. state.why or text
   if state.rung == rung then return end
-  context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
+  context.given_up[#context.given_up + 1] = { kind = "model", time = time, count = 1,
     text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
 end
 
@@ -140,8 +144,8 @@ local function broken(context, result)
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
     local checked = state.by == "free" and not state.went_on
-    if checked and not state.choice.free(context, state.rung, f, SLACK * share) then
-      given_up(context, state)
+    if checked and state.choice.broken(f, SLACK * share, state.rung) then
+      given_up(context, state, context.scene.time)
       again = true
     end
     state.short = state.choice.short and state.choice.short(context, f, share, state)
@@ -173,13 +177,24 @@ local function shorter(context, result)
   return false
 end
 
+-- The finest run; nil where its guard ended it.
+local function watched(context)
+  local fine, result = pcall(refined, context)
+  if fine then return result end
+  local found = guard.found(result)
+  if not found then error(result, 0) end
+  given_up(context, found.state, found.time)
+end
+
 local function compute(context)
   local base = decide.settle(context)
   if base then context.spread:look(decide.rungs(context), base) end
   for _ = 1, 2 * #context.states do
-    local result = refined(context)
-    if result.refused or not broken(context, result) and not shorter(context, result) then return result end
+    local result = watched(context)
+    local good = result and (result.refused or not broken(context, result) and not shorter(context, result))
+    if good then return result end
   end
+  context.unwatched = true
   return refined(context)
 end
 

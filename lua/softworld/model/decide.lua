@@ -2,6 +2,7 @@
 --- Deciding the choices of a model, each by what coarse computations tell: from its cheapest rung up to one
 -- that leaves out no more than a part of what is asked for.
 -- @module softworld.model.decide
+local change = require "softworld.model.change"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local quantity = require "softworld.quantity"
@@ -9,10 +10,9 @@ local trust = require "softworld.run.trust"
 
 local decide = {}
 
-local MODEL = 0.75 -- of a tolerance: what rungs may leave out [-]
+local MODEL = change.MODEL
 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
-local DOUBT = 4
-local SAFETY = 1.5 -- of what is known of finer levels [-]
+local DOUBT = 2
 local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
@@ -64,43 +64,6 @@ local function left_by_others(context, name, but)
   return sum
 end
 
--- How far a value has moved from the level before, as the next finer ones will at most; infinite: not known.
-local function moved(before, now, name)
-  local a, b = before and before.values[name], now.values[name]
-  return a and quantity.alike(a, b) and quantity.distance(a, b) or math.huge
-end
-
--- What the change of a quantity by the next rung may be on the finest level: the change here, times the
--- choice's safety; or, where the level tells what happens, the change with 1.5 times what both rungs still
--- move by, if that is less. levels: { here =, above = } of the rungs, also before.
-local function bound(state, levels, name, d)
-  local choice, before = state.choice, levels.before or {}
-  local most = choice.safety * d
-  if not choice.resolves or not choice.resolves(levels.above.facts[choice.name]) then return most end
-  local still = moved(before.here, levels.here, name) + moved(before.above, levels.above, name)
-  return math.min(most, d + SAFETY * still)
-end
-
--- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
--- all. levels: as in bound.
-local function change(context, state, levels)
-  local c = { worst = -1, all = {} }
-  local own = state.choice.rungs[state.rung].own and levels.before -- what the next rung's edges change too
-  for _, q in ipairs(context.job.quantities) do
-    local a, b = levels.here.values[q.name] or NONE, levels.above.values[q.name] or NONE
-    local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
-    if own and quantity.alike(own.above.values[q.name], b) then
-      d = d + quantity.distance(own.above.values[q.name], b)
-    end
-    if d ~= d then d = math.huge end
-    c.all[q.name] = bound(state, levels, q.name, d)
-    local allowed = math.max(0, MODEL * quantity.asked(q, b) - left_by_others(context, q.name, state))
-    local off = d > 0 and c.all[q.name] / allowed or 0
-    if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
-  end
-  return c
-end
-
 -- Would a level more of the next rung be all that its run needs? Then comparing there saves nothing, and the
 -- comparison ends where it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
 local function saves_nothing(context, above, before, k)
@@ -136,9 +99,11 @@ local function compare(context, state, rungs, above)
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     local now = { k = k, here = here, above = there, before = before }
-    c, before = change(context, state, now), now
+    c, before = change.between(context, state, now, left_by_others), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if clear and not is_blurred(context, state, now, c) then return c end
+    local costly = state.choice.costly
+    if c.worst > 1 and costly and costly(state.rung, here, there, true) then return c end
   end
   return c
 end
@@ -253,13 +218,16 @@ local function climb(context, state, rungs, here)
   if not above.ok then
     return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
+  local costly = choice.costly and choice.costly(rung, here, above)
+  if costly then
+    decide.raise(context, state, costly)
+    return false
+  end
   local c, blind = compare(context, state, rungs, up)
   if blind then
     return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
   end
-  local costly = choice.costly and choice.costly(rung, here, above)
-  if costly then decide.raise(context, state, costly)
-  elseif c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
+  if c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
   else
     state.change = c.all
     return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))

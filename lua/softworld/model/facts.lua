@@ -50,19 +50,26 @@ function facts.touched(w, look)
   end
 end
 
+--- What presses on line w in those frames, rows of five: see core.frames_press.
+function facts.press(w, place, but)
+  return core.frames_press(kept.scene, w, kept.start, place, but)
+end
+
 --- Swept boxes of the wires { x1, y1, z1, x2, y2, z2, step = how far points move between frames } [m]; the
 -- largest angle by which one turns along its length [rad]; the largest acceleration of what moves along the
--- frames, by second differences [m/s2], nil where there are less than three.
+-- frames, by second differences, and by those of every second frame [m/s2], nil where there are less than
+-- three, or five.
 function facts.swept()
   if not kept.boxes then
     kept.boxes, kept.turning = {}, 0
     for w = 1, #kept.numbers > 0 and #build.data(kept.scene).wires or 0 do
-      local box, turning, acceleration = core.frames_sweep(kept.scene, w, kept.start)
+      local box, turning, acceleration, slower = core.frames_sweep(kept.scene, w, kept.start)
       kept.boxes[w], kept.turning = box, math.max(kept.turning, turning)
       if acceleration then kept.acceleration = math.max(kept.acceleration or 0, acceleration) end
+      if slower then kept.slower = math.max(kept.slower or 0, slower) end
     end
   end
-  return kept.boxes, kept.turning, kept.acceleration
+  return kept.boxes, kept.turning, kept.acceleration, kept.slower
 end
 
 --- How near the axes of wires v and w come, or one to itself beyond half a turn [m]: less what moves between

@@ -67,4 +67,15 @@ function grip.free(_, rung, f, share)
     facts.percent(f.flat), facts.percent(share))
 end
 
+--- Why the rung does not suffice any more, of what was seen of a run on the way.
+function grip.broken(f, share, rung)
+  if rung == 1 and f.load > HELD then
+    return ("the pads of '%s' bore %s of what their friction holds (limit %s)"):format(f.gripper,
+      facts.percent(f.load), facts.percent(HELD))
+  elseif f.flat > share then
+    return ("pads flattened '%s' by %s of its width (limit %s)"):format(f.wire, facts.percent(f.flat),
+      facts.percent(share))
+  end
+end
+
 return grip

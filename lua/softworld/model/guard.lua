@@ -3,8 +3,8 @@
 -- run goes back to a snapshot from before that moment, and on from there with the next rung of the choice.
 --
 -- A snapshot brings back the scene, but no Lua function that has gone on since: it is taken anew when a
--- process has. Where there is no way back, or the rung cannot be changed on the way, the run goes on as it
--- is, and is computed again from its start.
+-- process has. Where there is no way back, or the rung cannot be changed on the way, the run ends there and
+-- is computed again from its start.
 -- @module softworld.model.guard
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -19,22 +19,32 @@ local LOOKS = 20 -- at a run of known duration, one each [-]
 local FRAMES = 4 -- new ones between two looks at least [-]
 local BEFORE = 2 -- frames from before a look that it sees too [-]
 
+-- What a guard raises to end a run: { state =, time = [s] }.
+local Broken = { __name = "model given up" }
+
+--- What a guard raised, or nil: it is another error.
+function guard.found(raised) return getmetatable(raised) == Broken and raised or nil end
+
 --- A guard of a run of a context; share: the tightest tolerance over its value, times the slack of the
 -- checks. nil: no choice stands on a check that can be looked at on the way.
 function guard.new(context, share)
-  local open = {}
+  local open, switches = {}, false
   for _, state in ipairs(context.states) do
-    state.went_on, state.no_way = nil, nil
-    if state.by == "free" and state.choice.broken and state.rung < state.last then open[#open + 1] = state end
+    state.went_on, state.no_way, state.broke = nil, nil, nil
+    if state.by == "free" and state.rung < state.last then
+      open[#open + 1], switches = state, switches or state.choice.onward ~= nil
+    end
   end
   if #open == 0 then return nil end
-  return setmetatable({ context = context, scene = context.scene, share = share, open = open }, guard)
+  return setmetatable({ context = context, scene = context.scene, share = share, open = open,
+    switches = switches }, guard)
 end
 
--- Keep the state as it is, to go back to.
+-- Keep the state as it is, to go back to where a choice can.
 local function keep(self, total)
   if self.snapshot then self.snapshot:close() end
-  self.snapshot, self.mark = self.scene:snapshot(), process.mark(self.scene)
+  self.snapshot = self.switches and self.scene:snapshot() or nil
+  self.mark = process.mark(self.scene)
   self.jumps, self.time = total.jumps, self.scene.time
 end
 
@@ -44,7 +54,7 @@ function guard:stepped(total)
   self.start = self.start or self.scene.time
   self.from, self.frames = self.from or self.start, self.frames or self.scene:frame_count()
   local count = self.scene:frame_count()
-  if not self.snapshot then
+  if not self.mark then
     keep(self, total)
   elseif count > (self.moved or -1) and not process.is_at(self.scene, self.mark) then
     keep(self, total)
@@ -59,7 +69,7 @@ function guard:close()
 end
 
 local function is_due(self, total)
-  if not self.snapshot or #self.open == 0 then return false end
+  if not self.mark or #self.open == 0 then return false end
   if total.jumps > self.jumps then return true end
   local lasts = self.context.args.duration
   local soon = lasts and self.scene.time < self.time + lasts / LOOKS
@@ -72,7 +82,7 @@ local function broken(self, total)
     steps = total.steps, events = {} }
   for i, state in ipairs(self.open) do
     local f = state.choice.look(self.context, run)
-    local why = state.choice.broken(f, self.share)
+    local why = state.choice.broken(f, self.share, state.rung)
     if why then return i, why end
   end
 end
@@ -86,6 +96,7 @@ end
 
 -- The next rung from the snapshot on; returns why that is not possible, or nil.
 local function go_on(self, state, options, total)
+  if not state.choice.onward then return ("no run goes on with another %s"):format(state.choice.name) end
   if not process.is_at(self.scene, self.mark) then return "a process has gone on since" end
   back(self, total)
   local fine, why = pcall(state.choice.onward, self.context, options)
@@ -99,8 +110,8 @@ local function switch(self, i, why, options, total)
   local state, moment = table.remove(self.open, i), self.scene.time
   local no_way = go_on(self, state, options, total)
   if no_way then
-    state.no_way = no_way
-    return
+    state.no_way, state.broke = no_way, why
+    error(setmetatable({ state = state, time = moment }, Broken), 0)
   end
   local rungs = state.choice.rungs
   state.went_on = { time = self.scene.time, text = ("%s until %s, where the run went back to a snapshot: by "

@@ -12,7 +12,6 @@ local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be
 local SAFETY = 3     -- coarse steps do not see all that swings [-]
 local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
 local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
-local STEPS = 8       -- of a computation in a first period that follow the swing [-]
 local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
@@ -60,24 +59,43 @@ local function period(scene)
   return longest
 end
 
+-- A wire that lay on a table and is lifted swings more slowly than it did: the longest period also counts of
+-- where the first poses end.
+local function look_at_end(context)
+  if not context.period or context.period_of_end or speed(context.scene) > 0 then return end
+  context.period_of_end = period(context.scene) or 0
+  context.period = math.max(context.period, context.period_of_end)
+end
+
 function motion.look(context, run)
   local scene = context.scene
-  local _, _, acceleration = facts.swept()
-  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration,
+  look_at_end(context)
+  local _, _, acceleration, slower = facts.swept()
+  return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration, slower = slower,
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
     period = context.period, dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
---- The first period, of the scene at rest as it begins [s].
+--- The first period, of the scene at rest as it begins [s]; look_at_end may find a longer one.
 function motion.begin(context)
   if context.job.rests then context.period = period(context.scene) end
 end
 
---- Do the steps of a computation of dynamics follow the first swing, so that what swings is not damped away?
--- Or does it hardly speed up?
-function motion.resolves(f)
-  if f.acceleration and f.acceleration <= SMALL * f.weight then return true end
-  return f.period ~= nil and f.dt <= f.period / STEPS
+-- What the damping of tr-bdf2 leaves of a swing after a step of so much of its phase [rad]: the size of its
+-- stability function (Bank et al., IEEE Trans. CAD 4, 1985).
+local function kept(phase)
+  local g = 2 - 2 ^ 0.5
+  local up = (2 * (2 - g)) ^ 2 + ((1 + (1 - g) ^ 2) * phase) ^ 2
+  local down = (2 * (2 - g) - g * (1 - g) * phase ^ 2) ^ 2 + ((2 - g ^ 2) * phase) ^ 2
+  return (up / down) ^ 0.5
+end
+
+--- The share of a swing that the steps of a computation of dynamics show: what is left of it after half of
+-- the first period, at the step next to its peak. All where it hardly speeds up.
+function motion.shows(f)
+  if f.acceleration and f.acceleration <= SMALL * f.weight then return 1 end
+  local steps = f.period and f.period / f.dt or 0
+  return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
 --- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
@@ -86,13 +104,19 @@ function motion.blurred(poses, dynamics, share)
   return fast or poses.jumps > 0
 end
 
+-- Acceleration in the frames of the finest run over that in those of the coarsest, four times as far apart:
+-- of what moves smoothly it is the same in frames twice as far apart, of a sudden start or stop half [-].
+local function growth(f)
+  return f.slower and f.slower > 0 and math.max(1, f.acceleration / f.slower) ^ 2 or 1
+end
+
 function motion.free(_, rung, f, share)
   if rung ~= 1 then return nil end
   if f.jumps > 0 then
     return nil, ("poses jump from one equilibrium to another, %d times"):format(f.jumps)
   end
   if not f.acceleration or not f.period or f.weight == 0 then return nil end
-  local inertia, long = f.acceleration / f.weight, f.lasts / f.period
+  local inertia, long = growth(f) * f.acceleration / f.weight, f.lasts / f.period
   if long < PERIODS or inertia > INERTIA * share then return nil end
   return ("it lasts %.3g of its first periods of %s (%d are slow), and inertia is up to %s of the weight "
     .. "(limit %s)"):format(long, number.text(f.period, "s"), PERIODS, facts.percent(inertia),
@@ -125,8 +149,9 @@ end
 
 --- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
 -- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
-function motion.costly(rung, here, above)
-  if rung == 1 and here.iterations >= COSTLY * above.iterations then
+-- in_doubt: it is not known whether they suffice; then they are no saving already where they need as many.
+function motion.costly(rung, here, above, in_doubt)
+  if rung == 1 and here.iterations >= (in_doubt and 1 or COSTLY) * above.iterations then
     return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
       above.iterations)
   end

@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Where wires are pressed in a run, and by how much.
 -- @module softworld.model.pressed
-local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local flat = require "softworld.model.flat"
 
@@ -10,57 +9,37 @@ local pressed = {}
 local PLACE = 0.1     -- of the largest load of its time: from there a place is pressed [-]
 local FLATTENED = 0.1 -- no more flattening than this is needed to count [-]
 local OVAL, RING = 1.5, 1.1 -- flattening over ovalisation: a solid section widens less than a ring [-]
-local TWO_SIDED = 0.5 -- of the sizes of forces: what their sum lacks of them, from both sides [-]
 
--- Is s at pads whose grip is chosen by itself, with the edge beside?
-local function at_pads(context, wire, s, spacing)
+-- Where pads are whose grip is chosen by itself: middles and half lengths [m].
+local function pads_on(context, wire)
+  local list = {}
   for _, asked in ipairs(context.data.auto and context.data.auto.asked or {}) do
-    local from = type(asked.s) == "number" and math.abs(s - asked.s) or 0
-    if asked.wire == wire and from <= asked.gripper.pads.width / 2 + 1.5 * spacing then return true end
-  end
-  return false
-end
-
--- Loads on the nodes of a line in one frame, and the largest [N/m].
-local function loads_of(context, wire, forces, spacing)
-  local loads, most = {}, 0
-  for k, force in ipairs(spacing > 0 and forces or {}) do
-    local load = force / spacing
-    if load > 0 and not at_pads(context, wire, (k - 1) * spacing, spacing) then
-      loads[k], most = load, math.max(most, load)
+    if asked.wire == wire then
+      local known = type(asked.s) == "number"
+      list[#list + 1] = known and asked.s or 0
+      list[#list + 1] = known and asked.gripper.pads.width / 2 or math.huge
     end
   end
-  return loads, most
+  return list
 end
 
--- From where to where loads of their time's largest size press on a line [m].
-local function reach(wire, loads, most, count, from, to)
-  local edge = wire.length / (count - 1)
-  for k, load in pairs(loads) do
-    if load >= PLACE * most then
-      local s = (k - 1) * edge
-      from = math.min(from or wire.length, math.max(0, s - edge / 2))
-      to = math.max(to or 0, math.min(wire.length, s + edge / 2))
-    end
-  end
-  return from, to
-end
-
---- Largest force per length of touches on a line, of the stored frames [N/m], and from where to where it is
--- pressed [m]: whenever that flattens it by a tenth, or is a tenth of its largest.
+--- What presses on a line, of the stored frames: the largest force per length of touches [N/m]; from where
+-- to where it is pressed [m], whenever that flattens it by a tenth, or is a tenth of its largest; and the
+-- largest by which it is pressed from both sides [N/m]. No line tells that force, as faces that leave it no
+-- room push as hard as can be.
 function pressed.line(context, wire, w, body)
-  local most, seen = 0, {}
-  facts.touched(w, function(forces, spacing)
-    local loads, top = loads_of(context, wire, forces, spacing)
-    most = math.max(most, top)
-    if top > 0 then seen[#seen + 1] = { loads = loads, top = top, count = #forces } end
-  end)
+  local rows = facts.press(w, PLACE, pads_on(context, wire))
+  local most, squeeze, from, to = 0, 0, nil, nil
+  for i = 1, #rows, 5 do most, squeeze = math.max(most, rows[i]), math.max(squeeze, rows[i + 1]) end
   local enough = PLACE * math.min(most, flat.stiffness(body, FLATTENED) * FLATTENED * 2 * body.radius)
-  local from, to
-  for _, s in ipairs(seen) do
-    if s.top >= enough then from, to = reach(wire, s.loads, s.top, s.count, from, to) end
+  for i = 1, #rows, 5 do
+    if rows[i] >= enough then
+      local edge = wire.length / (rows[i + 4] - 1)
+      from = math.min(from or wire.length, math.max(0, (rows[i + 2] - 0.5) * edge))
+      to = math.max(to or 0, math.min(wire.length, (rows[i + 3] + 0.5) * edge))
+    end
   end
-  return most, from, to
+  return most, from, to, squeeze
 end
 
 --- The same of a wire that is a mesh in a region: of the lines beside it.
@@ -83,21 +62,6 @@ end
 function pressed.mesh(wire, body)
   local fine, oval = pcall(wire.max_ovalisation, wire)
   return fine and oval and (body.inner and RING or OVAL) * oval or 0
-end
-
---- The largest force per length by which a line is pressed from both sides [N/m]: no line tells that force,
--- as faces that leave it no room push as hard as can be.
-function pressed.squeeze(context, wire, w)
-  local most = 0
-  facts.touched(w, function(forces, _, number)
-    local edge = wire.length / (#forces - 1)
-    for k, force in ipairs(core.frame_squeeze(context.scene, number, w)) do
-      local both = force > TWO_SIDED * forces[k]
-      local counts = both and not at_pads(context, wire, (k - 1) * edge, edge)
-      if counts then most = math.max(most, force / edge) end
-    end
-  end)
-  return most
 end
 
 return pressed

@@ -12,7 +12,7 @@
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
 --     changes.shape(k) makes other models of wires on level k. rungs: of all choices, by their names
 --   expected(context, rung, k): time of a run on level k, where it may cost much [s]
---   resolves(facts): the computation by the next rung follows what that adds
+--   shows(facts): the share of what the next rung adds that its computation shows [-], where not all
 --   blurred(facts, above, share): the coarsest level tells too little of the next rung, whose facts are
 --     above, to stay
 --   look(context, run): what a computation tells about the choice, read at its end
@@ -20,14 +20,14 @@
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
 --     suffice without another computation, and where it counts what share of a value is left out; else
 --     nil, and perhaps why not. share: the tightest of the tolerances over its value
---   broken(facts, share): a sentence where what a run told so far speaks against what the free check of the
---     first rung said; onward(context, options): the next rung from here on, in the run that goes on with
---     options; raises where that is not possible
+--   broken(facts, share, rung): a sentence where what a run told so far speaks against what the free check of
+--     the rung said; onward(context, options): the next rung from here on, in the run that goes on with
+--     options; raises where that is not possible. Without it the run begins again
 --   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
 --   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
 --   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
---   costly(rung, here, above): a sentence where the rung costs no less than the next one; here and above:
---     coarse computations by both, with iterations =
+--   costly(rung, here, above, in_doubt): a sentence where the rung costs no less than the next one, which is
+--     in doubt or not; here and above: coarse computations by both, with iterations =
 --   short(context, facts, share, state): a sentence where the rung leaves out too much all the same
 -- @module softworld.model.registry
 local registry = {}

@@ -94,7 +94,7 @@ end
 
 local function look_at_line(context, worst, w, i)
   local body = flat.body(w.object)
-  local q, from, to = pressed.line(context, w.object, i, body)
+  local q, from, to, both = pressed.line(context, w.object, i, body)
   if q <= 0 then return end
   local share = flat.share(body, q)
   if not body.known and share < CRUSHED then
@@ -102,7 +102,7 @@ local function look_at_line(context, worst, w, i)
     return
   end
   note(context, w, body, q, from, to)
-  local squeeze = flat.share(body, pressed.squeeze(context, w.object, i))
+  local squeeze = flat.share(body, both)
   if squeeze > (worst.squeeze or 0) then worst.squeeze, worst.squeezed = squeeze, w.name end
   if share > worst.share then
     worst.q, worst.share, worst.wire, worst.of = q, share, w.name, body.of
@@ -164,6 +164,20 @@ function section.free(context, rung, f, share)
   return ("'%s' is pressed by up to %s and flattened by %s of its width, by the modulus of %s (limit "
     .. "%s)"):format(
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
+end
+
+--- Why the rung does not suffice any more, of what was seen of a run on the way.
+function section.broken(f, share, rung)
+  local left = section.left(rung, f)
+  if rung == 1 and f.unknown then
+    return ("how stiff the section of '%s' is, which was pressed, is not known"):format(f.unknown)
+  elseif rung == 1 and f.share > share then
+    return ("'%s' was pressed by %s and flattened by %s of its width (limit %s)"):format(f.wire,
+      number.text(f.q, "N/m"), facts.percent(f.share), facts.percent(share))
+  elseif left and left > LEFT * share then
+    return ("walls were flattened by %s, of which springs leave out %s (limit %s)"):format(
+      facts.percent(f.flat), facts.percent(left), facts.percent(LEFT * share))
+  end
 end
 
 --- The next rung is not tried where nobody knows how stiff what is pressed is.

@@ -1,0 +1,30 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Whether runs that choose their model give the same bits twice, and another model of a wire that is 1 %
+-- stiffer.
+-- @module bench.autosteady
+local autosteady = {}
+
+local CHANGE = 0.01 -- of the stiffness [-]
+local MORE = 2      -- times that a value may change by itself [-]
+
+local function bits(run)
+  local text = tostring(run:why()):gsub(", [%d.e-]+ s; the run [%d.e-]+ s", "")
+  return tostring(run:error_bars()) .. text
+end
+
+--- Compare with a run of build, by run_of(options): { same =, choice = both are as before, held = so many
+-- values within their bars, rows = of so many }; nil where one fails.
+function autosteady.look(first, rungs_of, distance, size, run_of)
+  local again, other = run_of { auto = true }, run_of { auto = true, stiffer = 1 + CHANGE }
+  if not again or not other then return nil end
+  local out = { same = bits(first) == bits(again), choice = rungs_of(first.model) == rungs_of(other.model),
+    held = 0, rows = 0 }
+  for name, q in pairs(first.quantities) do
+    local p = other.quantities[name]
+    local within = p and distance(p.value, q.value) <= p.error + q.error + MORE * CHANGE * size(q.value)
+    out.rows, out.held = out.rows + 1, out.held + (within and 1 or 0)
+  end
+  return out
+end
+
+return autosteady
