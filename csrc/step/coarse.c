@@ -15,9 +15,7 @@
 static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1, USUAL = 0.01;
 /* The estimate goes with this power of the step [-]. */
 static const double POWER = 3.0;
-/* What a part of this share of a step, or this short, does not resolve is no smooth motion [-],
- * [s].
- */
+/* No part is a smaller share of a step, nor shorter [-], [s]. */
 static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
 
 /* Of more wires one is too fast all the time, and all would take the parts of each [-]. */
@@ -46,10 +44,7 @@ double sw_coarse_part(double h, double dt, double over) {
   return fmax(least, h * exp2(-ceil(log2(over) / POWER)));
 }
 
-/* Half a part of smooth motion has an eighth of its error, one with a jump in it half or all of it.
- */
-static const double HELPS = 0.7;
-
-int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, HELPS * before); }
+/* Half a part of smooth motion has an eighth of its error, one with a jump in it more than all. */
+int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, before); }
 
 int sw_coarse_may_grow(double over) { return over * exp2(POWER) <= 1.0; }

@@ -96,6 +96,7 @@ describe("a damped cable that", function()
         local whole = measure(build, name, { parts = false }) -- for the manual's figures
         t.below(math.huge, math.abs(whole.tension / truth.tension - 1), "whole steps: tension, share off [-]")
         t.below(math.huge, math.abs(whole.radius / truth.radius - 1), "whole steps: radius, share off [-]")
+        t.below(math.huge, measure(build, name, {}).steps / whole.steps, "steps, over whole ones [-]")
       end)
     end
   end
@@ -110,6 +111,28 @@ describe("parts of steps", function()
       relative = true }
     scene:settle()
     assert.equal(100, scene:run{ duration = 1 }.steps)
+  end)
+
+  it("are few in a laying", function()
+    local function lay(parts)
+      local scene = sw.scene{}
+      scene:obstacle{ shape = "plane", friction = 0.3 }
+      for k = 1, 3 do
+        scene:obstacle{ shape = "box", size = { 0.01, 1, 0.1 }, at = { 0.1 + 0.2 * k, 0, 0.05 }, friction = 0.3 }
+      end
+      local w = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, from = { 0, 0, 0.0025 },
+        to = { -1, 0, 0.0025 }, segments = 100 }
+      local gripper = scene:gripper{}
+      scene:process(function(p)
+        gripper:grasp(w, { s = 0.03 })
+        gripper:move{ by = { 0.2, 0, 0.15 }, speed = 0.25 }
+        gripper:move{ by = { 0.6, 0, 0 }, speed = 0.25 }
+        gripper:move{ by = { 0, 0, -0.14 }, speed = 0.25 }
+        p:wait(0.5)
+      end)
+      return t.fine(scene:run{ parts = parts }).steps
+    end
+    t.below(1.1, lay() / lay(false), "steps, over whole ones in a laying [-]")
   end)
 
   it("are left to the script", function()
