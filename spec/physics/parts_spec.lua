@@ -118,7 +118,8 @@ describe("parts of steps", function()
       local scene = sw.scene{}
       scene:obstacle{ shape = "plane", friction = 0.3 }
       for k = 1, 3 do
-        scene:obstacle{ shape = "box", size = { 0.01, 1, 0.1 }, at = { 0.1 + 0.2 * k, 0, 0.05 }, friction = 0.3 }
+        scene:obstacle{ shape = "box", size = { 0.01, 1, 0.1 }, friction = 0.3,
+          at = { 0.1 + 0.2 * k, 0, 0.05 } }
       end
       local w = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, from = { 0, 0, 0.0025 },
         to = { -1, 0, 0.0025 }, segments = 100 }
