@@ -4,7 +4,9 @@
 #include <math.h>
 
 #include "scene/course.h"
+#include "scene/gripper.h"
 #include "scene/parts.h"
+#include "step/blow.h"
 #include "system/system.h"
 
 /* Allowed in a step of the usual size or more: so much of a wire's length and of its radius,
@@ -21,13 +23,19 @@ static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
 /* Of more wires one is too fast all the time, and all would take the parts of each [-]. */
 enum { MOST_WIRES = 32 };
 
+/* Jaws that close and feeds that slip obey a force by steps of their own. */
+int sw_coarse_applies(const sw_scene *s) {
+  SW_EACH(tool, t, s)
+    if (t->alive && t->pads && !t->frozen) return 0;
+  return sw_scene_wire_slots(s) <= MOST_WIRES && !sw_blow_feeds(s);
+}
+
 /* Sections of meshes swing far faster than any step, which is to damp that. */
 double sw_coarse_of(const sw_scene *s, double dt) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   const double share = fmin(1.0, dt / USUAL);
   double over = 0;
-  if (sw_scene_wire_slots(s) > MOST_WIRES) return 0;
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
     const sw_plan *p = b->plan;
     if (p->web) continue;

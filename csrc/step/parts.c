@@ -28,7 +28,7 @@ typedef struct parts {
   int refused;       /* parts */
   double doubted;    /* a part that is coarse, while a shorter one is tried instead; 0: none [s] */
   double over;       /* by so much it is [-] */
-  int rough;         /* 1: shorter ones do not help in this step */
+  int rough;         /* 1: coarse ones are taken in this step, for shorter ones do not help */
   int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
   sw_error failed;   /* why a part was refused last */
 } parts;
@@ -49,7 +49,7 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
 /* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
  * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
-  const double over = p->args->parts && !k->rough ? sw_coarse_of(p->s, p->args->dt) : 0.0;
+  const double over = k->rough ? 0.0 : sw_coarse_of(p->s, p->args->dt);
   const double shorter = sw_coarse_part(k->part, p->args->dt, over);
   *may_grow = sw_coarse_may_grow(over);
   if (k->doubted > 0 && !sw_coarse_helps(k->over, over)) {
@@ -126,6 +126,8 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   if (k.starts) k.part = FIRST_SLIP * h;
   p->cuts = 0;
   p->changed = sw_restart_changed(p->s);
+  /* a scene that was changed begins with the shock of that */
+  k.rough = !p->args->parts || p->changed || !sw_coarse_applies(p->s);
   while (k.done < h) {
     int may_grow = 1;
     SW_TRY(begin(p, &k, err));

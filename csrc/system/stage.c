@@ -349,10 +349,12 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
 static const double MOMENT_NOISE = 1e-4, LEAST_UPDATE = 1e-5;
 
 static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stage) {
-  double largest = 0;
-  for (size_t i = 3 * b->first_node; i < 3 * (b->first_node + b->plan->nodes); i++)
-    largest = fmax(largest, fabs(stage->y[i] - s->yhat[i]));
-  return largest * mass_rate(stage);
+  double largest2 = 0;
+  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++) {
+    const sw_vec off = sw_sub(sw_load(stage->y + 3 * i), sw_load(s->yhat + 3 * i));
+    largest2 = fmax(largest2, sw_norm2(off));
+  }
+  return sqrt(largest2) * mass_rate(stage);
 }
 
 /* An update by the share u of an edge, along it or across, leaves a hinge's moment wrong by about
