@@ -46,10 +46,11 @@ double sw_coarse_of(const sw_scene *s, double dt) {
   return over;
 }
 
+/* What would take more parts than that is a shock, such as a tie that is made far too short. */
 double sw_coarse_part(double h, double dt, double over) {
-  const double least = fmax(SMALLEST * dt, SHORTEST);
-  if (!(over > 1.0) || h < 2.0 * least) return h;
-  return fmax(least, h * exp2(-ceil(log2(over) / POWER)));
+  const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / POWER));
+  if (!(over > 1.0) || h < 2.0 * SHORTEST || part < SMALLEST * dt) return h;
+  return fmax(SHORTEST, part);
 }
 
 /* Half a part of smooth motion has an eighth of its error, one with a jump in it more than all. */

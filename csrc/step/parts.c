@@ -126,8 +126,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   if (k.starts) k.part = FIRST_SLIP * h;
   p->cuts = 0;
   p->changed = sw_restart_changed(p->s);
-  /* a scene that was changed begins with the shock of that */
-  k.rough = !p->args->parts || p->changed || !sw_coarse_applies(p->s);
+  k.rough = !p->args->parts || !sw_coarse_applies(p->s);
   while (k.done < h) {
     int may_grow = 1;
     SW_TRY(begin(p, &k, err));
