@@ -75,9 +75,10 @@ local function judged(seed)
   local scene = { seed = seed, base = base, plan = plan, differences = {}, failed = {} }
   if not base.ok then return scene end
   local function compare(name, view)
+    local from = view.whole and random_scenes.outcome(plan, { whole = true }) or base
+    if not from.ok then return end -- some fail in whole steps, and say so
     local other = random_scenes.outcome(plan, view)
     if not other.ok then scene.failed[name] = other.reason return end
-    local from = view.whole and random_scenes.outcome(plan, { whole = true }) or base
     scene.differences[name] = random_scenes.difference(plan, from, other)
   end
   for name, view in pairs(meshes) do compare(name, view) end
