@@ -9,12 +9,10 @@
 #include "step/blow.h"
 #include "system/system.h"
 
-/* Allowed in a step of the usual size or more: so much of a wire's length and of its radius,
- * whichever is less [-], [s]; of a shorter one less in proportion, so that results get better with
- * dt everywhere. A metre of cable of 2 mm that is laid at 0.25 m/s is beyond that in 3 of 100
- * steps; one that whips, falls on a peg or is struck, in most of those that make its largest
- * tension. */
-static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1, USUAL = 0.01;
+/* Allowed in a step: so much of a wire's length and of its radius, whichever is less [-]. A metre
+ * of cable of 2 mm that is laid at 0.25 m/s in steps of 10 ms is beyond that in 3 of 100; one that
+ * whips, falls on a peg or is struck, in most of those that make its largest tension. */
+static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1;
 /* The estimate goes with this power of the step [-]. */
 static const double POWER = 3.0;
 /* No part is a smaller share of a step, nor shorter [-], [s]. */
@@ -31,15 +29,14 @@ int sw_coarse_applies(const sw_scene *s) {
 }
 
 /* Sections of meshes swing far faster than any step, which is to damp that. */
-double sw_coarse_of(const sw_scene *s, double dt) {
+double sw_coarse_of(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
-  const double share = fmin(1.0, dt / USUAL);
   double over = 0;
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
     const sw_plan *p = b->plan;
     if (p->web) continue;
-    const double allowed = share * fmin(OF_LENGTH * p->length, OF_RADIUS * p->beam.radius);
+    const double allowed = fmin(OF_LENGTH * p->length, OF_RADIUS * p->beam.radius);
     const double error = sw_stepper_error(stepper, system, b->first_node, b->first_node + p->nodes);
     over = fmax(over, error / allowed);
   }

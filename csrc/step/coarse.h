@@ -8,9 +8,9 @@
 
 /* Are steps of the scene judged, as it is now? */
 int sw_coarse_applies(const sw_scene *scene);
-/* Error of the last trial, by the method's estimate, as a share of what a wire is allowed in a run
- * of steps dt: up to 1 is fine; 0: the method has no estimate [-]. */
-double sw_coarse_of(const sw_scene *scene, double dt);
+/* Error of the last trial, by the method's estimate, as a share of what a wire is allowed: up to 1
+ * is fine; 0: the method has no estimate [-]. */
+double sw_coarse_of(const sw_scene *scene);
 /* The part that is to be taken instead of one of size h with such an error, in a run of steps
  * dt [s]. */
 double sw_coarse_part(double h, double dt, double over);

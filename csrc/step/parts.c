@@ -49,7 +49,7 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
 /* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
  * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
-  const double over = k->rough ? 0.0 : sw_coarse_of(p->s, p->args->dt);
+  const double over = k->rough ? 0.0 : sw_coarse_of(p->s);
   const double shorter = sw_coarse_part(k->part, p->args->dt, over);
   *may_grow = sw_coarse_may_grow(over);
   if (k->doubted > 0 && !sw_coarse_helps(k->over, over)) {

@@ -325,7 +325,7 @@ describe("sidewall pressure", function()
       local run = scene:run{ duration = 0.2, dt = dt, wear = true, window = window, frame = 1 }
       return run:check{ limits = { max_sidewall = 1e3 } }:row "max_sidewall".value
     end
-    local coarse, fine, raw = dropped(0.001), dropped(0.00025), dropped(0.00025, 0)
+    local coarse, fine, raw = dropped(0.002), dropped(0.0005), dropped(0.0005, 0)
     print(("measured: %.3f, %.3f N/m; of single steps %.3f N/m"):format(coarse, fine, raw))
     assert.is_near(coarse, fine, 0.15 * coarse)
     assert.is_true(fine > 0 and raw > 3 * fine, raw .. " and " .. fine)

@@ -228,7 +228,7 @@ describe("wires that nothing couples", function()
     s:obstacle{ shape = "plane", friction = 0.3 }
     for _, k in ipairs{ ... } do list[#list + 1] = three(s, k) end
     if contact then s:wire_contact{ friction = 0.3 } end
-    local r = s:advance({ dt = 0.005, parts = false }, 0.2) -- which all would take for any of them
+    local r = s:advance({ dt = 0.005 }, 0.2)
     assert.is_true(r.ok, r.reason)
     assert.equal(40, r.steps)
     return list, r

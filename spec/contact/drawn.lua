@@ -37,12 +37,12 @@ function drawn.pull(o, radius, put)
   s:force{ kind = "damping", mass = 20, on = w }
   local drag = 20 * 0.05 * w.length * H -- at the speed of an edge a second [N]
   local pin, dt = s:pin(w, { s = o.swap and 0 or w.length }), o.dt or 0.002
-  assert(s:advance({ dt = dt, parts = false }, 1).ok)
+  assert(s:advance({ dt = dt }, 1).ok)
   pin:follow{ points = { { 0, 0, 0 }, see{ 3 * H * x, 0, -3 * H * z } }, relative = true, speed = H,
     law = "linear" }
   local least, most, sum = math.huge, 0, 0
   for i = 1, 100 do
-    assert(s:advance({ dt = dt, parts = false }, 1.5 + 0.02 * i).ok)
+    assert(s:advance({ dt = dt }, 1.5 + 0.02 * i).ok)
     local pull = (vec.norm(pin:force()) - drag) / T
     least, most, sum = math.min(least, pull), math.max(most, pull), sum + pull / 100
   end

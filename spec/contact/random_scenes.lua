@@ -447,7 +447,7 @@ function random_scenes.outcome(plan, view)
   view = view or {}
   local scene <close>, wires, obstacles = random_scenes.scene(plan, view)
   local run = scene:run{ duration = plan.duration, dt = plan.dt, integrator = plan.integrator,
-    tolerance = plan.tolerance, quasistatic = plan.quasistatic or nil, parts = not view.whole }
+    tolerance = plan.tolerance, quasistatic = plan.quasistatic or nil }
   local out = { ok = run.ok, reason = run.reason, rate = run.iterations / run.time, run = run,
     places = {}, peaks = {} }
   if not run.ok then return out end

@@ -270,7 +270,7 @@ describe("rates of strain", function()
       else
         scene:clamp(other, { s = 0 })
       end
-      t.fine(scene:run{ duration = 0.1, dt = 2e-3, parts = false }) -- which both wires would take
+      t.fine(scene:run{ duration = 0.1, dt = 2e-3 })
       return (wire:max_tension()), wire:tension(0.1)
     end
     local largest, now = run(false)
