@@ -48,12 +48,6 @@ local function turn(axis, angle)
   return R
 end
 
-local function largest(list)
-  local most = 0
-  for _, value in ipairs(list) do most = math.max(most, math.abs(value)) end
-  return most
-end
-
 -- Eigenvalues of a flat symmetric matrix in rising order, by Jacobi's rotations.
 local function eigenvalues(H, n)
   local a = {}
@@ -94,7 +88,7 @@ describe("a solid element", function()
         local x, d = moved(rest, amount), 1e-5
         local _, g, H, J = core.solid(rest, MU, LAMBDA, x)
         least = math.min(least, J)
-        local most_g, most_H, n = largest(g), largest(H), #x
+        local most_g, most_H, n = tools.largest(g), tools.largest(H), #x
         for i = 1, n do
           local side = {}
           for k = 1, 2 do
@@ -120,14 +114,14 @@ describe("a solid element", function()
     local before = { core.solid(rest, MU, LAMBDA, squeezed(0.1 + 1e-9)) }
     local after = { core.solid(rest, MU, LAMBDA, squeezed(0.1 - 1e-9)) }
     share(before[1], after[1], 1e-7)
-    for i, g in ipairs(before[2]) do near(g, after[2][i], 1e-6 * largest(before[2])) end
-    for i, H in ipairs(before[3]) do near(H, after[3][i], 1e-6 * largest(before[3])) end
+    for i, g in ipairs(before[2]) do near(g, after[2][i], 1e-6 * tools.largest(before[2])) end
+    for i, H in ipairs(before[3]) do near(H, after[3][i], 1e-6 * tools.largest(before[3])) end
     for _, J in ipairs { 0, -1, -1e3, 1e6 } do
       assert.is_true(core.solid(rest, MU, LAMBDA, squeezed(J)) < math.huge)
     end
     local far = moved(rest, 1e30)
     local energy, g, H = core.solid(rest, MU, LAMBDA, far)
-    assert.is_true(energy < math.huge and largest(g) < math.huge and largest(H) < math.huge)
+    assert.is_true(energy < math.huge and tools.largest(g) < math.huge and tools.largest(H) < math.huge)
   end)
 
   it("does not feel being moved and turned", function()
@@ -138,7 +132,7 @@ describe("a solid element", function()
         for _, angle in ipairs { 0.1, 1, 3 } do
           local energy, g = core.solid(rest, MU, LAMBDA, mapped(turn(axis, angle), rest))
           near(0, energy, 1e-13)
-          near(0, largest(g), 1e-12)
+          near(0, tools.largest(g), 1e-12)
           -- and turns its forces with it
           local x = moved(rest, 0.4)
           local E, force = core.solid(rest, MU, LAMBDA, x)
@@ -193,11 +187,11 @@ describe("a solid element", function()
             end
           end
           local _, g = core.solid(rest, MU, LAMBDA, mapped(F, rest))
-          most = math.max(most, largest(g))
+          most = math.max(most, tools.largest(g))
           for k = 1, here and 3 or 0 do sum[k] = sum[k] + g[here + k] end
         end
       end
-      near(0, largest(sum), 1e-13 * most + 1e-13)
+      near(0, tools.largest(sum), 1e-13 * most + 1e-13)
     end
   end)
 

@@ -139,4 +139,11 @@ function tools.lifted(g, wire, s, w, EI)
   return M, (2 * EI * (w * y - V * slope)) ^ 0.5
 end
 
+--- Largest size of numbers in a list.
+function tools.largest(list)
+  local most = 0
+  for _, value in ipairs(list) do most = math.max(most, math.abs(value)) end
+  return most
+end
+
 return tools

@@ -54,17 +54,11 @@ local function turned(case, dt, method)
   return list
 end
 
-local function largest(list)
-  local most = 0
-  for _, value in ipairs(list) do most = math.max(most, math.abs(value)) end
-  return most
-end
-
 -- A moment that changes from nothing to its peak within 0.1 s is told up to a step too late, and half a
 -- step more by methods whose only stage lies within it. late: of the peak, for each second of the step [1/s].
 local function compare(exact, case, dt, method, late)
   local list = turned(case, dt, method)
-  local most = (late or 10) * dt * largest(exact)
+  local most = (late or 10) * dt * t.largest(exact)
   for i, time in ipairs(TIMES) do
     t.near(exact[i], list[i], most, ("moment at %g s in steps of %g s"):format(time, dt))
   end
@@ -99,7 +93,7 @@ describe("the moment at a hold that turns a damped cable", function()
     for _, at in ipairs{ 0, 0.3 } do
       local one = turned({ cable = "FLRY-B 10", at = at, beta = 1e-2 }, 1e-2)
       local two = turned({ cable = "FLRY-B 10", at = at, beta = 1e-2, back = true }, 1e-2)
-      for i = 1, #TIMES do t.near(one[i], two[i], 1e-3 * largest(one), "moment") end
+      for i = 1, #TIMES do t.near(one[i], two[i], 1e-3 * t.largest(one), "moment") end
     end
   end)
 
