@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "contact/mutual.h"
 #include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
@@ -28,11 +29,21 @@ int sw_coarse_applies(const sw_scene *s) {
   return sw_scene_wire_slots(s) <= MOST_WIRES && !sw_blow_feeds(s);
 }
 
+/* Wires that touch each other, or nearly do, converge worse in shorter parts, and cost more than
+ * all else. */
+static int touch_each_other(const sw_scene *s) {
+  const sw_mutual *pairs = sw_scene_pairs(s);
+  size_t near = 0;
+  if (pairs) sw_mutual_seen(pairs, &near);
+  return near > 0;
+}
+
 /* Sections of meshes swing far faster than any step, which is to damp that. */
 double sw_coarse_of(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   double over = 0;
+  if (touch_each_other(s)) return 0;
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
     const sw_plan *p = b->plan;
     if (p->web) continue;

@@ -215,14 +215,17 @@ static sw_status transient(sw_statics *p, sw_error *err) {
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the
- * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too. */
+ * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too, and
+ * so is the count of unstable directions, which of an iteration that fails is that of some place. */
 static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
+  const size_t negative = p->report->negative;
   sw_error why = {"out of memory"};
   sw_tape rest = {0};
   sw_status status = sw_live_take(p->s, &rest);
   if (status == SW_OK) status = sw_rest_newton(p, SW_REST_ITERATIONS, &why);
   if (sw_rest_stops(status)) sw_fail(err, status, "%s", why.text);
   *unstable = status == SW_OK && p->report->negative > 0;
+  if (status != SW_OK) p->report->negative = negative;
   if (status == SW_OK ? *unstable : !sw_rest_stops(status)) status = sw_live_back(p->s, &rest, err);
   sw_tape_free(&rest);
   return status;

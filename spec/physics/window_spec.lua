@@ -393,24 +393,28 @@ describe("a blow of few steps", function()
     end
   end)
 
-  -- A cable swings against a peg: 0.422 N with steps of 10 ms, 0.505 to 0.518 N with steps of 5 to 0.3 ms.
+  -- A cable swings against a peg: 0.422 N with whole steps of 10 ms, 0.505 to 0.518 N with steps of 5 to
+  -- 0.3 ms. Steps in parts are not coarse.
   it("is told of a wire's largest tension in the summary", function()
-    local function swung(dt)
+    local function swung(dt, parts)
       local s = sw.scene{}
       local w = s:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.5, 0, 0 }, segments = 50 }
       s:force{ kind = "damping", on = w, mass = 1, stiffness = 1e-3 }
       s:pin(w, { s = 0 })
       s:obstacle{ shape = "cylinder", radius = 0.012, length = 0.2, at = { 0.03, 0, -0.25 },
         rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 }, friction = 0.3 }
-      t.fine(s:run{ duration = 0.8, dt = dt })
+      t.fine(s:run{ duration = 0.8, dt = dt, parts = parts })
       local T, _, _, note = window.tension(s, w)
       return T, note
     end
-    local T, note = swung(0.01)
+    local T, note = swung(0.01, false)
     assert.is_truthy(note:find "a blow of few steps: shorter ones may tell another$", note)
-    local finer, said = swung(2.5e-3)
+    local finer, said = swung(2.5e-3, false)
     assert.is_nil(said:find "few steps", said)
     t.above(1.15 * T, finer, "tension [N] of shorter steps")
+    local by_parts, told = swung(0.01)
+    assert.is_nil(told:find "few steps", told)
+    t.share(finer, by_parts, 0.1, "tension [N] of steps in parts")
   end)
 end)
 
