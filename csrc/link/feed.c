@@ -140,12 +140,21 @@ static void place(sw_hold *h, const sw_link_wire *w, double t, sw_hold_state *st
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);
 }
 
+/* What a step begins from. */
+static void taken(sw_slip *slip) {
+  slip->growth_before = slip->growth;
+  slip->way_before = slip->way;
+}
+
 static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_slip *slip = &h->feed.slip;
   const double u = w->time - slip->since;
   slip->length += (slip->speed + 0.5 * slip->growth * u) * u;
-  slip->speed += slip->growth * u;
+  /* where the wire gives way as little as at a wall, its speed would swing about the right one */
+  const int swings = slip->way != 0 && slip->growth * slip->growth_before < 0;
+  slip->speed += (swings ? 0.5 : 1.0) * slip->growth * u;
   slip->since = w->time;
+  taken(slip);
   const double arc = arc_at(&h->feed.guide, feed_at(h, w->time).fed);
   w->mesh->s[h->node] = arc;
   h->s1 = h->s2 = h->s[0] = arc;
@@ -243,6 +252,7 @@ static void stop(sw_hold *h, double t) {
   f->since = t;
   f->speed = f->slip.speed = f->slip.growth = f->slip.way = 0;
   f->slip.push = NAN;
+  taken(&f->slip);
   sw_motion_release(f->motion);
   f->motion = NULL;
 }
@@ -270,6 +280,7 @@ static sw_status limit(sw_hold *h, const sw_link_wire *w, double force, sw_motio
   (void)w, (void)motion, (void)err;
   slip->limit = force;
   if (isnan(force) && isnan(slip->push)) slip->speed = slip->growth = slip->way = 0;
+  taken(slip);
   return SW_OK;
 }
 
@@ -329,6 +340,7 @@ void sw_tape_feed(sw_tape *t, sw_feed *x) {
   if (shaped) sw_tape_mesh(t, &g->shape, 1);
   if (!sw_tape_reads(t)) return;
   const sw_slip *slip = &x->slip;
+  taken(&x->slip); /* older files have what went before */
   const double all = g->label + x->fed + x->since + x->speed + x->start + slip->length +
                      slip->since + slip->speed + slip->growth + slip->growth_before + slip->slope +
                      g->size;

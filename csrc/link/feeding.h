@@ -16,9 +16,9 @@ typedef struct sw_slip {
   double since;         /* [s] */
   double speed;         /* [m/s] */
   double growth;        /* of the speed in this step; between steps that of the last one [m/s2] */
-  double growth_before; /* that of the step before [m/s2] */
+  double growth_before; /* that of the last step that was taken [m/s2] */
   double way;           /* sign of the force against which it slips; 0 = it does not [-] */
-  double way_before;    /* that of the step before [-] */
+  double way_before;    /* that at its end [-] */
   sw_bracket found;     /* growths with too little force and with too much [m/s2], [N] */
   double slope;         /* of the force over growth, last found; 0 = not known [kg] */
 } sw_slip;

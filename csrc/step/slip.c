@@ -37,8 +37,8 @@ static int begin(sw_scene *s, double step) {
     sw_slip *f = slip_of(h);
     if (!f) continue;
     any = 1;
-    f->growth_before = f->growth;
-    f->way_before = f->way;
+    f->growth = f->growth_before,
+    f->way = f->way_before; /* a step that was undone may have others */
     if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without */
   }
   return any;
@@ -62,12 +62,16 @@ static int improve(sw_slip *f, double off, int first, double mass, double step) 
   const double before = f->growth;
   if (first) sw_bracket_clear(b);
   const double seen = b->off[off > 0], at = b->tried[off > 0];
-  const int side = sw_bracket_add(b, before, off);
+  const double width = sw_bracket_closed(b) ? fabs(sw_bracket_width(b)) : HUGE_VAL;
+  const int again = b->last_side == (off > 0), side = sw_bracket_add(b, before, off);
   if (sw_bracket_closed(b)) {
-    if (fabs(sw_bracket_width(b)) * step * step < NO_WAY) return 1;
+    const double left = fabs(sw_bracket_width(b));
+    if (left * step * step < NO_WAY) return 1;
     sw_bracket_weigh(b, side);
     f->slope = sw_bracket_slope(b);
-    f->growth = b->tried[0] - b->off[0] / f->slope; /* their root */
+    /* where a touch opens, the force is thousands of times steeper on one side than on the other */
+    f->growth =
+        again && left > 0.5 * width ? 0.5 * (b->tried[0] + b->tried[1]) : sw_bracket_root(b);
     return 0;
   }
   const double slope = isfinite(seen) ? (off - seen) / (before - at) : f->slope;
