@@ -37,9 +37,13 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
                       sw_dot(force, way) + sw_dot(moment, turn), changed);
 }
 
-/* Energy of the wire that a feed has let in: its speed and its height. */
+/* Energy of the wire that a feed has let in from a spool: its speed and its height. In mid-wire it
+ * comes from the other side. */
 static double brought(const sw_scene *s, size_t k, double length) {
-  const sw_beam *beam = &sw_scene_wire_in(s, sw_scene_held_by(s, k)->wire)->beam;
+  const sw_hold *h = sw_scene_held_by(s, k);
+  const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
+  const sw_beam *beam = &wire->beam;
+  if (h->node > 0 && h->node + 1 < wire->mesh.n) return 0;
   const sw_hold_state *at = &sw_scene_system(s)->hold_states[k];
   return beam->mass * length * (0.5 * sw_norm2(at->v) - sw_dot(sw_scene_gravity(s), at->pose.p));
 }
