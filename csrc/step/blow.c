@@ -42,7 +42,7 @@ void sw_blow_refused(sw_scene *s, double part) {
 }
 
 /* Nodes that go into a guide press on what is beside it by no blow, and jump from step to step. */
-int sw_blow_feeds(const sw_scene *s) {
+static int any_feed(const sw_scene *s) {
   SW_EACH(hold, h, s)
     if (h->alive && sw_hold_passes(h)) return 1;
   return 0;
@@ -61,7 +61,7 @@ int sw_blow_begins(sw_scene *s, double h) {
   sw_course *course = sw_scene_course(s);
   const int followed = sw_scene_time(s) < course->blow_until;
   if (sw_scene_wire_slots(s) > MOST_WIRES || !sw_scene_contact(s) || sw_scene_pairs(s) ||
-      sw_scene_grains(s) || (!followed && !(h > 1.01 * SHORTEST_PART)) || sw_blow_feeds(s))
+      sw_scene_grains(s) || (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
   if (!followed && course->blow_until > 0 && sw_scene_time(s) < course->blow_since + BETWEEN_BLOWS)
     return 0;

@@ -11,8 +11,6 @@ double sw_blow_part(const sw_scene *scene, double h);
 /* A trial step of size h that went well: does it have to be redone in parts, for something struck?
  */
 int sw_blow_begins(sw_scene *scene, double h);
-/* Does any wire go through a feed? */
-int sw_blow_feeds(const sw_scene *scene);
 /* A part of a step was refused, or made energy [s]. */
 void sw_blow_refused(sw_scene *scene, double part);
 

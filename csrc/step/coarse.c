@@ -7,7 +7,6 @@
 #include "scene/course.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
-#include "step/blow.h"
 #include "system/system.h"
 
 /* Allowed in a step: so much of a wire's length and of its radius, whichever is less [-]. A metre
@@ -22,11 +21,11 @@ static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
 /* Of more wires one is too fast all the time, and all would take the parts of each [-]. */
 enum { MOST_WIRES = 32 };
 
-/* Jaws that close and feeds that slip obey a force by steps of their own. */
+/* Jaws that close obey a force by steps of their own. */
 int sw_coarse_applies(const sw_scene *s) {
   SW_EACH(tool, t, s)
     if (t->alive && t->pads && !t->frozen) return 0;
-  return sw_scene_wire_slots(s) <= MOST_WIRES && !sw_blow_feeds(s);
+  return sw_scene_wire_slots(s) <= MOST_WIRES;
 }
 
 /* Wires that touch each other, or nearly do, converge worse in shorter parts, and cost more than
