@@ -75,7 +75,8 @@ describe("energy of wire that is fed", function()
         local work = {}
         for i, length in ipairs{ 0.08, -0.08 } do
           local s = sw.scene{}
-          local w = s:wire{ cable = cable, from = { -0.2, 0, height }, to = { 0.2, 0, height }, segments = 40 }
+          local w = s:wire{ cable = cable, segments = 40, from = { -0.2, 0, height },
+            to = { 0.2, 0, height } }
           s:force{ kind = "damping", on = w, mass = 20, stiffness = 1e-3 }
           local f = s:feed(w, { s = 0.2 })
           assert.is_true(s:settle().ok)
@@ -85,7 +86,8 @@ describe("energy of wire that is fed", function()
           local l = run:ledger()
           work[i] = l.work.feeds
           local off = math.abs(l.gap) + math.abs(l.lost.integrator) -- 0.7 of what is in play before
-          assert.is_true(off < 0.02 * l.play, ("%s at %g m: %.3g J of %.3g J"):format(cable, height, off, l.play))
+          assert.is_true(off < 0.02 * l.play,
+            ("%s at %g m: %.3g J of %.3g J"):format(cable, height, off, l.play))
         end
         assert.is_true(math.abs(work[1] - work[2]) < 1e-6 * math.abs(work[1]), work[1] - work[2])
       end
