@@ -21,7 +21,8 @@ typedef struct sw_step_energy {
   double contact;                         /* stored in touches then [J] */
   sw_powers powers;                       /* at its end */
   double holds, obstacles, feeds, forces; /* work [J] */
-  double damping, friction, impact;       /* lost [J] */
+  double let_in; /* the part of the feeds' that is the height of wire from spools [J] */
+  double damping, friction, impact; /* lost [J] */
   double gain;    /* beyond the most that outer work may have been; below 0: a loss [J] */
   double work;    /* in size, all kinds added up [J] */
   double let_out; /* at most given by letting wires out of what they began in [J] */

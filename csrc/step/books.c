@@ -215,6 +215,7 @@ static void book_step(sw_scene *s, int at_rest) {
   else
     book_left(l, step, left, gained);
   if (step->gain > l->most_gained) l->most_gained = step->gain, l->most_time = sw_scene_time(s);
+  b->highest += step->let_in;
   take_as_now(b, &step->to, step->contact);
   b->powers = step->powers;
 }
@@ -235,7 +236,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   step->friction += sw_scene_rubbed(s);
   sw_ledger_work(s, sw_scene_time(s), 0);
   step->forces = b->now.loads - step->to.loads;
-  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
+  step->work = sw_ledger_effort(step);
   const double before = b->sums.integrator;
   step->gain = 0; /* poses are not judged */
   book_step(s, 1);

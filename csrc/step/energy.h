@@ -32,6 +32,8 @@ void sw_ledger_retry(const sw_scene *scene, sw_retries *retries, double time, do
 /* Work of holds, feeds and obstacles in the judged step, into step. Gives the most that it may
  * have been, as forces change within the step [J]. */
 double sw_ledger_work(sw_scene *scene, double t1, int changed);
+/* All of a step's work in size, wherever the world's origin is [J]. */
+double sw_ledger_effort(const sw_step_energy *step);
 /* Forces and poses at the state, for the next step. logged: holds' forces there are in their logs.
  * SW_ENOMEM. */
 sw_status sw_ledger_note_workers(sw_scene *scene, int logged);

@@ -147,7 +147,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (b->has_powers) status = sw_system_powers(system, t1, &step->powers, err);
   sw_system_look_back(system, &glance);
   judge_outer_forces(b, h, &most);
-  step->work = fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds) + fabs(step->forces);
+  step->work = sw_ledger_effort(step);
   const double before = b->now.kinetic + sw_ledger_potential(&b->now, b->contact);
   if (changed) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);

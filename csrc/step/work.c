@@ -39,23 +39,30 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
 
 /* Energy of the wire that a feed has let in from a spool: its speed and its height. In mid-wire it
  * comes from the other side. */
-static double brought(const sw_scene *s, size_t k, double length) {
+static double brought(sw_scene *s, size_t k, double length) {
   const sw_hold *h = sw_scene_held_by(s, k);
   const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
-  const sw_beam *beam = &wire->beam;
   if (h->node > 0 && h->node + 1 < wire->mesh.n) return 0;
   const sw_hold_state *at = &sw_scene_system(s)->hold_states[k];
-  return beam->mass * length * (0.5 * sw_norm2(at->v) - sw_dot(sw_scene_gravity(s), at->pose.p));
+  const double mass = wire->beam.mass * length;
+  const double height = -mass * sw_dot(sw_scene_gravity(s), at->pose.p);
+  sw_scene_books(s)->step.let_in += height;
+  return 0.5 * mass * sw_norm2(at->v) + height;
 }
 
 static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   const sw_hold *h = sw_scene_held_by(s, k);
   const sw_worker *from = &sw_scene_books(s)->holds[k];
   const sw_hold_way now = sw_hold_way_of(s, h, t1, sw_scene_system(s)->x);
-  const double length = now.way - from->fed;
+  const double length = now.way - from->fed, more = brought(s, k, length);
   const bounds b = work_between(from->drive * length, now.force * length, changed);
-  sw_scene_books(s)->step.feeds += b.mean + brought(s, k, length);
-  return b.most + brought(s, k, length);
+  sw_scene_books(s)->step.feeds += b.mean + more;
+  return b.most + more;
+}
+
+double sw_ledger_effort(const sw_step_energy *step) {
+  return fabs(step->holds) + fabs(step->obstacles) + fabs(step->feeds - step->let_in) +
+         fabs(step->forces);
 }
 
 /* What friction on a rail takes. */

@@ -94,6 +94,27 @@ describe("energy of wire that is fed", function()
     end
   end)
 
+  -- Wire from a spool brings its height in, which counts from the world's origin.
+  it("is judged the same wherever the world's origin is", function()
+    for _, length in ipairs{ 0.2, -0.2 } do
+      local first
+      for _, height in ipairs{ 0, 7, -100 } do
+        local s, _, f = scene_of(CABLE, 40, { 0, 0, height + 0.1 }, { 0.4, 0, height + 0.1 })
+        s:obstacle{ shape = "plane", friction = 0.3, at = { 0, 0, height } }
+        f:feed{ length = length, speed = 0.2 }
+        f:follow{ points = { { 0, 0, 0 }, { -0.1, 0, 0.1 } }, duration = 1, relative = true }
+        local run = s:run{ duration = 1, dt = 5e-3 }
+        assert.is_true(run.ok, run.reason)
+        local l = run:ledger()
+        first = first or l
+        for _, key in ipairs{ "play", "gap", "gained" } do
+          assert.is_true(math.abs(l[key] - first[key]) < 1e-4 * first.play,
+            ("%s at %g m: %.6g J, %.6g J"):format(key, height, l[key], first[key]))
+        end
+      end
+    end
+  end)
+
   -- Start at once with 0.3 m/s: what the step does not know of that jolt falls with the step.
   it("balances better with smaller steps", function()
     local gaps = {}
