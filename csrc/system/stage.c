@@ -13,7 +13,9 @@
 #include "solve/blocks.h"
 #include "system/assemble.h"
 #include "system/bridge.h"
+#include "system/converged.h"
 #include "system/factors.h"
+#include "system/held.h"
 #include "system/join.h"
 #include "system/lead.h"
 #include "system/part.h"
@@ -24,43 +26,6 @@
 #include "system/system.h"
 #include "system/twist.h"
 #include "system/web.h"
-
-static void transpose(const double *u, double *out) {
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) out[3 * i + j] = u[3 * j + i];
-}
-
-/* Take a held node out of the equations, keeping its couplings for the
- * reaction. */
-static void hold_row(sw_held_node *h, double *rows, size_t n, size_t i, double *right) {
-  const double *row = rows + SW_ROW_SIZE * i;
-  memset(h->saved, 0, sizeof h->saved);
-  if (i >= 2) transpose(rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND, h->saved);
-  if (i >= 1) transpose(rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT, h->saved + 9);
-  if (i + 1 < n) memcpy(h->saved + 18, row + SW_ROW_NEXT, 9 * sizeof *row);
-  if (i + 2 < n) memcpy(h->saved + 27, row + SW_ROW_SECOND, 9 * sizeof *row);
-  sw_drop_row(rows, i);
-  h->own_force = sw_neg(sw_load(right + 3 * i));
-  sw_store(right + 3 * i, sw_v(0, 0, 0));
-}
-
-static void add_block(sw_vec *f, const double *u, const double *d) {
-  f->x += u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
-  f->y += u[3] * d[0] + u[4] * d[1] + u[5] * d[2];
-  f->z += u[6] * d[0] + u[7] * d[1] + u[8] * d[2];
-}
-
-/* Reaction after the update delta, linearised as the solve was. */
-static void update_reaction(sw_held_node *h, const sw_body *b, const double *delta) {
-  const size_t i = h->node - b->first_node, n = b->plan->nodes;
-  const double *d = delta + 3 * h->node;
-  sw_vec f = h->own_force;
-  if (i >= 2) add_block(&f, h->saved, d - 6);
-  if (i >= 1) add_block(&f, h->saved + 9, d - 3);
-  if (i + 1 < n) add_block(&f, h->saved + 18, d + 3);
-  if (i + 2 < n) add_block(&f, h->saved + 27, d + 6);
-  h->reaction = f;
-}
 
 /* Axial forces after delta by the linearised law, and the square of the largest
  * rotation of an edge. */
@@ -83,53 +48,6 @@ static double advance_tension(size_t m, const double *restrict delta, const doub
     largest = largest > across2 ? largest : across2;
   }
   return largest;
-}
-
-/* Where the stiffness jumps, Newton may go to and fro between both sides: every
- * other iteration after this many is a cautious one. */
-enum { QUICK = 4 };
-
-void sw_body_begin(sw_body *b) {
-  sw_field_clear(&b->field);
-  sw_field_geometry(&b->field);
-  if (b->plan->web && b->field.want & SW_WANT_STIFFNESS) sw_web_begin(b);
-}
-
-/* Of many nodes each term takes its time: the user's wish to stop is looked for between them. */
-static sw_status eval_terms(sw_body *b, sw_error *err) {
-  for (size_t k = 0; k < b->term_count; k++) {
-    if (sw_interrupted()) return SW_EINTR;
-    SW_TRY(sw_term_eval(&b->terms[k], &b->field, err));
-  }
-  return SW_OK;
-}
-
-sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, const double *y,
-                           const double *v, int statics, int iteration, sw_error *err) {
-  sw_field *f = &b->field;
-  f->want = SW_WANT_FORCE | (s->goes_on ? 0u : SW_WANT_STIFFNESS);
-  f->time = time;
-  f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
-  f->statics = statics;
-  f->cautious = iteration > QUICK && iteration % 2;
-  f->x = y + 3 * b->first_node;
-  f->v = v + 3 * b->first_node;
-  f->tension = s->tension + b->first_edge;
-  const int rates = s->strain_past && b->axial_time > 0;
-  f->strain_past = rates ? s->strain_past + b->first_edge : NULL;
-  f->strain = rates ? s->strain_now + b->first_edge : NULL;
-  f->strain_rate = NULL;
-  sw_strain_show_past(s, b);
-  f->gravity = s->gravity;
-  f->hold_directors = s->directors_now;
-  f->hold_normals = s->normals_now;
-  f->hold_turns = s->turns;
-  sw_body_begin(b);
-  if (b->has_twist || b->spin_block) sw_system_measure(s, b);
-  SW_TRY(eval_terms(b, err));
-  const double *dead = s->dead ? s->dead + 3 * b->first_node : NULL;
-  for (size_t i = 0; dead && i < 3 * b->plan->nodes; i++) f->force[i] += dead[i];
-  return SW_OK;
 }
 
 static double inertia_of(const sw_stage *stage) {
@@ -169,18 +87,6 @@ static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative)
   return SW_OK;
 }
 
-static void take_out_held(sw_system *s, const sw_body *b) {
-  double *right = s->delta + 3 * b->first_node;
-  for (size_t k = b->held; k; k = s->held[k - 1].next) {
-    sw_held_node *h = &s->held[k - 1];
-    if (h->rail) sw_rail_take(&s->rails[h->rail - 1], b, h->node - b->first_node);
-    if (b->plan->web)
-      sw_web_hold(h, b, right);
-    else
-      hold_row(h, b->field.rows, b->plan->nodes, h->node - b->first_node, right);
-  }
-}
-
 static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                                     sw_stage_report *report, sw_error *err) {
   const int statics = newton->statics;
@@ -203,7 +109,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     sw_gather_residual(f, rate2, f->x, s->yhat + at, s->delta + at);
     if (f->plan->web && !s->goes_on) sw_web_gather(&s->bodies[b]);
   }
-  for (size_t b = s->part; b < s->part_end; b++) take_out_held(s, &s->bodies[b]);
+  for (size_t b = s->part; b < s->part_end; b++) sw_held_take_out(s, &s->bodies[b]);
   if (statics) sw_lead_rows(s, stage->y);
   report->negative = 0;
   if (sw_interrupted()) return SW_EINTR;
@@ -302,106 +208,6 @@ static void apply(sw_system *s, const sw_stage *stage, double share) {
   sw_rails_apply(s, stage, share);
 }
 
-static double largest_shift(const sw_system *s) {
-  double largest = 0;
-  const size_t end = 3 * sw_part_node(s, s->part_end);
-  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
-    largest = fmax(largest, fabs(s->delta[i]));
-  return largest;
-}
-
-/* A force without stiffness is at its fixed point, one with jumps of its stiffness
- * on the right side of them, when nodes move less than
- * this share of the wire in an iteration [-]. */
-static const double FIXED_POINT = 1e-9;
-
-/* Rounding in the solve: a shift delta is known to eps (ka/kb) delta along stiff
- * edges, ka and kb being an edge's stiffness along and across, which makes an
- * error of ka times that in its axial force. */
-static const double ROUNDING = 2.3e-16; /* [-] */
-/* Accepted error of an axial force, of the wire's weight or bending force [-]. */
-static const double FORCE_NOISE = 1e-3;
-
-/* Largest shift with which the axial forces of a body can still be trusted [m]. */
-static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, int statics) {
-  const sw_plan *p = b->plan;
-  const double L = p->length, l = L / (double)p->edges;
-  const double ka = b->EA / l;
-  const double inertia = statics || !isfinite(hbar) ? 0.0 : p->beam.mass * l / (hbar * hbar);
-  const double kb = 12.0 * p->beam.EI / (l * l * l) + inertia;
-  const double force = fmax(p->beam.mass * L * sw_norm(sw_load(s->gravity)), p->beam.EI / (L * L));
-  return FORCE_NOISE * force * kb / (ROUNDING * ka * ka);
-}
-
-static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
-  const double shift = largest_shift(s);
-  for (size_t b = s->part; b < s->part_end; b++) {
-    const sw_body *body = &s->bodies[b];
-    if (body->plan->web) continue; /* its springs are no chain that adds rounding up */
-    const double trusted = trusted_shift(s, body, stage->hbar, statics);
-    if (trusted < body->plan->length && trusted > 0 && shift > trusted) return 1;
-  }
-  return 0;
-}
-
-/* Error of a bending moment that is left to an update, of the wire's weight, or of what accelerates
- * it, times its length [-]; rounding is no error [-]. */
-static const double MOMENT_NOISE = 1e-4, LEAST_UPDATE = 1e-5;
-
-static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stage) {
-  double largest2 = 0;
-  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++) {
-    const sw_vec off = sw_sub(sw_load(stage->y + 3 * i), sw_load(s->yhat + 3 * i));
-    largest2 = fmax(largest2, sw_norm2(off));
-  }
-  return sqrt(largest2) * mass_rate(stage);
-}
-
-/* An update by the share u of an edge, along it or across, leaves a hinge's moment wrong by about
- * EI u^2 / l, dashpots included: it is linear in the update, the edges are not. Of soft wires the
- * limit of rotation sees to that; of stiff ones that are turned fast it was a thousand times the
- * moment of inertia.
- */
-static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton) {
-  for (size_t k = s->part; k < s->part_end && !newton->statics; k++) {
-    const sw_body *b = &s->bodies[k];
-    const sw_plan *p = b->plan;
-    const double stiff = p->beam.EI + b->viscosity / stage->hbar;
-    const double hinge = stiff * (double)p->edges / p->length;
-    const double arm = MOMENT_NOISE * p->beam.mass * p->length * p->length;
-    const double weight = arm * sw_norm(sw_load(s->gravity)), u = newton->accept_rotation;
-    double largest = 0;
-    if (p->web || hinge * u * u <= weight) continue;
-    for (size_t e = 0; e < p->edges; e++) {
-      const double *d = s->delta + 3 * (b->first_node + e), r = b->field.reciprocal[e];
-      largest = fmax(largest, sw_norm2(sw_sub(sw_load(d + 3), sw_load(d))) * r * r);
-    }
-    if (stiff * largest <= p->beam.EI * LEAST_UPDATE * LEAST_UPDATE || hinge * largest <= weight)
-      continue;
-    if (hinge * largest > weight + arm * fastest(s, b, stage)) return 1;
-  }
-  return 0;
-}
-
-static int converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
-                     const sw_stage_report *report, double share) {
-  if (share < 1.0) return 0;
-  /* contact is told of rough updates too: the next iteration goes on from what it finds */
-  s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation ||
-             bends_roughly(s, stage, newton);
-  const int settled =
-      !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
-  if (!settled || s->rough) return 0;
-  if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
-  if (!sw_rails_settled(s)) return 0;
-  if (drowned_in_rounding(s, stage, newton->statics)) return 0;
-  for (size_t b = s->part; b < s->part_end; b++)
-    if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
-        largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
-      return 0;
-  return 1;
-}
-
 static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_error *err) {
   const double h = statics ? 0.0 : stage->hbar;
   sw_parts_begin(s);
@@ -447,13 +253,7 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   else
     for (size_t i = 0; i < s->freedoms; i++) stage->v[i] = (stage->y[i] - stage->xhat[i]) * rate;
   SW_ITEMS(sw_held_node, h, s->held, s->held_count) {
-    const sw_body *b = &s->bodies[h->body];
-    if (b->plan->web)
-      h->reaction = sw_web_reaction(h, b, s->delta + 3 * b->first_node);
-    else
-      update_reaction(h, b, s->delta);
-    if (s->bodies[h->body].has_twist) sw_twist_react(h, &s->bodies[h->body]);
-    if (s->bodies[h->body].spin_block) sw_spin_react(h, &s->bodies[h->body]);
+    sw_held_react(s, h);
     sw_system_held_velocity(s, h, stage->v + 3 * h->node);
   }
   sw_bridges_react(s);
@@ -501,7 +301,8 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     if (is_thrown(s, newton, shortened))
       return sw_fail(err, SW_ENOCONV, "wires of a bundle would be thrown about");
     apply(s, stage, share);
-    if (converged(s, stage, newton, report, share)) return SW_OK;
+    if (share < 1.0) continue;
+    if (sw_stage_converged(s, stage, newton, report, mass_rate(stage))) return SW_OK;
   }
   return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", report->iterations);
 }
@@ -546,47 +347,4 @@ sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *
   const sw_status status = solve(s, stage, newton, report, err);
   sw_strain_end_stage(s);
   return status;
-}
-
-sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const double *v,
-                                 double *a, sw_error *err) {
-  if (sw_interrupted()) return SW_EINTR;
-  SW_TRY(sw_system_place_holds(s, t, NULL, NULL, a, err));
-  SW_ITEMS(sw_body, body, s->bodies, s->body_count) {
-    sw_field *f = &body->field;
-    f->want = SW_WANT_FORCE;
-    f->time = t;
-    f->velocity_rate = 0;
-    f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
-    f->clamp_past = f->clamp_rate = NULL;
-    f->gravity = s->gravity;
-    f->hold_directors = s->directors_now;
-    f->hold_normals = s->normals_now;
-    f->hold_turns = s->turns;
-    f->x = x + 3 * body->first_node;
-    f->v = v + 3 * body->first_node;
-    sw_field_clear(f);
-    sw_field_geometry(f);
-    if (body->has_twist || body->spin_block) sw_system_measure(s, body);
-    SW_TRY(eval_terms(body, err));
-  }
-  if (s->coupling.eval)
-    SW_TRY(s->coupling.eval(s->coupling.user, s, t, HUGE_VAL, x, SW_WANT_FORCE, err));
-  SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
-    const sw_field *f = &body->field;
-    for (size_t i = 0; i < body->plan->nodes; i++)
-      for (size_t k = 0; k < 3; k++) {
-        const double force = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
-        s->delta[3 * (body->first_node + i) + k] = force;
-        if (body->plan->held[i] == SW_FREE)
-          a[3 * (body->first_node + i) + k] = force / body->plan->lumped[i];
-      }
-  }
-  SW_ITEMS(sw_held_node, h, s->held, s->held_count) {
-    const sw_body *body = &s->bodies[h->body];
-    const double m = body->plan->lumped[h->node - body->first_node];
-    h->reaction = sw_sub(sw_scale(sw_load(a + 3 * h->node), m), sw_load(s->delta + 3 * h->node));
-  }
-  s->counters.evaluations++;
-  return SW_OK;
 }

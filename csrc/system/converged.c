@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Is a stage's iterate good enough? */
+#include "system/converged.h"
+
+#include <math.h>
+
+#include "system/factors.h"
+#include "system/part.h"
+#include "system/rail.h"
+
+static double largest_shift(const sw_system *s) {
+  double largest = 0;
+  const size_t end = 3 * sw_part_node(s, s->part_end);
+  for (size_t i = 3 * sw_part_node(s, s->part); i < end; i++)
+    largest = fmax(largest, fabs(s->delta[i]));
+  return largest;
+}
+
+/* A force without stiffness is at its fixed point, one with jumps of its stiffness
+ * on the right side of them, when nodes move less than
+ * this share of the wire in an iteration [-]. */
+static const double FIXED_POINT = 1e-9;
+
+/* Rounding in the solve: a shift delta is known to eps (ka/kb) delta along stiff
+ * edges, ka and kb being an edge's stiffness along and across, which makes an
+ * error of ka times that in its axial force. */
+static const double ROUNDING = 2.3e-16; /* [-] */
+/* Accepted error of an axial force, of the wire's weight or bending force [-]. */
+static const double FORCE_NOISE = 1e-3;
+
+/* Largest shift with which the axial forces of a body can still be trusted [m]. */
+static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, int statics) {
+  const sw_plan *p = b->plan;
+  const double L = p->length, l = L / (double)p->edges;
+  const double ka = b->EA / l;
+  const double inertia = statics || !isfinite(hbar) ? 0.0 : p->beam.mass * l / (hbar * hbar);
+  const double kb = 12.0 * p->beam.EI / (l * l * l) + inertia;
+  const double force = fmax(p->beam.mass * L * sw_norm(sw_load(s->gravity)), p->beam.EI / (L * L));
+  return FORCE_NOISE * force * kb / (ROUNDING * ka * ka);
+}
+
+static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
+  const double shift = largest_shift(s);
+  for (size_t b = s->part; b < s->part_end; b++) {
+    const sw_body *body = &s->bodies[b];
+    if (body->plan->web) continue; /* its springs are no chain that adds rounding up */
+    const double trusted = trusted_shift(s, body, stage->hbar, statics);
+    if (trusted < body->plan->length && trusted > 0 && shift > trusted) return 1;
+  }
+  return 0;
+}
+
+/* Error of a bending moment that is left to an update, of the wire's weight, or of what accelerates
+ * it, times its length [-]; rounding is no error [-]. */
+static const double MOMENT_NOISE = 1e-4, LEAST_UPDATE = 1e-5;
+
+static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stage, double rate2) {
+  double largest2 = 0;
+  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++) {
+    const sw_vec off = sw_sub(sw_load(stage->y + 3 * i), sw_load(s->yhat + 3 * i));
+    largest2 = fmax(largest2, sw_norm2(off));
+  }
+  return sqrt(largest2) * rate2;
+}
+
+/* An update by the share u of an edge, along it or across, leaves a hinge's moment wrong by about
+ * EI u^2 / l, dashpots included: it is linear in the update, the edges are not. Of soft wires the
+ * limit of rotation sees to that; of stiff ones that are turned fast it was a thousand times the
+ * moment of inertia.
+ */
+static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                         double rate2) {
+  for (size_t k = s->part; k < s->part_end && !newton->statics; k++) {
+    const sw_body *b = &s->bodies[k];
+    const sw_plan *p = b->plan;
+    const double stiff = p->beam.EI + b->viscosity / stage->hbar;
+    const double hinge = stiff * (double)p->edges / p->length;
+    const double arm = MOMENT_NOISE * p->beam.mass * p->length * p->length;
+    const double weight = arm * sw_norm(sw_load(s->gravity)), u = newton->accept_rotation;
+    double largest = 0;
+    if (p->web || hinge * u * u <= weight) continue;
+    for (size_t e = 0; e < p->edges; e++) {
+      const double *d = s->delta + 3 * (b->first_node + e), r = b->field.reciprocal[e];
+      largest = fmax(largest, sw_norm2(sw_sub(sw_load(d + 3), sw_load(d))) * r * r);
+    }
+    if (stiff * largest <= p->beam.EI * LEAST_UPDATE * LEAST_UPDATE || hinge * largest <= weight)
+      continue;
+    if (hinge * largest > weight + arm * fastest(s, b, stage, rate2)) return 1;
+  }
+  return 0;
+}
+
+int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
+                       const sw_stage_report *report, double rate2) {
+  /* contact is told of rough updates too: the next iteration goes on from what it finds */
+  s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation ||
+             bends_roughly(s, stage, newton, rate2);
+  const int settled =
+      !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
+  if (!settled || s->rough) return 0;
+  if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
+  if (!sw_rails_settled(s)) return 0;
+  if (drowned_in_rounding(s, stage, newton->statics)) return 0;
+  for (size_t b = s->part; b < s->part_end; b++)
+    if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&
+        largest_shift(s) > FIXED_POINT * s->bodies[b].plan->length)
+      return 0;
+  return 1;
+}
