@@ -20,7 +20,7 @@ local function lay(share)
     hand:move { by = { -0.05, 0.15, -0.1 }, duration = 16,
       turn = { axis = { 0, 0, 1 }, angle = math.pi / 2 } }
   end)
-  return scene:run { progress = false,
+  return scene:run { progress = false, levels = 6,
     tolerance = { ["hand.peak_force"] = { relative = share }, min_bend_radius = { relative = share } } }
 end
 

@@ -2,7 +2,6 @@
 -- Asking for error bars: names, answers, refusals, and a scene that is never left half done.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
-local trust = require "softworld.run.trust"
 local program = require "spec.host.program"
 local t = require "spec.physics.tools"
 local core = sw.core
@@ -505,65 +504,6 @@ describe("asking for error bars wrongly", function()
     local r = t.fine(scene:run{ duration = 0.05, tolerance = 1e-5 })
     assert.is_nil(r.quantities)
     assert.is_true(scene:settle{ tolerance = 1e-8 }.ok)
-  end)
-end)
-
-describe("the estimate", function()
-  local plain, smooth = { plain = true }, {}
-
-  it("is within 1.5 of a second-order error, and covers a first-order one", function()
-    for _, order in ipairs{ 1, 2 } do
-      for n = 3, 6 do
-        local values = {}
-        for k = 1, n do values[k] = 5 + 2 ^ (-order * k) end
-        local bar = trust.estimate(smooth, values, false)
-        t.near(1.5, bar / (values[n] - 5), 0.01, "bar over error")
-      end
-    end
-    t.near(1.5, trust.estimate(smooth, { 5.25, 5.0625 }, false) / 0.0625, 0.01, "two levels")
-    t.near(1.5, trust.estimate(plain, { 5.25, 5.125 }, false) / 0.125, 0.01, "two levels, first order")
-  end)
-
-  it("is no less than all of what vanishes", function()
-    local depth = { plain = true, row = true, vanishes = true }
-    assert.equal(2e-6, trust.estimate(depth, { 3e-6, 2.1e-6, 2e-6 }, true))
-    assert.equal(2e-6, trust.estimate(depth, { 2e-6, 2e-6 }, true))
-    assert.is_near(6e-5, trust.estimate(depth, { 1e-6, 2e-6, 12e-6 }, true), 1e-12) -- its change is larger
-    assert.equal(0, trust.estimate(depth, { 0, 0, 0 }, true))
-  end)
-
-  it("does not trust a small last change", function()
-    for _, last in ipairs{ 0, 1e-9, -1e-9 } do
-      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, false) > 0.1)
-      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, true) > 0.15)
-    end
-  end)
-
-  it("takes what jumps about for what it is", function()
-    local values = { 1, 1.1, 1.6, 1.65 }
-    assert.is_true(trust.estimate(plain, values, true) >= 0.5)
-    assert.is_true(trust.estimate(smooth, { 1, 1.2, 1.1 }, false) >= 0.1)
-    assert.is_true(trust.estimate(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
-  end)
-
-  -- Sidewall pressure of a blow in a first pass of levels; on finer ones it went on to 8 and 12.
-  it("leaves a verdict room where three levels tell of changes that grow, or hardly shrink", function()
-    for _, values in ipairs{ { 1.346, 1.476, 1.968 }, { 3.365, 5.241, 7.042 } } do
-      local last = values[3] - values[2]
-      for _, contact in ipairs{ false, true } do
-        assert.is_near(6 * last, trust.estimate({ row = true, plain = true }, values, contact), 1e-12)
-      end
-    end
-    local halved = { 1, 1.5, 1.75 } -- as much again is to come
-    assert.is_near(1.5 * 0.25, trust.estimate({ row = true, plain = true }, halved, true), 1e-12)
-  end)
-
-  it("has no bar for a single level, and none of nothing", function()
-    assert.are.equal(math.huge, (trust.estimate(smooth, { 1 }, false)))
-    assert.is_true(trust.estimate(smooth, { 1, 1, 1 }, false) > 0)
-    local straight = { math.huge, math.huge, math.huge } -- its bend radius
-    assert.are.equal(0, (trust.estimate(smooth, straight, false)))
-    assert.are.equal(math.huge, (trust.estimate(smooth, { 1, 2, math.huge }, false)))
   end)
 end)
 

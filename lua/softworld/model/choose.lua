@@ -31,11 +31,12 @@ local LONGEST = 300 -- that a level is expected to take [s]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 -- Do the values of k levels already have the bars that are asked for?
-local function suffices(job, k, contact)
+local function suffices(job, k, known)
   if k < decide.levels then return false end
   for _, q in ipairs(job.quantities) do
     local values = job.values[q.name]
-    if trust.estimate(q, values, contact) > q.aim(quantity.asked(q, values[k])) then return false end
+    local bar = trust.estimate(q, values, known.contact, known.moves)
+    if bar > q.aim(quantity.asked(q, values[k])) then return false end
   end
   return true
 end
@@ -89,7 +90,8 @@ local function refined(context)
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
     for name, values in pairs(job.values) do values[k] = known.values[name] or NONE end
-    if suffices(job, k, known.contact) then -- the scene is to end there
+    job.moves = known.moves
+    if suffices(job, k, known) then -- the scene is to end there
       kept = probe.as_it_ended(context, decide.rungs(context), k)
       break
     end
@@ -161,7 +163,8 @@ local function shorter(context, result)
     if state.choice.steady and state.by == "failed" then return false end -- not met in any case
   end
   for _, q in ipairs(result:error_bars()) do
-    local hopeless = q.error > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
+    local least = context.job.read[q.name].least -- coarse levels of a motion make a bar longer
+    local hopeless = least > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
     for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
       local depends = state.by == "free" and state.choice.name == "motion"
         or state.by == "compared" and (state.change[q.name] or 0) > 0

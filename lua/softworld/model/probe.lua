@@ -157,6 +157,7 @@ local function compute(context, rungs, k, factors)
   end
   result.work = run.iterations * nodes_of(scene)
   result.facts, result.contact = probe.facts(context, run), trust.touches(scene)
+  result.moves = job.moves
   result.values = {}
   for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
   context.iterations = run.iterations / 2 ^ (k - 1)

@@ -135,6 +135,7 @@ function refine.computer(job, steps, run_once, total)
   local scene = job.scene
   return function(k, name)
     local options = steps(k)
+    job.moves = not options.quasistatic
     job.unmade = job.shape and job.shape(k)
     process.renew(scene, {}) -- settling is not for them
     local rests = job.rests and not options.quasistatic and not job.unmade
