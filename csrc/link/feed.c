@@ -233,7 +233,12 @@ static double drive(const sw_hold *h, const sw_link_wire *w, const double *x) {
 
 static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, const double *x) {
   const feed_now now = feed_at(h, t);
-  return (sw_hold_way){now.fed, now.speed, x ? drive(h, w, x) : h->feed.guide.drive};
+  const sw_slip *slip = &h->feed.slip;
+  const double u = t - slip->since;
+  return (sw_hold_way){.way = now.fed,
+                       .speed = now.speed,
+                       .force = x ? drive(h, w, x) : h->feed.guide.drive,
+                       .slipped = slip->length + (slip->speed + 0.5 * slip->growth * u) * u};
 }
 
 static sw_guide *guide(sw_hold *h) { return &h->feed.guide; }

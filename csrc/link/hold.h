@@ -90,6 +90,7 @@ typedef struct sw_hold {
 typedef struct sw_hold_way {
   double way, speed; /* [m], [m/s] */
   double force;      /* that moves the wire along it [N] */
+  double slipped;    /* of the way, what was not asked for [m] */
 } sw_hold_way;
 
 /* What a user may ask of a hold at any time. */

@@ -29,8 +29,8 @@ typedef struct sw_ledger {
   double gap;                    /* from nowhere [J] */
   double gained;                 /* sum of what steps gained beyond the work [J] */
   double most_gained, most_time; /* by one step, and when [J], [s] */
-  double play;         /* energy that was in play: largest kinetic energy, work, energy released;
-                          at least the wires' weight times their radius [J] */
+  double play;         /* energy that was in play: largest kinetic energy, work, that of slipping
+                          feeds too, energy released; at least the wires' weight times their radius [J] */
   sw_retries redone;   /* steps redone with implicit Euler */
   sw_retries halved;   /* and then halved */
   sw_retries accepted; /* and accepted, because they could not be smaller */

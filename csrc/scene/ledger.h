@@ -13,6 +13,7 @@ typedef struct sw_worker {
   sw_pose pose;         /* of a hold, at the step's start */
   sw_vec force, moment; /* on wires, about that place or, of obstacles, the origin [N], [N m] */
   double fed, drive;    /* of a feed: length paid out, force [m], [N] */
+  double slipped;       /* beyond what was asked for [m] */
 } sw_worker;
 
 /* What a step does, as far as is known. */
@@ -21,7 +22,8 @@ typedef struct sw_step_energy {
   double contact;                         /* stored in touches then [J] */
   sw_powers powers;                       /* at its end */
   double holds, obstacles, feeds, forces; /* work [J] */
-  double let_in; /* the part of the feeds' that is the height of wire from spools [J] */
+  double slipping; /* force of slipping feeds times the way that they slip, in size [J] */
+  double let_in;   /* the part of the feeds' that is the height of wire from spools [J] */
   double damping, friction, impact; /* lost [J] */
   double gain;    /* beyond the most that outer work may have been; below 0: a loss [J] */
   double work;    /* in size, all kinds added up [J] */
