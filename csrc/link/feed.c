@@ -69,14 +69,20 @@ typedef struct feed_now {
   double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
 } feed_now;
 
+/* Length that has slipped, beyond what was asked for [m]. */
+static double slipped(const sw_slip *slip, double t) {
+  const double u = t - slip->since;
+  return slip->length + (slip->speed + 0.5 * slip->growth * u) * u;
+}
+
 static feed_now feed_at(const sw_hold *h, double t) {
   const sw_feed *f = &h->feed;
   const sw_slip *slip = &f->slip;
   const double u = t - slip->since;
-  feed_now now = {.fed = f->fed + slip->length,
+  feed_now now = {.fed = f->fed + slipped(slip, t),
                   .speed = f->speed + slip->speed + slip->growth * u,
                   .acceleration = slip->growth};
-  now.fed += f->speed * (t - f->since) + (slip->speed + 0.5 * slip->growth * u) * u;
+  now.fed += f->speed * (t - f->since);
   if (f->motion) {
     sw_motion_state m;
     sw_error ignored; /* a motion between two points calls no function */
@@ -149,7 +155,7 @@ static void taken(sw_slip *slip) {
 static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_slip *slip = &h->feed.slip;
   const double u = w->time - slip->since;
-  slip->length += (slip->speed + 0.5 * slip->growth * u) * u;
+  slip->length = slipped(slip, w->time);
   /* where the wire gives way as little as at a wall, its speed would swing about the right one */
   const int swings = slip->way != 0 && slip->growth * slip->growth_before < 0;
   slip->speed += (swings ? 0.5 : 1.0) * slip->growth * u;
@@ -233,12 +239,10 @@ static double drive(const sw_hold *h, const sw_link_wire *w, const double *x) {
 
 static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, const double *x) {
   const feed_now now = feed_at(h, t);
-  const sw_slip *slip = &h->feed.slip;
-  const double u = t - slip->since;
   return (sw_hold_way){.way = now.fed,
                        .speed = now.speed,
                        .force = x ? drive(h, w, x) : h->feed.guide.drive,
-                       .slipped = slip->length + (slip->speed + 0.5 * slip->growth * u) * u};
+                       .slipped = slipped(&h->feed.slip, t)};
 }
 
 static sw_guide *guide(sw_hold *h) { return &h->feed.guide; }

@@ -215,8 +215,8 @@ static sw_status transient(sw_statics *p, sw_error *err) {
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the
- * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too, and
- * so is the count of unstable directions, which of an iteration that fails is that of some place. */
+ * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too,
+ * and so is the count of unstable directions: an iteration that fails ends anywhere. */
 static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
   const size_t negative = p->report->negative;
   sw_error why = {"out of memory"};

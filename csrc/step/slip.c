@@ -37,8 +37,9 @@ static int begin(sw_scene *s, double step) {
     sw_slip *f = slip_of(h);
     if (!f) continue;
     any = 1;
-    f->growth = f->growth_before,
-    f->way = f->way_before; /* a step that was undone may have others */
+    /* a step that was undone may have left others */
+    f->growth = f->growth_before;
+    f->way = f->way_before;
     if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without */
   }
   return any;
