@@ -74,6 +74,8 @@ rows.later(sw, "softworld.run.plot", "plot")
 rows.later(sw, "softworld.study.study", "study")
 rows.later(sw, "softworld.calibration.calibration", "calibration")
 rows.later(sw, "softworld.check.compare", "compare")
+rows.told("softworld.calls.scene softworld.calls.wire softworld.calls.obstacle softworld.calls.hold "
+  .. "softworld.calls.trajectory") -- of what the core makes
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end

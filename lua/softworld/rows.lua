@@ -164,6 +164,11 @@ function rows.later(class, module, names)
   end
 end
 
+--- Modules of rows alone, of what the core gives its objects.
+function rows.told(modules)
+  for module in modules:gmatch "%S+" do late[#late + 1] = module end
+end
+
 --- Read these modules, which have rows too: for help, completion and checks. They may tell of more.
 function rows.load()
   local i = 1

@@ -74,6 +74,12 @@ local function sorted_names(set)
   return list
 end
 
+local function named(list, name)
+  for _, entry in ipairs(list) do
+    if entry.name == name then return entry end
+  end
+end
+
 local function names_of(list)
   local names = {}
   for i, entry in ipairs(list) do names[i] = entry.name end
@@ -131,7 +137,8 @@ local function member(family, entry)
     part.lines[1] = ("wire:%s(%s)   [%s]"):format(entry.name, entry.at_place and "s" or "", entry.unit)
   elseif family[1] ~= "model" then
     part.rows = entry.params or {}
-    part.after = entry.sample and not entry.listed and "such as " .. entry.sample or nil
+    part.after = entry.sample and not entry.listed and "such as " .. entry.sample
+      or family[1] == "hold" and entry.name ~= "clamp" and "what it has: help 'clamp'" or nil
   end
   return part
 end
@@ -172,7 +179,7 @@ local function call_part(call)
   return part
 end
 
-local SHORT = 24 -- results that are told beside what they are of [characters]
+local WIDE = 110 -- longest line of what is made in Lua [characters]
 
 -- The width of a column for these texts: of the longest one, between two bounds.
 local function column(list, least, most, of)
@@ -183,12 +190,13 @@ end
 
 -- What an object of a class does: a line for each method and field.
 local function class_part(class)
-  local part = { title = ("what a %s has"):format(class), lines = {} }
+  local part = { title = ("what %s %s has"):format(class:find "^[aeiou]" and "an" or "a", class), lines = {} }
   local function short(call) return (signature(call):gsub("^%w+", "", 1)) end
   local shape = ("%%-%ds %%s%%s"):format(column(rows.classes[class], 20, 32, short))
   for i, call in ipairs(rows.classes[class]) do
-    part.lines[i] = shape:format(short(call), call.doc,
-      call.gives and #call.gives < SHORT and not call.gives:find "^the " and " -> " .. call.gives or "")
+    local gives = call.gives and not call.gives:find "^the " and " -> " .. call.gives or ""
+    local line = shape:format(short(call), call.doc, gives)
+    part.lines[i] = #line <= WIDE and line or shape:format(short(call), call.doc, "")
   end
   return part
 end
@@ -198,22 +206,24 @@ end
 local function add_calls(topic, parts)
   local made = rows.all["scene:" .. topic]
   if rows.all[topic] then parts[#parts + 1] = call_part(rows.all[topic]) end
-  if made then parts[#parts + 1] = call_part(made) end
-  local is_class = rows.classes[topic] and topic ~= "scene"
+  if made and not (parts[1] and #made.rows == 0) then parts[#parts + 1] = call_part(made) end
+  local is_class = rows.classes[topic]
   if is_class then parts[#parts + 1] = class_part(topic) end
   if not is_class and (parts[1] or manual.has(topic) or plural[topic]) then return end
   for _, class in ipairs(sorted_names(rows.classes)) do
     for _, call in ipairs(rows.classes[class]) do
-      if call ~= made and call.name:match "[:.](.*)$" == topic then parts[#parts + 1] = call_part(call) end
+      if call ~= made and call.name:match "[:.](.*)$" == topic and (not is_class or call.rows[1]) then
+        parts[#parts + 1] = call_part(call)
+      end
     end
   end
 end
 
--- Classes of objects made in Lua.
+-- Classes of objects that are told of nowhere else.
 local function object_names()
   local names = sorted_names(rows.classes)
   for i = #names, 1, -1 do
-    if names[i] == "scene" then table.remove(names, i) end
+    if registered().params[names[i]] or named(registered().holds, names[i]) then table.remove(names, i) end
   end
   return names
 end
@@ -266,9 +276,9 @@ local function part_text(part)
   return table.concat(lines, "\n")
 end
 
---- What an object of a class made in Lua has, as text; nil for other classes.
+--- What an object of a class has, as text; nil for classes without rows.
 function topics.object(class)
-  return rows.classes[class] and class ~= "scene" and part_text(class_part(class)) or nil
+  return rows.classes[class] and part_text(class_part(class)) or nil
 end
 
 --- Names of all members and tables of rows, in groups: a title and a list.

@@ -1,0 +1,51 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What a scene has: rows of the methods and fields that the core gives it. What makes things has its own
+-- parameters besides, see help 'wire', 'obstacle', 'clamp', ...
+-- @module softworld.calls.scene
+local rows = require "softworld.rows"
+
+rows.calls{
+  { "scene.name", nil, "name in messages and files", "text" },
+  { "scene.time", nil, "of its present state", "s" },
+  -- what it is made of
+  { "scene:wire", "{...}", "a wire, a cable or a tube", "a wire" },
+  { "scene:obstacle", "{...}", "a rigid body, fixed or moving", "an obstacle" },
+  { "scene:force", "{...}", "acts on wires: damping, wind, a spring, a function of your own", "a force" },
+  { "scene:clamp", "wire, { s = }", "holds place and direction", "a clamp" },
+  { "scene:pin", "wire, { s = }", "holds place only", "a clamp" },
+  { "scene:grip", "wire, { s = }", "holds place and direction over a length", "a clamp" },
+  { "scene:feed", "wire, { s = }", "holds while wire slides through", "a clamp" },
+  { "scene:slider", "wire, { s =, direction = }", "a place that keeps on a rail", "a clamp" },
+  { "scene:join", "{ ends = {...} }", "wires fixed to each other", "a join" },
+  { "scene:particles", "{...}", "any object made of particles", "an object" },
+  { "scene:hold", "object, { particles = {...} }", "holds particles", "a clamp" },
+  { "scene:wire_contact", "{...}", "which wires touch each other, and how" },
+  { "scene:gravity", "g", "the present one, or sets it", "{x, y, z} [m/s2]" },
+  { "scene:find", "name", "what has this name", "a wire, an obstacle, ..." },
+  { "scene:names", "", "that scene:find knows", "a list" },
+  -- what it does
+  { "scene:run", "{ duration =, dt =, ... }", "computes the motion, see help 'results'", "a run" },
+  { "scene:settle", "{ tolerance = }", "looks for the equilibrium", "{ ok, iterations, residual [N], ... }" },
+  { "scene:snapshot", "", "its state, to go back to", "a snapshot" },
+  { "scene:restore", "snapshot", "goes back to it, with the same bits" },
+  { "scene:save", "file", "writes all of it; sw.load reads it" },
+  { "scene:resume", "file", "goes on from a file that a run of the same script saved",
+    "true, or false: no such file" },
+  { "scene:close", "", "gives its memory back" },
+  -- what it tells
+  { "scene:energy", "", "kinetic, gravity, stored by kind, and their total, now", "a table [J]" },
+  { "scene:evaluate", "wire, {...}", "energy and force of each kind of force on a wire; changes nothing",
+    "{ kind = { energy [J], force [N], product [N], count } }" },
+  { "scene:penetration", "", "how deep a wire was in an obstacle at most",
+    "depth [m], s [m], t [s], now [m]" },
+  { "scene:contacts", "", "touches of wires and obstacles, now", "count" },
+  { "scene:touches", "", "where wires touch each other, now",
+    "a list of { wires, s [m], point [m], normal, force, friction, normal_force [N] }" },
+  { "scene:events", "", "what happened in the run", "a list, and how many there was no room for" },
+  { "scene:tell", "{ kind =, text =, object =, s =, value = }", "adds an event of your own" },
+  { "scene:stable_dt", "", "longest step of explicit methods", "s" },
+  -- what players draw
+  { "scene:frame_count", "", "frames that the run kept", "count" },
+  { "scene:frame", "i", "one of them: places of all that is drawn", "a table" },
+  { "scene:clear_frames", "", "forgets them" },
+}

@@ -1,0 +1,35 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- What trajectories and shapes have: rows of what the core gives them.
+-- @module softworld.calls.trajectory
+local rows = require "softworld.rows"
+
+rows.calls{
+  { "trajectory:position", "t", "at that time", "{x, y, z} [m]" },
+  { "trajectory:rotation", "t", "at that time", "{w, x, y, z}" },
+  { "trajectory:velocity", "t", "at that time", "{x, y, z} [m/s]" },
+  { "trajectory:acceleration", "t", "at that time", "{x, y, z} [m/s2]" },
+  { "trajectory:angular_velocity", "t", "at that time", "{x, y, z} [rad/s]" },
+  { "trajectory:angular_acceleration", "t", "at that time", "{x, y, z} [rad/s2]" },
+  { "trajectory:starts", "", "when it begins to move", "s" },
+  { "trajectory:ends", "", "when it has arrived", "s" },
+  { "trajectory:duration", "", "of its motion", "s" },
+  { "trajectory:length", "", "of its path", "m" },
+  { "trajectory:law", "", "how progress grows", "text" },
+  { "trajectory:relative", "", "whether its points are displacements", "true or false" },
+  { "trajectory:placed", "position, rotation", "the same as a displacement of that pose", "a trajectory" },
+  { "trajectory:delayed", "seconds", "the same, later", "a trajectory" },
+  { "trajectory:sample", "n, from, to", "states at n even times",
+    "flat lists by name: t [s], position [m], ..." },
+  { "trajectory:save", "file, n", "writes n samples, 201 by default, as CSV" },
+  { "trajectory:close", "", "gives its memory back" },
+
+  { "shape:kind", "", "what it is", "text" },
+  { "shape:distance", "point, reach", "of a point from its surface, below 0 inside",
+    "gap [m], normal, nearest place [m], feature; or nothing" },
+  { "shape:segment", "a, b, reach", "where a segment is near it, nearest first", "a list" },
+  { "shape:sweep", "a0, b0, a1, b1, margin", "does a segment that moves meet it?",
+    "share of the way, touch; or nil" },
+  { "shape:bounds", "", "of the box around it", "lowest, highest corner [m]" },
+  { "shape:triangles", "around", "of its surface, for pictures", "flat vertices [m], indices from 1" },
+  { "shape:close", "", "gives its memory back" },
+}
