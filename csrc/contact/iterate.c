@@ -46,6 +46,47 @@ static int is_marked(const sw_touch *t, const sw_mark *m) {
          sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
 }
 
+/* Where a wire bends round a pad by the least bit, its node and both segments beside touch it at
+ * one place, where before it was the node alone. Touches whose stiffness is given would press three
+ * times as hard, and the pads would hop. So a segment's touch within this share of its end leaves
+ * its stiffness to the node, all of it at the end; further off the node has none. Half and twice as
+ * much hold the same grips [-]. */
+static const double SHARED = 0.25;
+static const double LEAST_SHARE = 1e-3; /* of its stiffness that a touch keeps [-] */
+
+/* How near a segment's touch is to the node: 1 at it, 0 from there on [-]. */
+static double nearness(const sw_touch *segment, size_t node) {
+  const double away = segment->node == node ? segment->at : 1.0 - segment->at;
+  return fmax(0.0, 1.0 - away / SHARED);
+}
+
+/* The nearest touch of a segment to this touch of its node, or of its nodes to this of a segment;
+ * 0: there is none beside [-]. */
+static double nearest_beside(const sw_contact *c, const sw_touch *t, int *any) {
+  double nearest = 0;
+  *any = 0;
+  for (int by = -1; by <= 1; by += 2)
+    for (const sw_touch *n = t + by; n >= c->touches && n < c->touches + c->touch_count; n += by) {
+      if (n->body != t->body || n->node + 1 < t->node || n->node > t->node + 1) break;
+      const sw_touch *segment = t->segment ? t : n, *node = t->segment ? n : t;
+      const int beside = node->node == segment->node || node->node == segment->node + 1;
+      if (n->segment == t->segment || n->obstacle != t->obstacle || n->sharp || !beside) continue;
+      nearest = fmax(nearest, nearness(segment, node->node));
+      *any = 1;
+    }
+  return nearest;
+}
+
+static void share(const sw_contact *c, const sw_system *s, sw_touch *t) {
+  const sw_candidate *k = &c->candidates[t->candidate];
+  int any;
+  if (!k->given || k->samples || t->sharp) return;
+  const double near = nearest_beside(c, t, &any);
+  if (!any) return;
+  t->stiffer = fmax(LEAST_SHARE, t->segment ? 1.0 - near : near) * k->usual;
+  t->press.k = c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer;
+}
+
 /* Find the touches of an iterate; want: and add their forces, unless it is 0. */
 static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned want, sw_error *err) {
   sw_glance at;
@@ -53,7 +94,10 @@ static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned wan
   if (status != SW_OK) return sw_fail(err, status, "contact: %s", sw_status_text(status));
   for (size_t done = c->parts.touch, found; at.next < at.end;) {
     SW_TRY(sw_contact_look_on(c, s, y, &at, &found, err));
-    for (; want && done < found; done++) apply(c, s, &c->touches[done], want);
+    for (; done < found; done++) {
+      share(c, s, &c->touches[done]);
+      if (want) apply(c, s, &c->touches[done], want);
+    }
   }
   return SW_OK;
 }

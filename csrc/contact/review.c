@@ -106,6 +106,66 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
   return 0;
 }
 
+/* A wire that pads or friction hold may not leave them sideways in one step, further than this
+ * share of its radius: a step begins with free flight, by which a wire may have fallen out from
+ * between pads before any touch is found. A fourth to twice as much ends the same grips [-]. */
+static const double AT_ONCE = 0.5;
+/* What it weighs by itself may leave so: held is a touch that presses harder than this many times
+ * its node's share of that. Half and twice as much hold the same grips [-]. */
+static const double HELD = 2.0;
+/* A wire that is lifted off goes along the normal; sideways it goes this many times as far [-]. */
+static const double ASLANT = 10.0;
+
+static int is_pressed_still(const sw_contact *c, const sw_memory *m) {
+  for (size_t i = 0; i < c->touch_count; i++) {
+    const sw_touch *t = &c->touches[i];
+    const size_t apart = t->node > m->node ? t->node - m->node : m->node - t->node;
+    if (apart <= 1 && t->press.normal_force > 0 && c->obstacles[t->obstacle].id == m->obstacle)
+      return 1;
+  }
+  return 0;
+}
+
+/* Direction of the wire at its node, in the axes of the obstacle. */
+static sw_vec tangent_at(const sw_contact *c, const sw_body *b, size_t o, const double *x1,
+                         size_t node) {
+  const size_t first = node + 1 < b->first_node + b->plan->nodes ? node : node - 1;
+  const sw_vec t = sw_sub(sw_vec_at(x1, first + 1), sw_vec_at(x1, first));
+  return sw_unit_or(sw_rotate(sw_quat_conj(c->now[o].pose.q), t), sw_v(1, 0, 0));
+}
+
+/* What slides already may go on along itself. */
+static int went_sideways(const sw_contact *c, const sw_body *b, const sw_memory *m,
+                         const double *x1) {
+  const size_t o = sw_contact_index(c, m->obstacle);
+  if (o == c->count) return 0;
+  const sw_vec at = sw_contact_where(c, x1, m->node, m->node + (m->segment != 0), m->at);
+  sw_vec way = sw_sub(sw_pose_local(c->now[o].pose, at), m->seen);
+  const double along = sw_dot(way, m->normal);
+  way = sw_madd(way, m->normal, -along);
+  if (m->kept.sliding) {
+    const sw_vec t = tangent_at(c, b, o, x1, m->node);
+    way = sw_madd(way, t, -sw_dot(way, t));
+  }
+  const double aside = sw_norm(way);
+  return aside > AT_ONCE * b->plan->beam.radius && aside > ASLANT * along;
+}
+
+/* Does a wire that was held get free in a way that only a long step has? */
+static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, double h) {
+  const sw_body *b = s->bodies;
+  if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
+  for (size_t i = 0; i < c->memory_count; i++) { /* in the order of nodes */
+    const sw_memory *m = &c->memory[i];
+    while (m->node >= b->first_node + b->plan->nodes) b++;
+    if (b->plan->web) continue;
+    const double usual = sw_contact_usual_force(s, b->plan) / (double)b->plan->nodes;
+    if (!(m->kept.normal_force > HELD * usual)) continue;
+    if (went_sideways(c, b, m, x1) && !is_pressed_still(c, m)) return 1;
+  }
+  return 0;
+}
+
 sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *x1,
                                      const double *v1, double h, int dull) {
   sw_error err;
@@ -127,7 +187,7 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
   if (c->soonest < h) return SW_CONTACT_SOONER;
   if (crossed || struck || hasty) return SW_CONTACT_REDO;
   if (bounces(c, s, v1)) return SW_CONTACT_STRIKE;
-  const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h);
+  const int smaller = bars_too_hard(c, s, h) || cuts_deep(c, s, x1, h) || slips_off(c, s, x1, h);
   return smaller ? SW_CONTACT_SMALLER : SW_CONTACT_ACCEPT;
 }
 

@@ -121,6 +121,13 @@ static double guess_beyond(const sw_jaw *j, double off) {
   return speed_to(j, fmax(0.0, j->opening + j->speed * j->step + way));
 }
 
+/* 1: it is as far on that side as it can be. */
+static int go_beyond(sw_jaw *j, double off) {
+  const double before = j->speed;
+  j->speed = guess_beyond(j, off);
+  return j->speed == before;
+}
+
 /* The next speed to try. Returns 1 when both sides are one place: the force jumps there. */
 static int improve(sw_jaw *j, double off, int rests) {
   sw_bracket *b = &j->found;
@@ -128,12 +135,12 @@ static int improve(sw_jaw *j, double off, int rests) {
   if (j->guessed && off > 0 && j->trials > 2) b->off[0] = NAN; /* a wrong guess */
   if (!(off > 0) || j->trials > 2) j->guessed = 0;
   const int side = sw_bracket_add(b, j->speed, off);
-  if (!sw_bracket_closed(b)) {
-    const double before = j->speed;
-    j->speed = guess_beyond(j, off);
-    return j->speed == before;
-  }
+  if (!sw_bracket_closed(b)) return go_beyond(j, off);
   const double gap = -sw_bracket_width(b);
+  if (j->guessed && gap * j->step < TELLS) {
+    b->off[0] = NAN, j->guessed = 0; /* wrong, by a wire that moves */
+    return go_beyond(j, off);
+  }
   if (gap * j->step < (rests ? TELLS : SAME_OPENING)) return 1;
   const int tells = gap * j->step > TELLS && (!rests || j->trials <= BEFORE_JUMPS);
   if (j->trials > 1 && tells) j->stiffness = (b->off[1] - b->off[0]) / (gap * j->step);

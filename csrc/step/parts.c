@@ -99,7 +99,7 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   p->cuts += k->cut;
   if (!k->cut) sw_blow_refused(p->s, k->part);
   sw_restart_refused(p, k->cut);
-  if (k->doubted > 0) { /* it went well */
+  if (k->doubted > 0 && !k->cut) { /* it went well */
     k->rough = 1, k->cut = 0;
     k->part = k->doubted, k->doubted = 0;
     return SW_OK;
