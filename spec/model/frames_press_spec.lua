@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What stored frames tell of how lines are pressed (core.frames_press), by which a run chooses meshes: against
--- weight, pads and T/R, wherever nodes are and however the scene is turned.
+-- What stored frames tell of how lines are pressed (core.frames_press), by which a run chooses meshes:
+-- against weight, pads and T/R, wherever nodes are and however the scene is turned.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
