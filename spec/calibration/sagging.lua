@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Shapes of hanging wires and how near values are, for specs of sw.calibration.
+-- Shapes of hanging wires, for specs of sw.calibration.
 -- Heavy inextensible elastica with level clamps, half of the span: s / L, x / L, z / L. Boundary-value
 -- solver, error 1e-9.
 local SHAPES = {

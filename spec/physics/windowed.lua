@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps of an even force and a rod, for specs of windows.
+-- Steps of given lengths with their forces, for specs of windows.
 package.path = "./?.lua;" .. package.path
 
 -- Steps of these lengths, one after another, with the force of f at each one's middle.
