@@ -1,139 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The house rules (see "Rooms" below) and the outside checkers.
+-- Checks the house rules (scripts/house_rules.lua), and runs the outside checkers.
 --   lua5.4 scripts/lint.lua [--only CHECK,CHECK] [tree]
 -- Checks: layout spdx includes circles calls headers length luacheck tidy. A finding is "file:line: what is
 -- wrong; what to do". Exit status 0 when there is none; long files that are no
 -- headers only get a warning.
 
--- Rooms ----------------------------------------------------------------------
--- A file in csrc/<room> may include its own room's headers and those of the rooms in its row, and call
--- their functions; nothing else from csrc. Rows are complete: nothing is inherited.
-local ROOMS = {
-  base = {},
-  motion = { "base" },
-  shape = { "base" },
-  state = { "base" },
-  wire = { "base", "state" },
-  force = { "base", "state" },
-  solve = { "base" }, -- matrices only
-  system = { "base", "state", "solve", "force" }, -- it evaluates the wires' forces
-  modal = { "base", "system" },
-  integrate = { "base", "system" }, -- a system, never a force or a wire
-  contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
-  link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
-  calibrate = { "base", "wire", "force" },
-  record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
-  strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
-  -- The rooms of a scene. Its lists, and what is in them:
-  scene = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
-    "record", "strand" },
-  -- all as one system of bodies, lines and webs, and back
-  body = { "base", "state", "force", "system", "integrate", "contact", "link", "strand", "scene" },
-  -- grippers
-  grip = { "base", "motion", "shape", "state", "wire", "solve", "system", "contact", "link", "strand",
-    "scene", "body" },
-  -- wires, holds, obstacles, forces: made, changed, taken away
-  edit = { "base", "motion", "shape", "state", "wire", "force", "system", "contact", "calibrate", "link",
-    "record", "strand", "scene", "body", "grip" },
-  -- what may be asked of the state
-  read = { "base", "state", "force", "system", "modal", "contact", "link", "record", "strand", "scene",
-    "body", "grip" },
-  -- what is kept and told of every accepted state
-  watch = { "base", "shape", "state", "system", "modal", "contact", "link", "record", "strand", "scene",
-    "body", "grip", "edit", "read" },
-  -- the scene as a whole: its life, snapshots, files
-  save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
-    "record", "strand", "scene", "body", "grip", "edit", "read", "watch" },
-  -- another model for a wire, back to a snapshot where that fails
-  remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
-    "grip", "edit", "read", "save" },
-  -- what makes it go on
-  step = { "base", "motion", "state", "force", "system", "integrate", "contact", "link", "scene",
-    "body", "grip", "edit", "read", "watch" },
-  film = { "base", "read" },
-  view = { "base" }, -- bytes for pages; never a scene
-  draw = { "base", "film" }, -- of film: bytes made few
-  bind = {}, -- the core through softworld.h
-  probe = { "bind", "solve", "link", "scene", "body", "watch" }, -- of specs and benches; not installed
-  host = { "bind" },
-}
-
--- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
--- state and solve have no single header: their parts have different users.
-local OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "mutual.h", "tally.h" },
-  film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
-  read = { "frames.h" },
-  force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
-  state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
-    "state_tape.h", "tie.h", "web.h" },
-  solve = { "band3.h", "band4.h", "blocks.h", "dense.h", "rotation.h", "sparse.h" },
-  system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
-
--- The rooms of a scene: each sees the headers of those in its row, which are private to everybody else.
-local INSIDE = { "record", "strand", "scene", "body", "grip", "edit", "read", "watch", "save",
-  "remodel", "step", "probe" }
-
--- Headers that show a whole object's inside, and how many files may include them at most; others take
--- what they need from narrow headers (scene/parts.h, scene/lookup.h).
-local MOST_INCLUDERS = { ["scene/world.h"] = 11 }
-
--- May include softworld.h.
-local USES_CORE = { bind = true, host = true }
-
--- One file per member (X(name) in the room's list.def): members do not include one another.
-local FAMILIES = { wire = true, force = true, shape = true, integrate = true, link = true }
-
--- Outside headers and the only files that may include them (patterns on the path in csrc).
-local OUTSIDE = {
-  { "^lua%.h$", "^bind/", "^host/", "^probe/" },
-  { "^lauxlib%.h$", "^bind/", "^host/", "^probe/" },
-  { "^lualib%.h$", "^host/" },
-  { "^gsl/", "_gsl%.c$" },
-  { "^nlopt%.h$", "^calibrate/search_nlopt%.c$" },
-  { "^ccd/", "^shape/ccd_adapter%.c$" },
-  { "^assimp/", "^shape/mesh_assimp%.c$" },
-  { "^libqhull", "^shape/hull_qhull%.c$" },
-  { "^suitesparse/amd", "^solve/order_amd%.c$" },
-  { "^suitesparse/", "^solve/cholmod_adapter%.c$" },
-  { "^cholmod", "^solve/cholmod_adapter%.c$" },
-  { "^readline/", "^host/" },
-  { "^zlib%.h$", "^film/pack_zlib%.c$" },
-  { "^civetweb%.h$", "^view/%w+_civetweb%.c$" },
-}
-
--- Words a file outside csrc/host may not use, with what to do instead.
-local CALLS = {}
-for word in ([[fopen freopen fdopen tmpfile popen open openat creat printf vprintf fprintf
-    vfprintf dprintf puts fputs putchar fputc putc fwrite perror unlink remove rename]]):gmatch "%S+" do
-  CALLS[word] = "the core opens no file and prints nothing; write through a sink or return a status"
-end
-for word in ("exit _exit abort system"):gmatch "%S+" do
-  CALLS[word] = "the core never ends or leaves the process; return an sw_status"
-end
-for word in ("malloc calloc realloc aligned_alloc strdup"):gmatch "%S+" do
-  CALLS[word] = "use sw_alloc (base/alloc.h), so that specs can make it fail"
-end
-for word in ("fork vfork execv execve execvp execl execlp posix_spawn kill waitpid"):gmatch "%S+" do
-  CALLS[word] = "only bind/process.c starts a process, for mesh_child.c and bind_worker.c; see there"
-end
-local CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true, calloc = true },
-  -- a child process reads mesh files: it has its own standard files, and leaves by _exit
-  ["bind/mesh_child.c"] = { kill = true, waitpid = true, _exit = true, malloc = true },
-  ["bind/process.c"] = { fork = true, open = true, _exit = true },
-  -- workers of a study
-  ["bind/bind_worker.c"] = { kill = true, waitpid = true, _exit = true },
-  -- temporary files of the Lua library, which itself has no locks and no fsync
-  ["bind/bind_files.c"] = { open = true, openat = true } }
-
--- Most files in a circle of files that need one another (scripts/circles.lua).
-local MOST_IN_CIRCLE = 3
-
--- What the top level may hold, besides dot-files and what make and the examples leave there.
-local TOP = "Makefile csrc lua scripts spec examples README.md"
-
-local LICENCE = "SPDX-License-Identifier: GPL-3.0-or-later"
-local LONGEST = 600 -- lines; longer files are hard to find one's way in
-local LONGEST_HEADER = 250 -- lines; who includes a longer one knows more than they need
+local here = arg[0]:match "^(.*)/" or "."
+local rules = dofile(here .. "/house_rules.lua")
 
 -- Tools ----------------------------------------------------------------------
 
@@ -214,9 +87,9 @@ local check = {}
 
 function check.layout()
   for entry in output_of("ls"):gmatch "[^\n]+" do
-    if not (" " .. TOP .. " build out "):find(" " .. entry .. " ", 1, true)
+    if not (" " .. rules.TOP .. " build out "):find(" " .. entry .. " ", 1, true)
       and not entry:find "^build%-" then
-      finding(entry, 1, "does not belong on the top level (%s)", TOP)
+      finding(entry, 1, "does not belong on the top level (%s)", rules.TOP)
     end
   end
 end
@@ -227,8 +100,8 @@ function check.spdx()
   for _, file in ipairs(all) do
     local first, second = table.unpack(lines_of(file))
     local line = first and first:sub(1, 2) == "#!" and second or first
-    if not (line or ""):find(LICENCE, 1, true) then
-      finding(file, 1, "no licence line; begin the file with a comment \"%s\"", LICENCE)
+    if not (line or ""):find(rules.LICENCE, 1, true) then
+      finding(file, 1, "no licence line; begin the file with a comment \"%s\"", rules.LICENCE)
     end
   end
 end
@@ -250,7 +123,7 @@ local function members_of(room)
   return set
 end
 
-local inside = set_of(INSIDE)
+local inside = set_of(rules.INSIDE)
 
 -- A header of csrc, as seen from file (csrc/room/stem.ext).
 local function check_own_include(file, number, room, stem, included, members)
@@ -259,25 +132,25 @@ local function check_own_include(file, number, room, stem, included, members)
   if included:find "%.c$" then
     say("%s is included; share code through a header", included)
   elseif included == "softworld.h" then
-    if not USES_CORE[room] then
+    if not rules.USES_CORE[room] then
       say("%s includes softworld.h; include the headers of the rooms it needs", room)
     end
   elseif not other then
     say("\"%s\" names no room; write \"room/%s\"", included, included)
   elseif other == room then
     local base = name:match "^(.*)%.h$"
-    if FAMILIES[room] and base and members[room][base] and base ~= stem then
+    if rules.FAMILIES[room] and base and members[room][base] and base ~= stem then
       say("member %s includes member %s of %s; what both need belongs into %s/%s.h or a helper file",
         stem, base, room, room, room)
     end
-  elseif not ROOMS[other] then
-    say("%s is no room of csrc (rooms are listed in scripts/lint.lua)", other)
-  elseif USES_CORE[room] and other ~= "bind" then
+  elseif not rules.ROOMS[other] then
+    say("%s is no room of csrc (rooms are listed in scripts/house_rules.lua)", other)
+  elseif rules.USES_CORE[room] and other ~= "bind" then
     say("%s includes %s; it sees the core through softworld.h only", room, included)
-  elseif not set_of(ROOMS[room])[other] then
+  elseif not set_of(rules.ROOMS[room])[other] then
     say("%s may not include %s (it may: %s); move the code or pass the data in", room, included,
-      #ROOMS[room] > 0 and table.concat(ROOMS[room], " ") or "nothing else")
-  elseif not (OPEN[other] == true or name == other .. ".h" or set_of(OPEN[other] or {})[name]
+      #rules.ROOMS[room] > 0 and table.concat(rules.ROOMS[room], " ") or "nothing else")
+  elseif not (rules.OPEN[other] == true or name == other .. ".h" or set_of(rules.OPEN[other] or {})[name]
       or inside[room] and inside[other]) then
     say("%s is private to %s; use %s/%s.h", included, other, other, other)
   end
@@ -304,7 +177,7 @@ local function circle_of_rooms(rooms)
 end
 
 local function outside_rule(included)
-  for _, rule in ipairs(OUTSIDE) do
+  for _, rule in ipairs(rules.OUTSIDE) do
     if included:find(rule[1]) then return rule end
   end
 end
@@ -321,23 +194,25 @@ end
 
 function check.includes()
   local members, includers = {}, {}
-  local circle = circle_of_rooms(ROOMS)
-  if circle then finding("scripts/lint.lua", 1, "rooms include one another in a circle: %s", circle) end
-  for room in pairs(FAMILIES) do members[room] = members_of(room) end
+  local circle = circle_of_rooms(rules.ROOMS)
+  if circle then
+    finding("scripts/house_rules.lua", 1, "rooms include one another in a circle: %s", circle)
+  end
+  for room in pairs(rules.FAMILIES) do members[room] = members_of(room) end
   for _, file in ipairs(files("csrc", "*.c", "*.h", "*.def")) do
     local path = file:match "^csrc/(.*)$"
     local room, stem = path:match "^([%w_]+)/(.*)%.%w+$"
-    if room and not ROOMS[room] then
-      finding(file, 1, "csrc/%s is no room; add it to ROOMS in scripts/lint.lua", room)
+    if room and not rules.ROOMS[room] then
+      finding(file, 1, "csrc/%s is no room; add it to ROOMS in scripts/house_rules.lua", room)
       room = nil
     end
     for number, line in ipairs(lines_of(file)) do
       local bracket, included = line:match "^%s*#%s*include%s*([<\"])([^>\"]+)[>\"]"
       if included then
         includers[included] = (includers[included] or 0) + 1
-        if includers[included] - 1 == MOST_INCLUDERS[included] then
+        if includers[included] - 1 == rules.MOST_INCLUDERS[included] then
           finding(file, number, "%s has more than %d includers; take what is needed from a narrow header",
-            included, MOST_INCLUDERS[included])
+            included, rules.MOST_INCLUDERS[included])
         end
         local own = bracket == '"' and not outside_rule(included)
         if not own then check_outside_include(file, number, path, included)
@@ -357,7 +232,8 @@ local function check_room_calls(needs)
     local own = file:match "^csrc/([%w_]+)/"
     for other, name in pairs(others) do
       local room = other:match "^csrc/([%w_]+)/"
-      if ROOMS[own] and not USES_CORE[own] and room ~= own and not set_of(ROOMS[own])[room] then
+      local known = rules.ROOMS[own] and not rules.USES_CORE[own] and room ~= own
+      if known and not set_of(rules.ROOMS[own])[room] then
         list[#list + 1] = { file, name, other }
       end
     end
@@ -374,13 +250,12 @@ function check.circles()
   for _, file in ipairs(files("csrc", "*.c")) do
     codes[file] = "\n" .. table.concat(lines_of(file), "\n")
   end
-  local here = (arg[0]:match "^(.*)/" or ".")
   local found, needs = dofile(here .. "/circles.lua").find(codes)
   check_room_calls(needs)
   for _, circle in ipairs(found) do
-    if #circle > MOST_IN_CIRCLE then
+    if #circle > rules.MOST_IN_CIRCLE then
       finding(circle[1], 1, "is in a circle of %d files (%d at most) that need one another: %s; "
-        .. "move what all of them need into a file that needs none", #circle, MOST_IN_CIRCLE,
+        .. "move what all of them need into a file that needs none", #circle, rules.MOST_IN_CIRCLE,
         table.concat(circle, " "))
     end
   end
@@ -390,17 +265,17 @@ function check.calls()
   for _, file in ipairs(files("csrc", "*.c", "*.h")) do
     local path = file:match "^csrc/(.*)$"
     if not path:find "^host/" then
-      local allowed, number = CALLS_ALLOWED[path] or {}, 0
+      local allowed, number = rules.CALLS_ALLOWED[path] or {}, 0
       for line in (bare_code(table.concat(lines_of(file), "\n")) .. "\n"):gmatch "([^\n]*)\n" do
         number = number + 1
         for before, word in line:gmatch "(.?)%f[%w_]([%a_][%w_]*)%s*%(" do
           -- x->open(...) and x.open(...) are members of our own structs.
-          if CALLS[word] and not allowed[word] and not before:find "[.>]" then
-            finding(file, number, "calls %s; %s", word, CALLS[word])
+          if rules.CALLS[word] and not allowed[word] and not before:find "[.>]" then
+            finding(file, number, "calls %s; %s", word, rules.CALLS[word])
           end
         end
         for word in line:gmatch "%f[%w_](std[oe][ur][tr])%f[^%w_]" do
-          finding(file, number, "uses %s; %s", word, CALLS.printf)
+          finding(file, number, "uses %s; %s", word, rules.CALLS.printf)
         end
       end
     end
@@ -422,12 +297,13 @@ end
 function check.length()
   for _, file in ipairs(files("csrc lua scripts spec examples", "*.c", "*.h", "*.lua", "*.sh")) do
     local count = #lines_of(file)
-    if count > LONGEST then
-      print(("%s:%d: warning: %d lines; look for a part that can stand alone"):format(file, LONGEST, count))
+    if count > rules.LONGEST then
+      print(("%s:%d: warning: %d lines; look for a part that can stand alone"):format(file,
+        rules.LONGEST, count))
     end
-    if file:find "%.h$" and count > LONGEST_HEADER then
-      finding(file, LONGEST_HEADER, "has %d lines, %d at most; split it by what one includes it for", count,
-        LONGEST_HEADER)
+    if file:find "%.h$" and count > rules.LONGEST_HEADER then
+      finding(file, rules.LONGEST_HEADER, "has %d lines, %d at most; split it by what one includes it for",
+        count, rules.LONGEST_HEADER)
     end
   end
 end

@@ -45,128 +45,7 @@ local host = os.getenv "SOFTWORLD_BIN"
   or (program:match "softworld$" and program:find "/" and program)
   or root .. "/build/softworld"
 host = absolute(host)
-
--- Records --------------------------------------------------------------------
--- A child reports through a file, a line per event with fields between tabs, written at once
--- so that they outlive a crash. Without the last one, "end", the file did not finish.
-
-local escapes = { ["\\"] = "\\\\", ["\n"] = "\\n", ["\t"] = "\\t", ["\r"] = "\\r" }
-local function escape(text) return (tostring(text):gsub("[\\\n\t\r]", escapes)) end
-local function unescape(text)
-  return (text:gsub("\\(.)", function(c) return ({ n = "\n", t = "\t", r = "\r" })[c] or c end))
-end
-
--- Child: one spec file -------------------------------------------------------
-
-local function run_child(file, sink, name, list)
-  local write, flush = sink.write, sink.flush -- a spec may replace io's functions
-  local function record(...)
-    local fields = table.pack(...)
-    for i = 1, fields.n do fields[i] = escape(fields[i]) end
-    write(sink, table.concat(fields, "\t"), "\n")
-    flush(sink)
-  end
-
-  local places = "%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;%s/scripts/?.lua;"
-  package.path = places:gsub("%%s", (root:gsub("%%", "%%%%"))) .. package.path
-  -- beside the host: softworld.probe, and of stock Lua the core
-  package.cpath = host:match "^(.*)/" .. "/lib/?.so;" .. package.cpath
-  rawset(_G, "arg", { [0] = file })
-
-  local busted = require "busted.core"()
-  require "busted"(busted)
-
-  local function full_name(element)
-    local names = {}
-    while element and element.descriptor and element.descriptor ~= "file" do
-      table.insert(names, 1, tostring(element.name or element.descriptor))
-      element = busted.context.parent(element)
-    end
-    return table.concat(names, " ")
-  end
-  local function line_of(trace)
-    return trace and trace.currentline and trace.currentline > 0 and trace.currentline or "?"
-  end
-  local function place(element) return file .. ":" .. line_of(element.trace) end
-
-  local function message_of(element, message, trace)
-    message = type(message) == "string" and message or "no message"
-    -- The line of the test itself, when the message names one of a helper or of other code.
-    local outermost
-    for at in (trace and trace.traceback or ""):gmatch("\n%s*(" .. file:gsub("%p", "%%%0") .. ":%d+): in ") do
-      outermost = at
-    end
-    if outermost and not message:find(outermost .. ":", 1, true) then
-      message = message .. "\n(called from " .. outermost .. ")"
-    end
-    return place(element), full_name(element), message
-  end
-
-  -- Selection happens when a test registers itself.
-  local first = { priority = 1 }
-  for _, descriptor in ipairs { "it", "pending" } do
-    busted.subscribe({ "register", descriptor }, function(test_name, _, trace)
-      local parents = full_name(busted.context.get())
-      local whole = (parents == "" and "" or parents .. " ") .. tostring(test_name or descriptor)
-      local wanted = not name or whole:find(name, 1, true) ~= nil
-      if list and wanted then record("test", file .. ":" .. line_of(trace), whole) end
-      return nil, wanted and not list
-    end, first)
-  end
-  if list then
-    for _, descriptor in ipairs { "setup", "teardown", "strict_setup", "strict_teardown",
-      "lazy_setup", "lazy_teardown", "before_each", "after_each" } do
-      busted.subscribe({ "register", descriptor }, function() return nil, false end, first)
-    end
-  end
-
-  local messages = {} -- of the running test
-  busted.subscribe({ "test", "start" }, function(element)
-    messages = {}
-    record("start", place(element), full_name(element))
-    return nil, true
-  end)
-  busted.subscribe({ "test", "end" }, function(element, _, status)
-    local seconds = ("%.6f"):format(element.duration or 0)
-    if status == "success" then
-      record("pass", place(element), full_name(element), seconds)
-    else
-      local why = table.concat(messages, "\n")
-      if status == "pending" then why = "pending: not run, so not passed. " .. why end
-      record("fail", place(element), full_name(element), why, seconds)
-    end
-    messages = {}
-    return nil, true
-  end)
-  local function problem(element, _, message, trace)
-    local where, whole, why = message_of(element, message, trace)
-    if element.descriptor == "it" then
-      messages[#messages + 1] = why -- recorded with the test's end
-    else
-      record("fail", where, whole, ("error in %s: %s"):format(element.descriptor or "?", why), 0)
-    end
-    return nil, true
-  end
-  for _, event in ipairs { "failure", "error", "pending" } do
-    busted.subscribe({ event }, problem)
-  end
-
-  local chunk, err = loadfile(file)
-  if chunk then
-    local function trace_of(_, info)
-      info.traceback = info.traceback:match "^(.-)\n%s*%[C%]" or info.traceback
-      return info
-    end
-    busted.executors.file(file, setmetatable({ getTrace = trace_of }, { __call = chunk }))
-    require "busted.execute"(busted)(1, {})
-  else
-    record("fail", file, "(loading)", err, 0)
-  end
-  record "end"
-  -- Specs judge runs by their own means: those that failed unseen are nobody else's concern.
-  local unread = package.loaded["softworld.unread"]
-  if unread then unread.finish() end
-end
+local child = dofile(root .. "/scripts/spec_child.lua")
 
 -- Parent ---------------------------------------------------------------------
 
@@ -255,13 +134,13 @@ end
 -- Run all files, some at a time. xargs keeps the processes busy; a line "index status seconds"
 -- arrives as each ends. done(i, status, seconds) is called in the order of the files.
 local function run_files(files, o, folder, done)
-  local child = table.concat({ quote(program), quote(this), "--records",
+  local words = table.concat({ quote(program), quote(this), "--records",
     quote(folder) .. "/$1.records", o.list and "--list" or "",
     o.name and "--name " .. quote(o.name) or "", "--child \"$2\"" }, " ")
   -- --foreground: Ctrl-C must reach the child. -k: a child may ignore the first signal.
   local one = ([[s=$(date +%%s.%%N)
 timeout --foreground -k 10 %d %s >%s/$1.log 2>&1 </dev/null
-echo "$1 $? $s $(date +%%s.%%N)"]]):format(o.timeout, child, quote(folder))
+echo "$1 $? $s $(date +%%s.%%N)"]]):format(o.timeout, words, quote(folder))
   local queue = assert(io.open(folder .. "/queue", "w"))
   for i, file in ipairs(files) do queue:write(i, "\0", file, "\0") end
   queue:close()
@@ -308,7 +187,7 @@ local function result_of(path, file, status, o)
   end
   for line in read_all(path):gmatch "([^\n]*)\n" do
     local f = {}
-    for field in (line .. "\t"):gmatch "([^\t]*)\t" do f[#f + 1] = unescape(field) end
+    for field in (line .. "\t"):gmatch "([^\t]*)\t" do f[#f + 1] = child.unescape(field) end
     local kind, where, name = f[1], f[2], f[3]
     if kind == "start" then running = { where = where, name = name }
     elseif kind == "pass" then
@@ -405,7 +284,7 @@ local o = options_of(arg)
 assert(lfs.chdir(root))
 if o.child then
   local sink = o.records and assert(io.open(o.records, "w")) or io.stdout
-  run_child(o.child, sink, o.name, o.list)
+  child.run(o.child, sink, o.name, o.list, root, host)
   if o.records then sink:close() end
 else
   os.exit(run_all(o), true)

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lua class scene: making, running, settling, snapshots, frames. */
-#include <string.h>
+/* Lua class scene: making, snapshots, what it has. */
 #include <time.h>
 
-#include "bind/bind_motion.h"
 #include "bind/child.h"
 
 lsw_handle *lsw_new_scene(lua_State *L) {
@@ -103,35 +101,6 @@ static int mod_nearest(lua_State *L) {
   return 1;
 }
 
-/* Raise unless the table holds valid run parameters. */
-static int mod_check_run(lua_State *L) {
-  sw_run_args args;
-  lsw_arguments(L, 1, "scene:run", &sw_run_params, &args);
-  return 0;
-}
-
-/* Raise unless the table holds valid parameters of scene:settle. */
-static int mod_check_settle(lua_State *L) {
-  sw_settle_args args;
-  lsw_arguments(L, 1, "scene:settle", &sw_settle_params, &args);
-  return 0;
-}
-
-/* core.begin_run(scene[, wear]): extremes start anew; is the wear of wires to be kept? */
-static int mod_begin_run(lua_State *L) {
-  LSW_DO(L, sw_scene_begin_run, lsw_check_scene(L), lua_toboolean(L, 2));
-  return 0;
-}
-
-/* core.window(scene or obstacle) -> that of the scene's last run [s]. */
-static int mod_window(lua_State *L) {
-  const int obstacle = lsw_test(L, 1, &lsw_class_obstacle) != NULL;
-  const sw_scene *scene =
-      obstacle ? lsw_check_self(L, &lsw_class_obstacle).scene : lsw_check_scene(L);
-  lua_pushnumber(L, sw_scene_window(scene));
-  return 1;
-}
-
 /* core.remesh(scene, { segments of each wire }) */
 static int mod_remesh(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
@@ -182,96 +151,6 @@ static int mod_segments(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   LSW_DO(L, sw_scene_wire_segments, w.scene, w.id, &n);
   lua_pushinteger(L, (lua_Integer)n);
-  return 1;
-}
-
-/* --- running ------------------------------------------------------------------- */
-
-/* Of an observer: where the function is on the stack. */
-typedef struct watcher {
-  lua_State *L;
-  int function;
-} watcher;
-
-/* Runs protected: the function, the observer -> stop, next time, next time on the clock. */
-static int call_observer(lua_State *L) {
-  sw_observer *o = lua_touserdata(L, 2);
-  lua_pushvalue(L, 1);
-  lua_call(L, 0, 3);
-  o->stop = lua_toboolean(L, -3);
-  o->at = luaL_checknumber(L, -2);
-  o->wall = luaL_checknumber(L, -1);
-  return 0;
-}
-
-static sw_status look(sw_observer *o, sw_error *err) {
-  const watcher *w = o->user;
-  if (!lua_checkstack(w->L, 8)) return sw_fail(err, SW_ENOMEM, "observer: out of stack");
-  lua_pushcfunction(w->L, call_observer);
-  lua_pushvalue(w->L, w->function);
-  lua_pushlightuserdata(w->L, o);
-  if (lua_pcall(w->L, 2, 0, 0) == LUA_OK) return SW_OK;
-  return lsw_motion_keep_error(w->L, err);
-}
-
-/* scene:advance({...}, until[, look, at, wall]) -> report. The clock's exact end is `until` [s].
- * look() is called at the first step's end from time at on, or once core.clock() has come to wall;
- * returns stop, and the next at and wall [s]. */
-static int meth_advance(lua_State *L) {
-  sw_scene *scene = lsw_check_scene(L);
-  sw_run_args args;
-  sw_run_report r;
-  sw_error err = {""};
-  lsw_arguments(L, 2, "scene:run", &sw_run_params, &args);
-  const double until = lsw_number(L, 3, "scene:advance: until", "s");
-  watcher w = {L, 4};
-  sw_observer o = {.look = look, .user = &w};
-  const int watched = lua_isfunction(L, 4);
-  if (watched) o.at = luaL_checknumber(L, 5), o.wall = luaL_checknumber(L, 6);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status =
-      sw_scene_advance(scene, &args, until, sw_interrupted, watched ? &o : NULL, &r, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
-  if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM ||
-      r.status == SW_EEMPTY)
-    lsw_must(L, r.status, &r.reason);
-  lua_createtable(L, 0, 9);
-  lsw_set_flag(L, "ok", r.status == SW_OK);
-  lsw_set_text(L, "reason", r.reason.text);
-  lsw_set_number(L, "time", r.time);
-  lsw_set_integer(L, "steps", r.steps);
-  lsw_set_integer(L, "rejected", r.rejected);
-  lsw_set_integer(L, "iterations", r.iterations);
-  lsw_set_integer(L, "evaluations", r.evaluations);
-  lsw_set_integer(L, "solves", r.solves);
-  lsw_set_integer(L, "looks", r.looks);
-  lsw_set_number(L, "smallest_dt", r.smallest_dt);
-  lsw_set_integer(L, "jumps", r.jumps);
-  if (r.jumps) lsw_set_number(L, "last_jump", r.last_jump);
-  return 1;
-}
-
-/* scene:settle{ tolerance =, max_iterations = } -> result */
-static int meth_settle(lua_State *L) {
-  sw_scene *scene = lsw_check_scene(L);
-  sw_settle_args args;
-  sw_settle_report r;
-  sw_error err = {""};
-  lsw_arguments(L, 2, "scene:settle", &sw_settle_params, &args);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_settle(scene, &args, sw_interrupted, &r, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
-  if (sw_interrupted()) lsw_must(L, SW_EINTR, &err);
-  lua_createtable(L, 0, 6);
-  lsw_set_flag(L, "ok", r.ok);
-  lsw_set_text(L, "reason", r.ok ? "at rest" : r.reason.text);
-  lsw_set_integer(L, "iterations", r.iterations);
-  lsw_set_number(L, "residual", r.residual);
-  lsw_set_integer(L, "unstable", r.negative);
-  lsw_set_flag(L, "transient", r.transient);
-  lsw_set_flag(L, "jumped", r.jumped);
   return 1;
 }
 
@@ -357,8 +236,8 @@ static const luaL_Reg methods[] = {{"wire", lsw_scene_wire},
                                    {"obstacle", lsw_scene_obstacle},
                                    {"tool", lsw_scene_tool},
                                    {"force", lsw_scene_force},
-                                   {"advance", meth_advance},
-                                   {"settle", meth_settle},
+                                   {"advance", lsw_scene_advance},
+                                   {"settle", lsw_scene_settle},
                                    {"energy", meth_energy},
                                    {"evaluate", lsw_scene_evaluate},
                                    {"wire_contact", lsw_scene_wire_contact},
@@ -396,21 +275,10 @@ const lsw_class lsw_class_snapshot = {.name = "snapshot",
                                       .gone = "the snapshot has been closed",
                                       .busy = snapshot_busy};
 
-const luaL_Reg lsw_module_scene[] = {{"scene", mod_scene},
-                                     {"data", mod_data},
-                                     {"type", mod_type},
-                                     {"busy", mod_busy},
-                                     {"exists", mod_exists},
-                                     {"interrupted", mod_interrupted},
-                                     {"clock", mod_clock},
-                                     {"sleep", mod_sleep},
-                                     {"nearest", mod_nearest},
-                                     {"check_run", mod_check_run},
-                                     {"check_settle", mod_check_settle},
-                                     {"begin_run", mod_begin_run},
-                                     {"window", mod_window},
-                                     {"remesh", mod_remesh},
-                                     {"redraw", mod_redraw},
-                                     {"came_from", mod_came_from},
-                                     {"segments", mod_segments},
-                                     {NULL, NULL}};
+const luaL_Reg lsw_module_scene[] = {{"scene", mod_scene},       {"data", mod_data},
+                                     {"type", mod_type},         {"busy", mod_busy},
+                                     {"exists", mod_exists},     {"interrupted", mod_interrupted},
+                                     {"clock", mod_clock},       {"sleep", mod_sleep},
+                                     {"nearest", mod_nearest},   {"remesh", mod_remesh},
+                                     {"redraw", mod_redraw},     {"came_from", mod_came_from},
+                                     {"segments", mod_segments}, {NULL, NULL}};

@@ -76,6 +76,8 @@ int lsw_scene_obstacle(lua_State *L);
 int lsw_scene_tool(lua_State *L);
 int lsw_scene_force(lua_State *L);
 int lsw_scene_evaluate(lua_State *L);
+int lsw_scene_advance(lua_State *L); /* of scene:run */
+int lsw_scene_settle(lua_State *L);
 /* scene:wire_contact{...}; scene:touches() -> places where wires press on each other;
  * scene:penetration() -> deepest of the run so far [m], where [m], when [s], now [m];
  * scene:contacts() -> number of places with a force */

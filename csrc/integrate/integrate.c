@@ -186,6 +186,36 @@ static void find_mean(sw_stepper *p, const sw_integrator *m, const sw_system *s,
   for (size_t e = 0; p->mean && e < s->edges; e++) sum[e] *= share / h;
 }
 
+static sw_status solve_stage(sw_stepper *p, const sw_integrator *m, size_t k, sw_system *s,
+                             double t, double h, sw_error *err) {
+  const sw_stage_row *row = &m->rows[k];
+  const double hbar = row->hbar * h;
+  sw_stage_report report;
+  prepare_stage(p, row, s, hbar);
+  if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
+  const sw_stage stage = {.time = t + row->time * h,
+                          .from = m->flags & SW_INTEGRATOR_ONWARDS ? t : 0,
+                          .to = m->flags & SW_INTEGRATOR_ONWARDS ? t + h : 0,
+                          .hbar = hbar,
+                          .inertia = row->inertia,
+                          .first = row->x1,
+                          .xhat = p->xhat,
+                          .vhat = p->vhat,
+                          .y = p->y[k],
+                          .v = p->w[k],
+                          .a = p->a,
+                          .strain_past = p->strain_past,
+                          .strain = p->strain[k]};
+  begin_pull(p, k, row, s, hbar);
+  const sw_status status = sw_system_stage(s, &stage, &p->newton, &report, err);
+  p->iterations += (size_t)report.iterations;
+  p->rotation = report.rotation;
+  if (status != SW_OK) return status;
+  if (p->strain_past) find_rates(p, s, hbar, p->strain[k]);
+  end_pull(p, k, s, hbar);
+  return SW_OK;
+}
+
 static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system *s, double t,
                                 double h, sw_error *err) {
   memcpy(p->turning, s->turning, sizeof p->turning);
@@ -193,29 +223,7 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
   for (size_t k = 0; k < m->stages; k++) {
     const sw_stage_row *row = &m->rows[k];
     const double hbar = row->hbar * h;
-    sw_stage_report report;
-    prepare_stage(p, row, s, hbar);
-    if (p->strain_past) prepare_strains(p, row, s, hbar, p->strain[k]);
-    const sw_stage stage = {.time = t + row->time * h,
-                            .from = m->flags & SW_INTEGRATOR_ONWARDS ? t : 0,
-                            .to = m->flags & SW_INTEGRATOR_ONWARDS ? t + h : 0,
-                            .hbar = hbar,
-                            .inertia = row->inertia,
-                            .first = row->x1,
-                            .xhat = p->xhat,
-                            .vhat = p->vhat,
-                            .y = p->y[k],
-                            .v = p->w[k],
-                            .a = p->a,
-                            .strain_past = p->strain_past,
-                            .strain = p->strain[k]};
-    begin_pull(p, k, row, s, hbar);
-    const sw_status status = sw_system_stage(s, &stage, &p->newton, &report, err);
-    p->iterations += (size_t)report.iterations;
-    p->rotation = report.rotation;
-    if (status != SW_OK) return status;
-    if (p->strain_past) find_rates(p, s, hbar, p->strain[k]);
-    end_pull(p, k, s, hbar);
+    SW_TRY(solve_stage(p, m, k, s, t, h, err));
     if (k == 0 && !isnan(p->between.share))
       sw_system_sum_pull(s, s->tension, p->strain_rate, p->first);
     book(s, (sw_booking){.stage = (int)k,

@@ -10,8 +10,7 @@
 /* Node forces out of what the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {
   for (size_t i = 0; i < f->plan->nodes; i++)
-    for (size_t k = 0; k < 3; k++)
-      out[3 * i + k] = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
+    for (size_t k = 0; k < 3; k++) out[3 * i + k] = sw_field_force(f, i, k);
 }
 
 static sw_status add_terms(const sw_body *b, const sw_force_class *cls, sw_field *f,
@@ -32,15 +31,9 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
   f->time = sw_scene_time(s);
   f->velocity_rate = at->rate;
   f->statics = at->statics;
-  f->x = at->positions ? at->positions : system->x + 3 * b->first_node;
-  f->v = at->velocities ? at->velocities : system->v + 3 * b->first_node;
-  /* from positions and velocities, not the solver's own unknowns */
-  f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
-  f->clamp_past = f->clamp_rate = NULL;
-  f->gravity = system->gravity;
-  f->hold_directors = system->directors_now;
-  f->hold_normals = system->normals_now;
-  f->hold_turns = system->turns;
+  f->tension = NULL; /* from positions and velocities, not the solver's own unknowns */
+  sw_body_aim(system, b, at->positions ? at->positions : system->x + 3 * b->first_node,
+              at->velocities ? at->velocities : system->v + 3 * b->first_node);
   f->cautious = 0;
   sw_body_begin(b);
   if (b->spin_block) {

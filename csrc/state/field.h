@@ -112,6 +112,11 @@ void sw_field_geometry(sw_field *field);
  * sw_interrupted before what follows is believed. */
 void sw_field_clear(sw_field *field);
 
+/* Component k of the force on node i, of all that was added to [N]. */
+static inline double sw_field_force(const sw_field *f, size_t i, size_t k) {
+  return f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
+}
+
 /* Allocate all arrays of a field for a plan with n nodes, in one block that is
  * returned through *block (free with sw_free). SW_ENOMEM. */
 sw_status sw_field_new(sw_field *field, size_t nodes, void **block);

@@ -69,6 +69,31 @@ static double followed_part(const sw_scene *s, const double *from, double h, int
   return part;
 }
 
+/* No rest was found at t1: the half of the way, and what is left of it. */
+static sw_status by_the_middle(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
+                               sw_run_report *report, const kept *start, sw_error *err) {
+  SW_TRY(pose(s, 0.5 * (sw_scene_time(s) + t1), halvings - 1, how, report, err));
+  if (start->jaws) return SW_OK; /* a tie may be about to break */
+  sw_jaw_follow(s);
+  return pose(s, t1, halvings - 1, how, report, err);
+}
+
+/* From the start, at t0, once more: up to t only. */
+static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_pose_args *how,
+                       sw_run_report *report, kept *start, sw_error *err) {
+  SW_TRY(put_back(s, start, t0, err));
+  drop(start);
+  return pose(s, t, halvings, how, report, err);
+}
+
+static sw_status book(sw_scene *s, double t1, int jumped, sw_run_report *report, sw_error *err) {
+  SW_TRY(sw_ledger_pose(s, jumped, err));
+  if (!jumped) return SW_OK;
+  report->jumps++;
+  report->last_jump = t1;
+  return SW_OK;
+}
+
 /* Holds and obstacles go on to t1, the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction halving it shows how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
@@ -93,32 +118,17 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
     sw_scene_set_time(s, t0);
     const int helps = too_far || (squeezes && status == SW_ENOCONV); /* jaws then go less far */
     if (!helps || !halvings) return status;
-    SW_TRY(pose(s, 0.5 * (t0 + t1), halvings - 1, how, report, err));
-    if (start->jaws) return SW_OK; /* a tie may be about to break */
-    sw_jaw_follow(s);
-    return pose(s, t1, halvings - 1, how, report, err);
+    return by_the_middle(s, t1, halvings, how, report, start, err);
   }
   if (start->jaws && t1 - t0 > how->shortest &&
-      sw_scene_check_ties(s, sw_scene_system(s)->x, &why) != SW_OK) {
-    SW_TRY(put_back(s, start, t0, err));
-    drop(start);
-    return pose(s, 0.5 * (t0 + t1), halvings, how, report, err);
-  }
+      sw_scene_check_ties(s, sw_scene_system(s)->x, &why) != SW_OK)
+    return again(s, t0, 0.5 * (t0 + t1), halvings, how, report, start, err);
   int passed = 0;
   const double part = start->x ? followed_part(s, start->x, t1 - t0, &passed) : t1 - t0;
-  if (passed && !shortest) {
-    SW_TRY(put_back(s, start, t0, err));
-    drop(start);
-    return pose(s, t0 + fmax(part, how->passing), halvings, how, report, err);
-  }
-  if (passed) rest.jumped = 1;
+  if (passed && !shortest)
+    return again(s, t0, t0 + fmax(part, how->passing), halvings, how, report, start, err);
   report->smallest_dt = fmin(report->smallest_dt, t1 - t0);
-  SW_TRY(sw_ledger_pose(s, rest.jumped, err));
-  if (rest.jumped) {
-    report->jumps++;
-    report->last_jump = t1;
-  }
-  return SW_OK;
+  return book(s, t1, rest.jumped || passed, report, err);
 }
 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,

@@ -82,6 +82,7 @@ static inline int sw_term_news(const sw_term *term, sw_force_news *out) {
 
 /* An evaluation of the body's terms begins: the field is zero, edges are measured. */
 void sw_body_begin(sw_body *body);
+
 /* out = stiffness that they added times d, held nodes like all others; both (nodes x 3). */
 void sw_body_stiffness_times(sw_body *body, const double *d, double *out);
 

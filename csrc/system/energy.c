@@ -38,13 +38,7 @@ static int has_power(const sw_force_class *cls) {
 
 static void aim(sw_system *s, sw_body *b, int lumped) {
   sw_field *f = &b->field;
-  f->x = s->x + 3 * b->first_node;
-  f->v = s->v + 3 * b->first_node;
-  f->gravity = s->gravity;
-  f->hold_directors = s->directors_now;
-  f->hold_normals = s->normals_now;
-  f->hold_turns = s->turns;
-  f->strain_past = f->strain = NULL;
+  sw_body_aim(s, b, s->x + 3 * b->first_node, s->v + 3 * b->first_node);
   f->strain_rate = b->axial_time > 0 && s->strain_rate ? s->strain_rate + b->first_edge : NULL;
   sw_strain_show_rates(s, b);
   f->tension = lumped ? NULL : s->tension + b->first_edge;
@@ -99,9 +93,7 @@ static double power_of(const sw_field *f) {
   const size_t n = f->plan->nodes;
   double sum = 0;
   for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < 3; k++)
-      sum +=
-          f->v[3 * i + k] * (f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1));
+    for (size_t k = 0; k < 3; k++) sum += f->v[3 * i + k] * sw_field_force(f, i, k);
   return sum;
 }
 

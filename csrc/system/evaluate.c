@@ -15,6 +15,18 @@
  * other iteration after this many is a cautious one. */
 enum { QUICK = 4 };
 
+void sw_body_aim(const sw_system *s, sw_body *b, const double *x, const double *v) {
+  sw_field *f = &b->field;
+  f->x = x;
+  f->v = v;
+  f->strain_past = f->strain = f->strain_rate = NULL;
+  f->clamp_past = f->clamp_rate = NULL;
+  f->gravity = s->gravity;
+  f->hold_directors = s->directors_now;
+  f->hold_normals = s->normals_now;
+  f->hold_turns = s->turns;
+}
+
 void sw_body_begin(sw_body *b) {
   sw_field_clear(&b->field);
   sw_field_geometry(&b->field);
@@ -38,18 +50,13 @@ sw_status sw_body_evaluate(sw_system *s, sw_body *b, double time, double hbar, c
   f->velocity_rate = statics ? 0.0 : 1.0 / hbar;
   f->statics = statics;
   f->cautious = iteration > QUICK && iteration % 2;
-  f->x = y + 3 * b->first_node;
-  f->v = v + 3 * b->first_node;
+  sw_body_aim(s, b, y + 3 * b->first_node, v + 3 * b->first_node);
   f->tension = s->tension + b->first_edge;
-  const int rates = s->strain_past && b->axial_time > 0;
-  f->strain_past = rates ? s->strain_past + b->first_edge : NULL;
-  f->strain = rates ? s->strain_now + b->first_edge : NULL;
-  f->strain_rate = NULL;
+  if (s->strain_past && b->axial_time > 0) {
+    f->strain_past = s->strain_past + b->first_edge;
+    f->strain = s->strain_now + b->first_edge;
+  }
   sw_strain_show_past(s, b);
-  f->gravity = s->gravity;
-  f->hold_directors = s->directors_now;
-  f->hold_normals = s->normals_now;
-  f->hold_turns = s->turns;
   sw_body_begin(b);
   if (b->has_twist || b->spin_block) sw_system_measure(s, b);
   SW_TRY(eval_terms(b, err));
@@ -67,16 +74,9 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     f->want = SW_WANT_FORCE;
     f->time = t;
     f->velocity_rate = 0;
-    f->tension = f->strain_past = f->strain = f->strain_rate = NULL;
-    f->clamp_past = f->clamp_rate = NULL;
-    f->gravity = s->gravity;
-    f->hold_directors = s->directors_now;
-    f->hold_normals = s->normals_now;
-    f->hold_turns = s->turns;
-    f->x = x + 3 * body->first_node;
-    f->v = v + 3 * body->first_node;
-    sw_field_clear(f);
-    sw_field_geometry(f);
+    f->tension = NULL;
+    sw_body_aim(s, body, x + 3 * body->first_node, v + 3 * body->first_node);
+    sw_body_begin(body);
     if (body->has_twist || body->spin_block) sw_system_measure(s, body);
     SW_TRY(eval_terms(body, err));
   }
@@ -86,7 +86,7 @@ sw_status sw_system_acceleration(sw_system *s, double t, const double *x, const 
     const sw_field *f = &body->field;
     for (size_t i = 0; i < body->plan->nodes; i++)
       for (size_t k = 0; k < 3; k++) {
-        const double force = f->force[3 * i + k] + f->gradient[k][i] - *(f->gradient[k] + i - 1);
+        const double force = sw_field_force(f, i, k);
         s->delta[3 * (body->first_node + i) + k] = force;
         if (body->plan->held[i] == SW_FREE)
           a[3 * (body->first_node + i) + k] = force / body->plan->lumped[i];

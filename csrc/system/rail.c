@@ -5,26 +5,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "solve/band3.h"
-#include "solve/band4.h"
-#include "solve/dense.h"
-#include "system/bridge.h"
-#include "system/twist.h"
+#include "system/rail_inner.h"
 
 /* An update is the last one if the curve leaves its tangent by less than this share of an edge,
  * relative to the known strain; with a hundred times that a stiff wire's tension was off by 1e-3
  * [-]. */
 static const double STRAIGHT = 1e-10;
-/* Largest turn of the curve in one update [rad]. */
-static const double LARGEST_TURN = 0.5;
-/* Force across, by which friction is known [-]. */
-static const double KNOWN = 1e-7;
 
 size_t sw_rail_freedom(const sw_system *s, size_t k) { return 3 * s->nodes + s->rolls + k; }
-
-static const sw_held_node *node_of(const sw_system *s, const sw_rail *r) {
-  return &s->held[r->held];
-}
 
 sw_status sw_system_set_rails(sw_system *s, const sw_rail *rails, size_t count) {
   if (!count) return SW_OK;
@@ -40,21 +28,12 @@ sw_status sw_system_set_rails(sw_system *s, const sw_rail *rails, size_t count) 
   return SW_OK;
 }
 
-static sw_vec times(const double K[9], sw_vec d) {
-  return sw_v(K[0] * d.x + K[1] * d.y + K[2] * d.z, K[3] * d.x + K[4] * d.y + K[5] * d.z,
-              K[6] * d.x + K[7] * d.y + K[8] * d.z);
-}
-
-static sw_vec across(const sw_rail *r, sw_vec f) {
-  return sw_madd(f, r->along, -sw_dot(f, r->along));
-}
-
 /* --- where nodes are ---------------------------------------------------------------- */
 
 /* At place p with rates v and a; results that are not NULL are filled. */
 static void place(const sw_system *s, const sw_rail *r, const double p[3], double *x, double *v,
                   double *a) {
-  const sw_hold_state *h = &s->hold_states[node_of(s, r)->hold];
+  const sw_hold_state *h = &s->hold_states[sw_rail_node(s, r)->hold];
   sw_rail_point c;
   r->at(r->curve, p[0], &c);
   const sw_vec arm = sw_rotate(h->pose.q, c.x), along = sw_rotate(h->pose.q, c.along);
@@ -69,7 +48,7 @@ static void place(const sw_system *s, const sw_rail *r, const double p[3], doubl
 
 void sw_rails_place(const sw_system *s, const double *x, double *v, double *a, double *to) {
   for (size_t k = 0; k < s->rail_count; k++) {
-    const size_t at = sw_rail_freedom(s, k), node = 3 * node_of(s, &s->rails[k])->node;
+    const size_t at = sw_rail_freedom(s, k), node = 3 * sw_rail_node(s, &s->rails[k])->node;
     const double p[3] = {x[at], v ? v[at] : 0.0, a ? a[at] : 0.0};
     place(s, &s->rails[k], p, to ? to + node : NULL, v ? v + node : NULL, a ? a + node : NULL);
   }
@@ -82,24 +61,18 @@ static int stops(const sw_rail *r, double p, double v) {
 void sw_rails_launch(sw_system *s, size_t body, sw_vec v, sw_vec omega, sw_vec about) {
   for (size_t k = 0; k < s->rail_count; k++) {
     const sw_rail *r = &s->rails[k];
-    const size_t at = sw_rail_freedom(s, k), node = 3 * node_of(s, r)->node;
+    const size_t at = sw_rail_freedom(s, k), node = 3 * sw_rail_node(s, r)->node;
     double p[3] = {s->x[at], 0, 0}, *rate = s->v + node;
-    if (node_of(s, r)->body != body) continue;
+    if (sw_rail_node(s, r)->body != body) continue;
     sw_rail_point c;
     r->at(r->curve, p[0], &c);
     place(s, r, p, NULL, rate, NULL);
-    const sw_vec along = sw_rotate(s->hold_states[node_of(s, r)->hold].pose.q, c.along);
+    const sw_vec along = sw_rotate(s->hold_states[sw_rail_node(s, r)->hold].pose.q, c.along);
     const sw_vec given = sw_add(v, sw_cross(omega, sw_sub(sw_load(s->x + node), about)));
     p[1] = sw_dot(along, sw_sub(given, sw_load(rate)));
     s->v[at] = p[1] = stops(r, p[0], p[1]) ? 0 : p[1];
     place(s, r, p, NULL, rate, NULL);
   }
-}
-
-/* 1: it is of the bodies that are solved now. */
-static int is_part(const sw_system *s, const sw_rail *r) {
-  const size_t body = node_of(s, r)->body;
-  return body >= s->part && body < s->part_end;
 }
 
 static double rate_of(const sw_stage *stage, int statics) {
@@ -118,8 +91,8 @@ static void iterate_of(const sw_system *s, const sw_stage *stage, int statics, s
 
 static void follow(sw_system *s, const sw_stage *stage, int statics, size_t k) {
   sw_rail *r = &s->rails[k];
-  const size_t node = 3 * node_of(s, r)->node;
-  const sw_quat q = s->hold_states[node_of(s, r)->hold].pose.q;
+  const size_t node = 3 * sw_rail_node(s, r)->node;
+  const sw_quat q = s->hold_states[sw_rail_node(s, r)->hold].pose.q;
   const double rate = rate_of(stage, statics), inertia = stage->inertia > 0 ? stage->inertia : 1.0;
   double p[3], a[3];
   sw_rail_point c;
@@ -138,7 +111,7 @@ static void follow(sw_system *s, const sw_stage *stage, int statics, size_t k) {
 
 void sw_rails_follow(sw_system *s, const sw_stage *stage, int statics) {
   for (size_t k = 0; k < s->rail_count; k++)
-    if (is_part(s, &s->rails[k])) follow(s, stage, statics, k);
+    if (sw_rail_is_part(s, &s->rails[k])) follow(s, stage, statics, k);
 }
 
 /* Ends are ends also when the free flight goes beyond them. */
@@ -164,8 +137,8 @@ void sw_rails_velocity(const sw_system *s, const sw_stage *stage, double *veloci
   for (size_t k = 0; k < s->rail_count; k++) {
     double p[3];
     iterate_of(s, stage, 0, k, p);
-    if (is_part(s, &s->rails[k]))
-      place(s, &s->rails[k], p, NULL, velocity + 3 * node_of(s, &s->rails[k])->node, NULL);
+    if (sw_rail_is_part(s, &s->rails[k]))
+      place(s, &s->rails[k], p, NULL, velocity + 3 * sw_rail_node(s, &s->rails[k])->node, NULL);
   }
 }
 
@@ -174,297 +147,29 @@ void sw_rails_finish(sw_system *s, const sw_stage *stage) {
     sw_rail *r = &s->rails[k];
     sw_held_node *h = &s->held[r->held];
     const size_t at = sw_rail_freedom(s, k);
-    h->reaction = sw_add(h->reaction, times(r->own, sw_load(s->delta + 3 * h->node)));
+    h->reaction = sw_add(h->reaction, sw_rail_times(r->own, sw_load(s->delta + 3 * h->node)));
     const double p[3] = {stage->y[at], stage->v[at], 0.0};
     place(s, r, p, NULL, stage->v + 3 * h->node, NULL);
     r->force = sw_dot(r->along, h->reaction);
-    r->rubs = -r->way * r->friction * sw_norm(across(r, h->reaction));
-  }
-}
-
-/* --- what a shift does to the others -------------------------------------------------- */
-
-static sw_vec transposed_times(const double K[9], sw_vec d) {
-  return sw_v(K[0] * d.x + K[3] * d.y + K[6] * d.z, K[1] * d.x + K[4] * d.y + K[7] * d.z,
-              K[2] * d.x + K[5] * d.y + K[8] * d.z);
-}
-
-void sw_rail_take(sw_rail *r, const sw_body *b, size_t i) {
-  static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-  for (int k = 0; k < 9; k++) r->own[k] = b->field.rows[SW_ROW_SIZE * i + (size_t)whole[k]];
-}
-
-/* The four neighbours whose blocks a held node has saved. */
-static const long BESIDE[4] = {-2, -1, 1, 2};
-
-static int is_free(const sw_body *b, size_t i, long beside) {
-  const long j = (long)i + beside;
-  return j >= 0 && j < (long)b->plan->nodes && b->plan->held[j] == SW_FREE;
-}
-
-static sw_vec part(double *const *c, size_t at) { return sw_v(c[0][at], c[1][at], c[2][at]); }
-
-/* The slope of the twist of a body's span at node i, or zero. */
-static sw_vec slope_of(const sw_body *b, const sw_span *span, size_t i) {
-  if (i <= span->first || i > span->last) return sw_v(0, 0, 0); /* clamps are at its ends */
-  return sw_vec_at(b->twist_rank, i);
-}
-
-static void add_spin_rights(const sw_body *b, size_t i, sw_vec d, double *spins) {
-  const sw_field *f = &b->field;
-  const size_t edges = b->plan->edges;
-  for (int side = 0; side < 2; side++) {
-    const size_t e = side ? i : i - 1;
-    const sw_vec way = side ? d : sw_neg(d); /* minus what the edge is changed by */
-    if ((!side && i == 0) || e >= edges) continue;
-    spins[e] += sw_dot(part(f->spin_edge, e), way);
-    if (e > 0) spins[e - 1] += sw_dot(part(f->spin_edge + 3, e), way);
-    if (e + 1 < edges) spins[e + 1] += sw_dot(part(f->spin_edge + 6, e + 1), way);
-  }
-  if (!b->roll_block) return;
-  if (i > 0) spins[i - 1] -= sw_dot(part(f->spin_node, i), d);
-  if (i < edges) spins[i] -= sw_dot(part(f->spin_node + 3, i), d);
-}
-
-/* Right-hand sides of all nodes (nodes x 3) and spins (nodes) when a rail's node shifts by d. */
-static void load_shift(const sw_system *s, const sw_rail *r, sw_vec d, double *nodes,
-                       double *spins) {
-  const sw_held_node *h = node_of(s, r);
-  const sw_body *b = &s->bodies[h->body];
-  const size_t i = h->node - b->first_node;
-  double *own = nodes + 3 * b->first_node;
-  memset(nodes, 0, 4 * s->nodes * sizeof *nodes);
-  for (int k = 0; k < 4; k++)
-    if (is_free(b, i, BESIDE[k]))
-      sw_store(own + 3 * ((long)i + BESIDE[k]), sw_neg(transposed_times(h->saved + 9 * k, d)));
-  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
-    const sw_span *span = &b->plan->spans[k];
-    const double torque = b->field.twist_stiffness[k] * sw_dot(slope_of(b, span, i), d);
-    for (size_t j = span->first; torque != 0 && j <= span->last + 1; j++)
-      if (b->plan->held[j] == SW_FREE)
-        sw_accumulate(own + 3 * j, sw_scale(sw_vec_at(b->twist_rank, j), -torque));
-  }
-  if (b->spin_block) add_spin_rights(b, i, d, spins + b->first_node);
-  for (size_t k = 0; s->bridges && k < s->bridges->count; k++) {
-    const sw_bridge *l = &s->bridges->list[k];
-    if (l->i == h->node) sw_accumulate(nodes + 3 * l->j, sw_neg(transposed_times(l->k, d)));
-    if (l->j == h->node) sw_accumulate(nodes + 3 * l->i, sw_neg(times(l->k, d)));
-  }
-}
-
-static void solve_shift(sw_system *s, const sw_body *b, double *nodes, double *spins) {
-  const size_t n = b->plan->nodes;
-  double *own = nodes + 3 * b->first_node, *turn = spins + b->first_node;
-  if (b->bridged && sw_bridges_any(s)) {
-    sw_bridges_solve_shift(s, nodes, spins);
-  } else if (b->spin_block) {
-    double *d = s->rail_room + s->rail_count * (4 * s->nodes + s->rail_count + 1);
-    for (size_t i = 0; i < n; i++)
-      memcpy(d + 4 * i, own + 3 * i, 3 * sizeof *d), d[4 * i + 3] = turn[i];
-    sw_band4_solve(b->spin_rows, n, d);
-    for (size_t i = 0; i < n; i++)
-      memcpy(own + 3 * i, d + 4 * i, 3 * sizeof *d), turn[i] = d[4 * i + 3];
-  } else {
-    sw_body_solve_again(b, own);
-  }
-}
-
-/* Change of the reaction of a rail's node by updates of nodes and spins, its own one too; spins:
- * every stride-th value from the body's first edge. */
-static sw_vec reaction_of(const sw_system *s, const sw_rail *r, const double *nodes,
-                          const double *spins, size_t stride, sw_vec d) {
-  const sw_held_node *h = node_of(s, r);
-  const sw_body *b = &s->bodies[h->body];
-  const size_t i = h->node - b->first_node, edges = b->plan->edges;
-  const double *own = nodes + 3 * b->first_node;
-  sw_vec f = times(r->own, d);
-  for (int k = 0; k < 4; k++)
-    if (is_free(b, i, BESIDE[k]))
-      f = sw_add(f, times(h->saved + 9 * k, sw_load(own + 3 * ((long)i + BESIDE[k]))));
-  for (size_t k = 0; b->has_twist && k < b->plan->span_count; k++) {
-    const sw_span *span = &b->plan->spans[k];
-    const sw_vec g = slope_of(b, span, i);
-    if (sw_norm2(g) > 0)
-      f = sw_madd(f, g, b->field.twist_stiffness[k] * (sw_twist_dot(b, span, own) + sw_dot(g, d)));
-  }
-  for (int side = 0; b->spin_block && side < 2; side++) {
-    const size_t e = side ? i : i - 1;
-    const double sign = side ? -1.0 : 1.0;
-    if ((!side && i == 0) || e >= edges) continue;
-    f = sw_madd(f, part(b->field.spin_edge, e), sign * spins[stride * e]);
-    if (e > 0) f = sw_madd(f, part(b->field.spin_edge + 3, e), sign * spins[stride * (e - 1)]);
-    if (e + 1 < edges)
-      f = sw_madd(f, part(b->field.spin_edge + 6, e + 1), sign * spins[stride * (e + 1)]);
-  }
-  if (b->roll_block && i > 0) f = sw_madd(f, part(b->field.spin_node, i), spins[stride * (i - 1)]);
-  if (b->roll_block && i < edges)
-    f = sw_madd(f, part(b->field.spin_node + 3, i), spins[stride * i]);
-  for (size_t k = 0; s->bridges && k < s->bridges->count; k++) {
-    const sw_bridge *l = &s->bridges->list[k];
-    if (l->i == h->node) f = sw_add(f, times(l->k, sw_load(nodes + 3 * l->j)));
-    if (l->j == h->node) f = sw_add(f, transposed_times(l->k, sw_load(nodes + 3 * l->i)));
-  }
-  return f;
-}
-
-/* By the update of the system. */
-static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
-  const sw_held_node *h = node_of(s, r);
-  const sw_body *b = &s->bodies[h->body];
-  const double *spins = b->spin_block ? b->spin_delta + 3 : NULL;
-  return sw_add(h->own_force, reaction_of(s, r, s->delta, spins, 4, d));
-}
-
-/* --- the rails' own equations ----------------------------------------------------------- */
-
-/* Friction of a moving place is that of the force across, taken in its present direction. */
-static sw_vec test_of(const sw_rail *r) {
-  const sw_vec n = sw_unit_or(across(r, r->before), sw_v(0, 0, 0));
-  return sw_madd(r->along, n, r->way * r->friction);
-}
-
-/* Where the place must go for other reasons than forces; 1: it must. */
-static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *step) {
-  const double to = r->state == SW_RAIL_STICKS    ? stage->xhat[at]
-                    : r->state == SW_RAIL_AT_FROM ? r->from
-                                                  : r->to;
-  *step = to - stage->y[at];
-  return r->state != SW_RAIL_GOES;
-}
-
-static double *shift_of(const sw_system *s, size_t k) { return s->rail_room + 4 * s->nodes * k; }
-
-/* Equations of the rails into A and b; rails of other parts stay. */
-static void set_up(sw_system *s, const sw_stage *stage, double *A, double *b) {
-  const size_t m = s->rail_count;
-  memset(A, 0, (m * m + m) * sizeof *A);
-  for (size_t k = 0; k < m; k++) {
-    sw_rail *r = &s->rails[k];
-    double *nodes = shift_of(s, k);
-    A[m * k + k] = 1;
-    if (!is_part(s, r)) continue;
-    load_shift(s, r, r->along, nodes, nodes + 3 * s->nodes);
-    solve_shift(s, &s->bodies[node_of(s, r)->body], nodes, nodes + 3 * s->nodes);
-    r->before = reaction_now(s, r, sw_v(0, 0, 0));
-  }
-  for (size_t k = 0; k < m; k++) {
-    const sw_rail *r = &s->rails[k];
-    if (!is_part(s, r) || is_given(r, stage, sw_rail_freedom(s, k), &b[k])) continue;
-    const sw_vec test = test_of(r);
-    const size_t first = s->bodies[node_of(s, r)->body].first_node;
-    for (size_t j = 0; j < m; j++) {
-      const double *nodes = shift_of(s, j), *spins = nodes + 3 * s->nodes + first;
-      const sw_vec own = j == k ? r->along : sw_v(0, 0, 0);
-      A[m * k + j] =
-          is_part(s, &s->rails[j]) ? sw_dot(test, reaction_of(s, r, nodes, spins, 1, own)) : 0.0;
-    }
-    A[m * k + k] += sw_dot(r->bend, r->before);
-    b[k] = -sw_dot(test, r->before);
-  }
-}
-
-/* All follow the shift of rail k by its step. */
-static void carry(sw_system *s, size_t k) {
-  const sw_rail *r = &s->rails[k];
-  const double *nodes = shift_of(s, k), *spins = nodes + 3 * s->nodes;
-  const size_t node = node_of(s, r)->node;
-  for (size_t i = 0; i < 3 * s->nodes; i++) s->delta[i] += r->step * nodes[i];
-  for (size_t b = s->part; b < s->part_end; b++) {
-    const sw_body *body = &s->bodies[b];
-    for (size_t i = 0; body->spin_block && i < body->plan->nodes; i++) {
-      for (size_t c = 0; c < 3; c++)
-        body->spin_delta[4 * i + c] += r->step * nodes[3 * (body->first_node + i) + c];
-      body->spin_delta[4 * i + 3] += r->step * spins[body->first_node + i];
-    }
-  }
-  sw_store(s->delta + 3 * node, sw_scale(r->along, r->step));
-}
-
-/* Torques that the update adds to spans, those of the rails' nodes too. */
-static void take_gains(sw_system *s) {
-  if (sw_bridges_any(s)) sw_bridges_take_solution(s);
-  for (size_t b = s->part; b < s->part_end; b++) {
-    sw_body *body = &s->bodies[b];
-    if (body->has_twist && !(body->bridged && sw_bridges_any(s)))
-      sw_twist_gain(body, s->delta + 3 * body->first_node);
-  }
-  for (size_t k = 0; k < s->rail_count; k++) {
-    const sw_held_node *h = node_of(s, &s->rails[k]);
-    sw_body *b = &s->bodies[h->body];
-    if (!is_part(s, &s->rails[k])) continue;
-    for (size_t j = 0; b->has_twist && j < b->plan->span_count; j++)
-      b->twist_gain[j] += b->field.twist_stiffness[j] *
-                          sw_dot(slope_of(b, &b->plan->spans[j], h->node - b->first_node),
-                                 sw_load(s->delta + 3 * h->node));
-  }
-}
-
-/* It slides if the force along the curve is above friction's limit. */
-static void let_go(sw_rail *r, double along) {
-  r->state = SW_RAIL_GOES;
-  r->way = along > 0 ? -1.0 : 1.0;
-  r->open = 1;
-}
-
-/* After the update, does it still stand, or still go the same way? */
-static void review(const sw_system *s, const sw_stage *stage, size_t k) {
-  sw_rail *r = &s->rails[k];
-  const size_t at = sw_rail_freedom(s, k);
-  const double to = stage->y[at] + r->step, gone = to - stage->xhat[at];
-  const sw_vec f = reaction_now(s, r, sw_scale(r->along, r->step));
-  const double along = sw_dot(f, r->along), most = r->friction * sw_norm(across(r, f));
-  const double near = most * (1.0 + KNOWN);
-  r->open = 0;
-  if (r->state == SW_RAIL_STICKS) {
-    if (fabs(along) > near) let_go(r, along);
-  } else if (r->state == SW_RAIL_AT_FROM) {
-    if (along < -near) let_go(r, along);
-  } else if (r->state == SW_RAIL_AT_TO) {
-    if (along > near) let_go(r, along);
-  } else if (to < r->from || to > r->to) {
-    r->state = to < r->from ? SW_RAIL_AT_FROM : SW_RAIL_AT_TO;
-    r->step = (to < r->from ? r->from : r->to) - stage->y[at], r->open = 1;
-  } else if (r->friction > 0 && gone * r->way < 0) {
-    r->state = SW_RAIL_STICKS;
-    r->step = stage->xhat[at] - stage->y[at], r->open = 1;
-  } else if (r->friction > 0) {
-    r->open = fabs(along + r->way * most) > KNOWN * (most + fabs(along));
+    r->rubs = -r->way * r->friction * sw_norm(sw_rail_across(r, h->reaction));
   }
 }
 
 /* Does the curve leave its tangent on the way, by more than the error that edges beside it may
  * have? */
 static int is_long(const sw_system *s, const sw_rail *r) {
-  const sw_held_node *h = node_of(s, r);
+  const sw_held_node *h = sw_rail_node(s, r);
   const sw_body *b = &s->bodies[h->body];
   const size_t i = h->node - b->first_node;
   const double edge = b->plan->rest[i < b->plan->edges ? i : i - 1];
   return 0.5 * sw_norm(r->bend) * r->step * r->step > STRAIGHT * edge;
 }
 
-void sw_rails_solve(sw_system *s, const sw_stage *stage, size_t *negative) {
-  const size_t m = s->rail_count;
-  double *A = s->rail_room + 4 * s->nodes * m, *step = A + m * m;
-  if (!m) return;
-  set_up(s, stage, A, step);
-  *negative += sw_dense_eliminate(A, m, step, SW_DENSE_SWAPS);
-  for (size_t k = 0; k < m; k++) {
-    sw_rail *r = &s->rails[k];
-    if (!is_part(s, r)) continue;
-    const double most = LARGEST_TURN / sw_norm(r->bend);
-    r->step = fabs(step[k]) > most ? copysign(most, step[k]) : step[k];
-    carry(s, k);
-  }
-  take_gains(s);
-  for (size_t k = 0; k < m; k++)
-    if (is_part(s, &s->rails[k])) review(s, stage, k);
-}
-
 void sw_rails_apply(sw_system *s, const sw_stage *stage, double share) {
   for (size_t k = 0; k < s->rail_count; k++) {
     sw_rail *r = &s->rails[k];
     const size_t at = sw_rail_freedom(s, k);
-    if (!is_part(s, r)) continue;
+    if (!sw_rail_is_part(s, r)) continue;
     stage->y[at] += share * r->step;
     if (share == 1.0 && r->state == SW_RAIL_STICKS) stage->y[at] = stage->xhat[at];
     keep_between(r, &stage->y[at]);
@@ -473,7 +178,8 @@ void sw_rails_apply(sw_system *s, const sw_stage *stage, double share) {
 
 int sw_rails_settled(const sw_system *s) {
   for (size_t k = 0; k < s->rail_count; k++)
-    if (is_part(s, &s->rails[k]) && (s->rails[k].open || is_long(s, &s->rails[k]))) return 0;
+    if (sw_rail_is_part(s, &s->rails[k]) && (s->rails[k].open || is_long(s, &s->rails[k])))
+      return 0;
   return 1;
 }
 

@@ -194,6 +194,9 @@ void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 sw_status sw_system_stage(sw_system *system, const sw_stage *stage, const sw_newton *newton,
                           sw_stage_report *report, sw_error *err);
 
+/* What a body's evaluation sees: itself at places x with velocities v (nodes x 3), the holds as
+ * placed last, gravity; rates of strain are those of v. */
+void sw_body_aim(const sw_system *system, sw_body *body, const double *x, const double *v);
 /* Accelerations with lumped masses at (t, x, v); held nodes get their hold's. */
 sw_status sw_system_acceleration(sw_system *system, double t, const double *x, const double *v,
                                  double *a, sw_error *err);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "body/touching.h"
 #include "read/extremes.h"
 #include "record/wear.h"
 #include "scene/course.h"
@@ -16,18 +15,26 @@
 
 /* --- places ---------------------------------------------------------------------- */
 
+/* Places along a wire: nodes of a line, rings of a mesh. */
+static size_t along(const sw_plan *p) { return p->web ? p->web->rings : p->nodes; }
+
+/* And those at clamps, of a line. */
+static size_t at_clamps(const sw_plan *p) { return p->web ? 0 : p->clamp_count; }
+
 static double place_of(const sw_plan *p, size_t k) {
+  if (p->web) return p->web->s[p->web->first[k]];
   return p->s[k < p->nodes ? k : p->clamps[k - p->nodes].node];
 }
 
 static int side_of(const sw_plan *p, size_t k) {
-  return k < p->nodes ? 0 : p->clamps[k - p->nodes].side;
+  return k < along(p) ? 0 : p->clamps[k - p->nodes].side;
 }
 
 /* Are the places those of the plan? Nodes beside a feed go along it. */
 static int is_same(const sw_wear *w, const sw_plan *p) {
-  const double slack = 0.25 * (p->s[p->nodes - 1] - p->s[0]) / (double)p->nodes;
-  if (w->nodes != p->nodes || w->count != p->nodes + p->clamp_count) return 0;
+  const size_t n = along(p);
+  const double slack = 0.25 * (place_of(p, n - 1) - place_of(p, 0)) / (double)n;
+  if (w->nodes != n || w->count != n + at_clamps(p) || !w->cycles != !!p->web) return 0;
   for (size_t k = 0; k < w->count; k++)
     if (w->places[k].side != side_of(p, k) || fabs(w->places[k].s - place_of(p, k)) > slack)
       return 0;
@@ -36,6 +43,7 @@ static int is_same(const sw_wear *w, const sw_plan *p) {
 
 static double widest(const sw_wear *w, size_t k) {
   double most = 0;
+  if (!w->cycles) return 0;
   for (int c = 0; c < SW_WEAR_SIGNALS; c++)
     most = fmax(most, sw_cycles_widest(&w->cycles[SW_WEAR_SIGNALS * k + (size_t)c]));
   return most;
@@ -56,31 +64,76 @@ static size_t origin(const sw_wear *old, double s, int side) {
   return best;
 }
 
-static sw_status fit(sw_wear *w, const sw_plan *p) {
-  if (w->count && is_same(w, p)) {
-    for (size_t k = 0; k < w->count; k++) w->places[k].s = place_of(p, k);
-    return SW_OK;
+/* The wire that belongs to place k along it begins here; that of the last one ends at that of
+ * number nodes [m]. */
+static double begin_of(const sw_wear *w, size_t k) {
+  if (k == 0) return w->places[0].s;
+  return k < w->nodes ? 0.5 * (w->places[k - 1].s + w->places[k].s) : w->places[k - 1].s;
+}
+
+/* Work of friction stays where it was done, and all of it: a new place has the mean of the old
+ * ones' over its length. */
+static void spread_friction(const sw_wear *old, sw_wear *new) {
+  size_t from = 0;
+  for (size_t k = 0; k < new->count; k++) new->places[k].rubbed = new->places[k].slid = 0;
+  for (size_t k = 0; k < new->nodes; k++) {
+    const double begin = begin_of(new, k), end = begin_of(new, k + 1);
+    while (from + 1 < old->nodes && begin_of(old, from + 1) <= begin) from++;
+    for (size_t j = from; j < old->nodes && begin_of(old, j) < end; j++) {
+      const double common = fmin(end, begin_of(old, j + 1)) - fmax(begin, begin_of(old, j));
+      const double share = fmax(common, 0.0) / (end - begin);
+      new->places[k].rubbed += share * old->places[j].rubbed;
+      new->places[k].slid += share * old->places[j].slid;
+    }
   }
-  sw_wear new = {.count = p->nodes + p->clamp_count, .nodes = p->nodes};
+}
+
+/* As it was, at the places of the plan. */
+static void carry_over(const sw_wear *old, const sw_plan *p, sw_wear *new) {
+  for (size_t k = 0; k < new->count; k++) {
+    const double s = place_of(p, k);
+    const int side = side_of(p, k);
+    if (old->count) {
+      const size_t from = origin(old, s, side);
+      new->places[k] = old->places[from];
+      if (new->cycles && old->cycles)
+        memcpy(new->cycles + SW_WEAR_SIGNALS *k, old->cycles + SW_WEAR_SIGNALS * from,
+               SW_WEAR_SIGNALS * sizeof *new->cycles);
+    }
+    new->places[k].s = s, new->places[k].side = side;
+  }
+  if (old->count) spread_friction(old, new);
+}
+
+/* The same places, some of which went along the wire. */
+static sw_status move_places(sw_wear *w, const sw_plan *p) {
+  int moved = 0;
+  for (size_t k = 0; k < w->count; k++) moved |= w->places[k].s != place_of(p, k);
+  if (!moved) return SW_OK;
+  sw_wear old = *w;
+  sw_wear_place *before SW_LOCAL = sw_alloc(w->count, sizeof *before);
+  if (!before) return SW_ENOMEM;
+  memcpy(before, w->places, w->count * sizeof *before);
+  old.places = before;
+  for (size_t k = 0; k < w->count; k++) w->places[k].s = place_of(p, k);
+  spread_friction(&old, w);
+  return SW_OK;
+}
+
+static sw_status fit(sw_wear *w, const sw_plan *p) {
+  if (w->count && is_same(w, p)) return move_places(w, p);
+  const int counts = !p->web;
+  sw_wear new = {.count = along(p) + at_clamps(p), .nodes = along(p)};
   new.places = sw_alloc(new.count, sizeof *new.places);
-  new.cycles = sw_alloc(SW_WEAR_SIGNALS * new.count, sizeof *new.cycles);
-  if (!new.places || !new.cycles) {
+  if (counts) new.cycles = sw_alloc(SW_WEAR_SIGNALS * new.count, sizeof *new.cycles);
+  if (!new.places || (counts && !new.cycles)) {
     sw_wear_free(&new);
     return SW_ENOMEM;
   }
-  for (size_t k = 0; k < new.count; k++) {
-    const double s = place_of(p, k);
-    const int side = side_of(p, k);
-    if (w->count) {
-      const size_t from = origin(w, s, side);
-      new.places[k] = w->places[from];
-      memcpy(new.cycles + SW_WEAR_SIGNALS *k, w->cycles + SW_WEAR_SIGNALS * from,
-             SW_WEAR_SIGNALS * sizeof *new.cycles);
-    }
-    new.places[k].s = s, new.places[k].side = side;
-  }
+  carry_over(w, p, &new);
   new.pressed = w->pressed, w->pressed = (sw_window){0};
-  new.sidewall = w->sidewall, new.partial = w->partial; /* holds 0: directions are found anew */
+  new.sidewall = w->sidewall; /* holds 0: directions are found anew */
+  new.partial = w->partial || !counts;
   sw_wear_free(w);
   *w = new;
   return SW_OK;
@@ -196,52 +249,7 @@ static sw_status count_all(sw_scene *s, size_t w, const double *T) {
   return SW_OK;
 }
 
-/* --- friction -------------------------------------------------------------------- */
-
-/* Length of wire that belongs to a node [m]. */
-static double share_of(const sw_plan *p, size_t i) {
-  const double before = i > 0 ? p->s[i] - p->s[i - 1] : 0.0;
-  const double after = i < p->edges ? p->s[i + 1] - p->s[i] : 0.0;
-  return 0.5 * (before + after);
-}
-
-static void rub(sw_wear *w, const sw_body *b, size_t node, double share, double work, double slid) {
-  if (node < b->first_node || node >= b->first_node + b->plan->nodes || !(share > 0)) return;
-  const size_t i = node - b->first_node;
-  const double length = share_of(b->plan, i);
-  w->places[i].touches = 1;
-  w->places[i].rubbed += share * work / length;
-  w->places[i].slid += share * slid / length;
-}
-
-static void rub_obstacles(const sw_scene *s, const sw_body *b, sw_wear *w) {
-  sw_contact *contact = sw_scene_contact(s);
-  size_t k = 0, end = 0;
-  sw_contact_push p;
-  if (!contact) return;
-  sw_contact_touches_of(contact, b->first_node, b->first_node + b->plan->nodes, &k, &end);
-  for (; k < end; k++) {
-    if (!sw_contact_push_at(contact, sw_scene_system(s), k, &p)) continue;
-    const double slid = p.normal_force * sw_norm(p.slip);
-    const double work = -sw_dot(sw_madd(p.force, p.normal, -p.normal_force), p.slip);
-    rub(w, b, p.node, p.node == p.other ? 1 : 1 - p.at, work, slid);
-    if (p.node != p.other) rub(w, b, p.other, p.at, work, slid);
-  }
-}
-
-/* Places where two bodies press on each other wear both. */
-static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
-  const size_t count = sw_scene_places(s);
-  for (size_t k = 0; k < count; k++) {
-    const sw_pair_place p = sw_scene_place(s, k);
-    const double slid = p.normal_force * sw_norm(p.slip), work = -sw_dot(p.friction, p.slip);
-    for (int i = 0; i < 2; i++) {
-      if (&sw_scene_system(s)->bodies[p.body[i]] != b) continue;
-      rub(w, b, p.node[i], 1 - p.at[i], work, slid);
-      if (p.at[i] > 0) rub(w, b, p.end[i], p.at[i], work, slid);
-    }
-  }
-}
+/* --- sidewall pressure ---------------------------------------------------------- */
 
 /* Pressure at a node that touches: chords on a round thing turn by turns too much and too little,
  * so that where the next node touches too, the mean of both counts. */
@@ -308,17 +316,14 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   sw_wear *wear = &sw_scene_wire_in(s, w)->wear;
   const sw_body *b = &system->bodies[w];
-  if (b->plan->web) {
-    sw_wear_free(wear);
-    wear->partial = 1;
-    return SW_OK;
-  }
+  const sw_web *web = b->plan->web;
+  if (web && !web->per_ring) return SW_OK; /* an object, no wire */
   sw_status status = fit(wear, b->plan);
-  const double *T = rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b);
-  if (status == SW_OK) status = count_all(s, w, T);
+  if (status == SW_OK && !web)
+    status = count_all(s, w, rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b));
   if (status == SW_OK && rubs) {
-    rub_obstacles(s, b, wear), rub_bodies(s, b, wear);
-    status = press(s, b->plan, wear);
+    sw_wear_rub(s, b, wear);
+    if (!web) status = press(s, b->plan, wear);
   }
   if (status != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'",

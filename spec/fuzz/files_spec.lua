@@ -37,6 +37,7 @@ describe("damaged files", function()
     local text, count = program.read(SCRIPT):gsub("math%.randomseed%(seed, number%)",
       "%0\n  if number == 9 then os.exit(3, true) end")
     assert.equal(1, count)
+    program.write(folder .. "/fuzz_corpus.lua", program.read(program.root .. "/scripts/fuzz_corpus.lua"))
     local out, _, code = program.run { program.write(folder .. "/f.lua", text), "--bytes", "6e4", "--quiet" }
     assert.equal(1, code)
     assert.matches("FOUND %-%-seed 1 %-%-case 9 %(%a+%): the program ended with exit 3\n", out)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The error bar of given values of levels.
 package.path = "./?.lua;" .. package.path
-local trust = require "softworld.run.trust"
+local estimate = require "softworld.run.estimate"
 local t = require "spec.physics.tools"
 
 describe("the estimate", function()
@@ -12,34 +12,34 @@ describe("the estimate", function()
       for n = 3, 6 do
         local values = {}
         for k = 1, n do values[k] = 5 + 2 ^ (-order * k) end
-        local bar = trust.estimate(smooth, values, false)
+        local bar = estimate.bar(smooth, values, false)
         t.near(1.5, bar / (values[n] - 5), 0.01, "bar over error")
       end
     end
-    t.near(1.5, trust.estimate(smooth, { 5.25, 5.0625 }, false) / 0.0625, 0.01, "two levels")
-    t.near(1.5, trust.estimate(plain, { 5.25, 5.125 }, false) / 0.125, 0.01, "two levels, first order")
+    t.near(1.5, estimate.bar(smooth, { 5.25, 5.0625 }, false) / 0.0625, 0.01, "two levels")
+    t.near(1.5, estimate.bar(plain, { 5.25, 5.125 }, false) / 0.125, 0.01, "two levels, first order")
   end)
 
   it("is no less than all of what vanishes", function()
     local depth = { plain = true, row = true, vanishes = true }
-    assert.equal(2e-6, trust.estimate(depth, { 3e-6, 2.1e-6, 2e-6 }, true))
-    assert.equal(2e-6, trust.estimate(depth, { 2e-6, 2e-6 }, true))
-    assert.is_near(6e-5, trust.estimate(depth, { 1e-6, 2e-6, 12e-6 }, true), 1e-12) -- its change is larger
-    assert.equal(0, trust.estimate(depth, { 0, 0, 0 }, true))
+    assert.equal(2e-6, estimate.bar(depth, { 3e-6, 2.1e-6, 2e-6 }, true))
+    assert.equal(2e-6, estimate.bar(depth, { 2e-6, 2e-6 }, true))
+    assert.is_near(6e-5, estimate.bar(depth, { 1e-6, 2e-6, 12e-6 }, true), 1e-12) -- its change is larger
+    assert.equal(0, estimate.bar(depth, { 0, 0, 0 }, true))
   end)
 
   it("does not trust a small last change", function()
     for _, last in ipairs{ 0, 1e-9, -1e-9 } do
-      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, false) > 0.1)
-      assert.is_true(trust.estimate(smooth, { 5, 6, 6 + last }, true) > 0.15)
+      assert.is_true(estimate.bar(smooth, { 5, 6, 6 + last }, false) > 0.1)
+      assert.is_true(estimate.bar(smooth, { 5, 6, 6 + last }, true) > 0.15)
     end
   end)
 
   it("takes what jumps about for what it is", function()
     local values = { 1, 1.1, 1.6, 1.65 }
-    assert.is_true(trust.estimate(plain, values, true) >= 0.5)
-    assert.is_true(trust.estimate(smooth, { 1, 1.2, 1.1 }, false) >= 0.1)
-    assert.is_true(trust.estimate(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
+    assert.is_true(estimate.bar(plain, values, true) >= 0.5)
+    assert.is_true(estimate.bar(smooth, { 1, 1.2, 1.1 }, false) >= 0.1)
+    assert.is_true(estimate.bar(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
   end)
 
   -- Changes on the levels that a bar knows, over the true error of the last, as finer ones found it.
@@ -50,13 +50,13 @@ describe("the estimate", function()
       { smooth, true, 7.5, 3.7, 0.15 }, { smooth, true, 6.9, 0.93, 0.06 } } do
       local values = { 5 }
       for i = 3, #case do values[i - 1] = values[i - 2] + case[i] end
-      local still = trust.estimate(case[1], values, case[2])
-      local bar = trust.estimate(case[1], values, case[2], true)
+      local still = estimate.bar(case[1], values, case[2])
+      local bar = estimate.bar(case[1], values, case[2], true)
       assert.is_true(still < 1 and bar >= 1, ("%g, was %g"):format(bar, still))
       assert.is_true(bar < 15, ("%g"):format(bar))
     end
     local orderly = { 5, 5.25, 5.3125, 5.328125 }
-    assert.are.equal(trust.estimate(plain, orderly, false), trust.estimate(plain, orderly, false, true))
+    assert.are.equal(estimate.bar(plain, orderly, false), estimate.bar(plain, orderly, false, true))
   end)
 
   -- Sidewall pressure of a blow in a first pass of levels; on finer ones it went on to 8 and 12.
@@ -64,18 +64,18 @@ describe("the estimate", function()
     for _, values in ipairs{ { 1.346, 1.476, 1.968 }, { 3.365, 5.241, 7.042 } } do
       local last = values[3] - values[2]
       for _, contact in ipairs{ false, true } do
-        assert.is_near(6 * last, trust.estimate({ row = true, plain = true }, values, contact), 1e-12)
+        assert.is_near(6 * last, estimate.bar({ row = true, plain = true }, values, contact), 1e-12)
       end
     end
     local halved = { 1, 1.5, 1.75 } -- as much again is to come
-    assert.is_near(1.5 * 0.25, trust.estimate({ row = true, plain = true }, halved, true), 1e-12)
+    assert.is_near(1.5 * 0.25, estimate.bar({ row = true, plain = true }, halved, true), 1e-12)
   end)
 
   it("has no bar for a single level, and none of nothing", function()
-    assert.are.equal(math.huge, (trust.estimate(smooth, { 1 }, false)))
-    assert.is_true(trust.estimate(smooth, { 1, 1, 1 }, false) > 0)
+    assert.are.equal(math.huge, (estimate.bar(smooth, { 1 }, false)))
+    assert.is_true(estimate.bar(smooth, { 1, 1, 1 }, false) > 0)
     local straight = { math.huge, math.huge, math.huge } -- its bend radius
-    assert.are.equal(0, (trust.estimate(smooth, straight, false)))
-    assert.are.equal(math.huge, (trust.estimate(smooth, { 1, 2, math.huge }, false)))
+    assert.are.equal(0, (estimate.bar(smooth, straight, false)))
+    assert.are.equal(math.huge, (estimate.bar(smooth, { 1, 2, math.huge }, false)))
   end)
 end)

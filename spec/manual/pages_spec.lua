@@ -144,7 +144,7 @@ describe("what the manual and the README name:", function()
   end)
 
   it("targets of make and cases of the bench are there", function()
-    local makefile, bench = read "Makefile", read "scripts/bench.lua"
+    local makefile, bench = read "Makefile", read "scripts/bench.lua" .. read "scripts/bench/choice.lua"
     each_text(function(name, text)
       for target in text:gmatch "`make ([%l]+)" do
         assert.is_truthy(makefile:find("\n" .. target .. ":", 1, true), name .. ": make " .. target)

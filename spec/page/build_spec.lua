@@ -2,11 +2,14 @@
 -- `softworld --view` alone, in a real browser: forms put a scene together, it is run, changed, run again and
 -- saved; the saved script gives the same numbers.
 package.path = "./?.lua;" .. package.path
-local browser = require "spec.page.browser"
+local begun = require "spec.page.begun"
 local program = dofile "spec/host/program.lua"
 local socket = require "socket"
 
 local folder, page, address
+
+local begin, text, click, fill, submit, closed, set_duration, add, wait_for = begun.begin, begun.text,
+  begun.click, begun.fill, begun.submit, begun.closed, begun.set_duration, begun.add, begun.wait_for
 
 local TELL = [[
 for _, x in ipairs((scene:find("cord"):positions())) do io.write(("%a "):format(x)) end
@@ -28,29 +31,6 @@ while true do
 end
 ]]
 
--- Run the program with these words, in a process of its own; where its page is.
-local function begin(words)
-  local path = program.path:find "^/" and program.path or require "lfs".currentdir() .. "/" .. program.path
-  os.execute(("cd '%s' && rm -f err && { env --default-signal=INT '%s' %s >out 2>err & echo $! >pid; }")
-    :format(folder, path, words))
-  for _ = 1, 200 do
-    local file = io.open(folder .. "/err")
-    local said = file and file:read "a" or ""
-    if file then file:close() end
-    if said:find "http://%S+/" then return said:match "http://%S+" end
-    socket.sleep(0.05)
-  end
-  error "the view does not begin"
-end
-
-local function stop(signal)
-  local file = io.open(folder .. "/pid")
-  if not file then return end
-  os.execute(("kill -%s %d 2>/dev/null"):format(signal or "INT", file:read "n"))
-  file:close()
-  os.remove(folder .. "/pid")
-end
-
 local told = 0
 
 -- The numbers of the view's scene; it must be between two runs.
@@ -70,36 +50,6 @@ local function numbers()
   error "nothing was printed"
 end
 
-local function text(selector)
-  return page:run("return document.querySelector(arguments[0])?.innerText", selector)
-end
-local function click(selector)
-  page:run("document.querySelector(arguments[0]).click()", selector)
-end
-
--- The field of the open form that has this label, or one of its parts.
-local FIELD = [[
-  const label = [...document.querySelectorAll(".form-box label")]
-    .find((l) => l.innerText.replace(" *", "") === arguments[0]);
-  const first = document.getElementById(label.htmlFor);
-  const all = first.parentElement.className.startsWith("vector")
-    ? [...first.parentElement.children] : [first];
-]]
-local function fill(name, ...)
-  for k, value in ipairs { ... } do
-    page:run(FIELD .. [[
-      const [, value, k] = arguments;
-      all[k].value = value;
-      all[k].dispatchEvent(new Event("change"));]], name, value, k - 1)
-  end
-end
-local function submit() page:run [[document.querySelector(".form-box form").requestSubmit()]] end
-local function closed() page:wait [[return !document.querySelector(".form-box")]] end
-local function set_duration(value)
-  page:run([[
-    const f = [...document.querySelectorAll("#panel-build label")].find((l) => l.innerText === "duration");
-    document.getElementById(f.htmlFor).value = arguments[0];]], value)
-end
 local function steps(count)
   for _ = 1, count do
     local before = page:run "return player.state.get('time')"
@@ -135,25 +85,15 @@ local function same_numbers()
   return script
 end
 
-local function add(class) click(("[data-class=%s]"):format(class)) end
 local function things() return text "ul.things" end
-local function wait_for(words)
-  page:wait(("return document.querySelector('ul.things').innerText.includes(%q)"):format(words))
-end
-
 setup(function()
-  folder = program.folder()
-  page = browser.open(1280, 720)
+  page, folder = begun.open()
   program.write(folder .. "/run.lua", SCRIPT)
   address = begin "run.lua"
   page:go(address)
 end)
 
-teardown(function()
-  stop "TERM"
-  if page then page:close() end
-  os.execute("rm -rf " .. program.quote(folder))
-end)
+teardown(begun.close)
 
 describe("a view that begins with nothing", function()
   it("opens an empty scene at its start", function()
@@ -172,7 +112,8 @@ describe("a view that begins with nothing", function()
     for _, words in ipairs { "0.0035 m", "measured", "makers' tables" } do
       assert.truthy(sheet:find(words, 1, true), sheet)
     end
-    assert.is_true(page:run(FIELD:gsub("arguments%[0%]", '"E"') .. "return all[0].closest('.row').hidden"))
+    local field = begun.FIELD:gsub("arguments%[0%]", '"E"')
+    assert.is_true(page:run(field .. "return all[0].closest('.row').hidden"))
     fill("name", "cord")
     fill("from", "0", "0", "0.1")
     fill("to", "0.4", "0", "0.1")
@@ -347,138 +288,5 @@ describe("a view that begins with nothing", function()
     local script = same_numbers()
     assert.truthy(script:find("hand:grasp(cord, { s = 0.38 })", 1, true), script)
     assert.truthy(script:find("-- the run is ended", 1, true), script)
-  end)
-end)
-
-local function choose(kind)
-  page:run([[
-    const s = document.querySelector(".form-box .choose select");
-    s.value = arguments[0];
-    s.dispatchEvent(new Event("change"));]], kind)
-end
-
-describe("softworld --view without a script", function()
-  it("opens a page to begin with nothing, until Ctrl-C, a run or not", function()
-    stop()
-    page:go(begin "--view")
-    assert.equal("at the start", text "#status")
-    stop()
-    page:wait [[return document.getElementById("status").innerText === "not connected"]]
-    page:go(begin "--view")
-    add "wire"
-    submit()
-    closed()
-    set_duration "1e5"
-    click "#run"
-    page:wait "return player.state.get('run').running && player.state.get('time') > 0.1"
-    stop()
-    page:wait [[return document.getElementById("status").innerText === "not connected"]]
-  end)
-
-  it("joins wires, makes a net, and waits for what a gripper bears", function()
-    page:go(begin "--view")
-    for _, name in ipairs { "cord", "branch" } do
-      add "wire"
-      fill("name", name)
-      if name == "branch" then
-        fill("from", "0.25", "0", "0.1")
-        fill("to", "0.25", "0.2", "0.1")
-      end
-      submit()
-      closed()
-      wait_for(name)
-    end
-    add "fixing"
-    choose "join"
-    fill("one", "cord")
-    fill("s", "0.25")
-    fill("other", "branch")
-    fill("other_s", "0")
-    submit()
-    closed()
-    wait_for "join1"
-    add "particles"
-    fill("name", "net")
-    submit()
-    closed()
-    wait_for "net"
-    add "gripper"
-    fill("name", "hand")
-    submit()
-    closed()
-    wait_for "hand"
-    for _, step in ipairs { { "grasp", "s", "0.5" }, { "wait_for_force", "force", "0.01" } } do
-      click "#add-step"
-      choose(step[1])
-      if step[1] ~= "grasp" then assert.truthy(text ".form-box":find "Lua functions, in a script") end
-      fill(step[2], step[3])
-      submit()
-      closed()
-    end
-    local wait = "p:wait_until({ on = hand, force = 0.01 }, { timeout = 1 })"
-    assert.truthy(text "ol.things":find(wait, 1, true))
-    assert.is_true(page:run [[return player.view.actors.some((a) => a.kind === "particles" && a.there)]])
-    set_duration ""
-    click "#run"
-    page:wait "return player.state.get('run').done"
-    assert.equal("ended", text "#status")
-    for _, line in ipairs(page:console()) do
-      assert.is_true(line.level ~= "SEVERE" or line.message:find("CONNECTION_REFUSED") ~= nil, line.message)
-    end
-    stop()
-  end)
-
-  it("takes functions where it was told to, shows the line that is wrong, and saves them", function()
-    local function has_function()
-      add "force"
-      return page:run [[return [...document.querySelector(".form-box .choose select").options]
-        .some((o) => o.value === "function")]]
-    end
-    page:go(begin "--view")
-    add "wire"
-    submit()
-    closed()
-    assert.is_false(has_function())
-    stop()
-    page:go(begin "--view --functions")
-    add "wire"
-    submit()
-    closed()
-    assert.is_true(has_function())
-    choose "function"
-    local function body(words)
-      page:run("document.querySelector('textarea.code').value = arguments[0]", words)
-      submit()
-    end
-    body "f[3] = f[3] + 0.01\nf[6] = = 2"
-    page:wait "return /^function.func: line 2: /.test(document.querySelector('.form-box .why').innerText)"
-    assert.equal("f[6] = = 2", page:run [[const a = document.activeElement;
-      return a.value.slice(a.selectionStart, a.selectionEnd)]])
-    body "if t > 0.2 then\n  f[3] = scene.nothing.at\nend"
-    closed()
-    click "#run"
-    page:wait "return /line 2 of func of function .line [0-9]+ of the script./.test(document.body.innerText)"
-    page:wait "return player.state.get('time') > 0.15" -- as far as it went
-    click "ul.things li:nth-child(2) .thing-name"
-    page:wait "return document.querySelector('textarea.code')"
-    body "f[3] = f[3] + 0.001 * math.sin(20 * t)"
-    closed()
-    click "#run"
-    page:wait "return player.state.get('run').done && player.state.get('run').ok"
-    local script = page:run "return player.panel.build.script"
-    local source = "kind = function(t, x, v, f)\nf[3] = f[3] + 0.001 * math.sin(20 * t)\nend"
-    assert.truthy(script:find(source, 1, true), script)
-    program.write(folder .. "/typed.lua", script)
-    local _, err, code = program.run { folder .. "/typed.lua" }
-    assert.equal(0, code, err)
-    stop()
-  end)
-
-  it("is no option beside -e and -i alone", function()
-    for _, words in ipairs { { "--view", "-e", "x = 1" }, { "--view", "-i" }, { "--view", "-v" } } do
-      local _, err, code = program.run(words)
-      assert.equal(2, code)
-      assert.truthy(err:find "a script is missing")
-    end
   end)
 end)

@@ -1,52 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The player in a real browser: it is opened from disk, shows, moves, tells, and is used by keys and pointer.
-local browser = require "spec.page.browser"
-local files = require "spec.output.files"
 local runs = require "spec.page.runs"
+local stage = require "spec.page.stage"
 local sw = require "softworld"
 
-local folder, page
+local page, folder
 
-setup(function()
-  folder = files.folder()
-  page = browser.open(1280, 720)
-end)
+setup(function() page, folder = stage.open() end)
+teardown(stage.close)
 
-teardown(function()
-  if page then page:close() end
-  files.remove(folder)
-end)
+local address, assert_calm, colour_count, fingerprint, time, text = stage.address, stage.assert_calm,
+  stage.colour_count, stage.fingerprint, stage.time, stage.text
 
-local function address(name) return "file://" .. folder .. "/" .. name end
-
--- Nothing was complained of since the last look.
-local function assert_calm()
-  for _, line in ipairs(page:console()) do
-    assert.is_true(line.level ~= "SEVERE" and line.level ~= "WARNING", line.level .. ": " .. line.message)
-  end
-end
-
--- How many different colours the stage has, read off a picture of it; more than count only.
-local colours = [[
-  const view = player.view, from = view.stage.canvas, to = document.createElement("canvas");
-  to.width = from.width; to.height = from.height;
-  view.stage.draw();
-  const c = to.getContext("2d");
-  c.drawImage(from, 0, 0);
-  const data = new Uint32Array(c.getImageData(0, 0, to.width, to.height).data.buffer);
-]]
-
-local function colour_count() return page:run(colours .. "return new Set(data).size;") end
-
--- A sum of the picture, to tell whether it has changed.
-local function fingerprint()
-  return page:run(colours .. "let h = 0; for (const x of data) h = (Math.imul(h, 31) + x) | 0; return h;")
-end
-
-local function time() return page:run "return player.state.get('time')" end
-local function text(selector)
-  return page:run("return document.querySelector(arguments[0]).innerText", selector)
-end
 -- Choose from the menu for exports.
 local function export(words)
   return ([[
@@ -324,100 +289,5 @@ describe("the player", function()
     local dark = page:run "return getComputedStyle(document.body).backgroundColor"
     page:run "player.state.set({ theme: 'light' })"
     assert.is_true(dark ~= page:run "return getComputedStyle(document.body).backgroundColor")
-  end)
-end)
-
-describe("a page of", function()
-  it("several runs has all of them, in one time", function()
-    local a, b = runs.laying(), runs.laying { name = "farther", far = 1.4 }
-    sw.report { a, b, path = folder .. "/both.html", title = "two ways" }
-    page:go(address "both.html")
-    assert.equal("two ways", text "h1")
-    assert.equal(2, page:run "return player.view.actors.filter((a) => a.kind === 'wire' && a.there).length")
-    page:run "player.state.set({ time: 1.2 })"
-    local apart = page:run [[
-      const [a, b] = player.view.actors.filter((w) => w.kind === "wire");
-      return a.place(0).point.distanceTo(b.place(0).point);]]
-    assert.is_true(apart > 0.01) -- the first hand is there, the second one still on its way
-    local labels = page:run "return player.charts.list[0].group.curves.map((c) => c.label)"
-    assert.truthy(table.concat(labels, " "):find("1: hand.force", 1, true))
-    assert.truthy(table.concat(labels, " "):find("2: hand.force", 1, true))
-    page:run "document.querySelector('#tab-results').click()"
-    assert.truthy(text "#panel-results":find("farther", 1, true))
-    assert.near(b.time, page:run "return player.transport.span[1]", 1e-6)
-    assert_calm()
-  end)
-
-  it("a mesh has its surface", function()
-    local run = runs.mesh()
-    run:report(folder .. "/mesh.html")
-    page:go(address "mesh.html")
-    assert.is_true(colour_count() > 200)
-    local frame = run:frames()[3]
-    local points = page:run([[
-      player.state.set({ time: arguments[0] });
-      const w = player.view.actors.find((a) => a.kind === "wire");
-      return [...w.surface.geometry.attributes.position.array.slice(0, 60)];]], frame.t)
-    for i, x in ipairs(points) do assert.near(frame.surfaces[1].points[i], x, 0.5e-3 * 0.005 + 1e-7) end
-    page:run "player.state.set({ time: player.transport.span[1], quantity: null })"
-    local plain = fingerprint()
-    page:run "player.state.set({ quantity: 'pressed' })"
-    assert.equal("Surface contact [N]", text ".legend-name")
-    assert.is_true(plain ~= fingerprint())
-    assert_calm()
-  end)
-
-  it("a run that failed tells why, shows how far it came, and has no numbers", function()
-    local run = runs.failed()
-    run:report(folder .. "/torn.html")
-    page:go(address "torn.html")
-    assert.equal("FAILED", text "#status")
-    assert.truthy(text "#banner":find(run.reason, 1, true))
-    assert.truthy(text "#panel-results":find(run.reason, 1, true))
-    assert.truthy(page:run "return getComputedStyle(document.querySelector('.watermark')).display !== 'none'")
-    assert.is_true(page:run "return player.data.runs[0].film.times.length" > 2)
-    assert.is_true(colour_count() > 50)
-    local one = page:run [[
-      const r = player.data.runs[0], numbers = document.querySelectorAll("td.number").length;
-      const values = [...r.film.tracks.values()].filter((t) => t.kind === "value" && t.channel !== 8);
-      return [r.series === null, r.summary === undefined, numbers, values.length];]]
-    assert.same({ true, true, 0, 0 }, one)
-    page:run "player.state.set({ probe: { id: '0 wire 0', s: 0.2 } })"
-    assert.truthy(text ".card":find("no numbers", 1, true))
-    assert.is_nil(text ".card":find("Tension", 1, true))
-    page:run "document.querySelector('#tab-charts').click()"
-    assert.truthy(text "#panel-charts":find("no series", 1, true))
-    assert_calm()
-  end)
-
-  it("a run without frames has charts only, and says so", function()
-    local run = runs.laying { frames = false }
-    run:report(folder .. "/plain.html")
-    page:go(address "plain.html")
-    assert.truthy(text "#stage":find("No frames were stored", 1, true))
-    assert.is_true(page:run [[
-      return player.charts.list.length > 0 && player.charts.list.every((c) => c.graph);]])
-    page:run "document.querySelector('.mark').click()"
-    assert.near(run.events[1].time, time(), 1e-9)
-    page:run "document.activeElement.blur()"
-    page:keys("Home", "t", "c", "f", "ArrowRight")
-    assert_calm()
-  end)
-
-  it("names with quotes, tags and the end of a script is harmless", function()
-    local nasty = [["</script><script>window.hit=1</script>]]
-      .. [[<img src=x onerror=window.hit=1>'\ <!-- &amp; @data@ %1]]
-    local name = nasty:sub(1, 60)
-    local run = runs.laying { name = name, wall = name, wire = nasty:sub(10, 60), note = nasty }
-    sw.report { run, path = folder .. "/nasty.html", title = nasty }
-    page:go(address "nasty.html")
-    assert.equal(nasty, page:run "return document.querySelector('h1').textContent")
-    assert.equal(nasty, page:run "return document.title")
-    page:run "document.querySelector('#tab-events').click()"
-    assert.truthy(page:run("return document.querySelector('#panel-events').textContent"):find(nasty, 1, true))
-    page:run "document.querySelector('#tab-results').click()"
-    assert.is_nil(page:run "return window.hit")
-    assert.equal(0, page:run "return document.querySelectorAll('img').length")
-    assert_calm()
   end)
 end)

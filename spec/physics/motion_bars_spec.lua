@@ -4,6 +4,7 @@
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local quantity = require "softworld.quantity"
+local estimate = require "softworld.run.estimate"
 local trust = require "softworld.run.trust"
 local t = require "spec.physics.tools"
 
@@ -114,7 +115,7 @@ describe("error bars of motions", function()
         local exact = q.levels[#q.levels]
         for k = 3, math.min(5, #q.levels - 2) do
           local values = table.move(q.levels, 1, k, 1, {})
-          local bar = trust.estimate({ plain = plain[name] }, values, touched[k], true)
+          local bar = estimate.bar({ plain = plain[name] }, values, touched[k], true)
           local off = quantity.distance(q.levels[k], exact)
           n = n + 1
           if off <= bar then held = held + 1

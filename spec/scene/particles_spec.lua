@@ -1,32 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Objects of particles: what they are made of, how they move, what they refuse.
 local sw = require "softworld"
-local core = sw.core
+local nets = require "spec.scene.nets"
 
+local net = nets.net
+local core = sw.core
 local G = 9.81
 
 local function near(expected, value, tolerance, what)
   assert.is_true(math.abs(value - expected) <= tolerance,
     ("%s: %.12g instead of %.12g"):format(what or "value", value, expected))
-end
-
--- n x n particles in a plane, threads and bending between them.
-local function net(scene, n, more)
-  local positions, pairs_, triples = {}, {}, {}
-  local function add(list, ...) for _, k in ipairs{ ... } do list[#list + 1] = k end end
-  for j = 0, n - 1 do
-    for i = 0, n - 1 do
-      local k = j * n + i + 1
-      add(positions, 0.1 * i, 0.1 * j, 1)
-      if i + 1 < n then add(pairs_, k, k + 1) end
-      if j + 1 < n then add(pairs_, k, k + n) end
-      if i + 2 < n then add(triples, k, k + 1, k + 2) end
-    end
-  end
-  local args = { positions = positions, masses = 0.01, links = { { pairs = pairs_, k = 50 } },
-    folds = { { triples = triples, stiffness = 0.01 } }, radius = 0.005 }
-  for k, v in pairs(more or {}) do args[k] = v end
-  return scene:particles(args)
 end
 
 local function momentum(object, mass)
@@ -310,121 +293,6 @@ describe("forces on particles", function()
     refuses("'net' is an object of particles", scene.run, scene,
       { duration = 0.01, tolerance = { tip = 1e-3 } })
     assert.is_true(scene:run{ duration = 0.02 }.ok)
-  end)
-end)
-
-describe("particles that are wrong", function()
-  local good = { positions = { 0, 0, 0, 1, 0, 0, 2, 0, 0 }, masses = 1 }
-  local nan, huge = 0 / 0, math.huge
-  local cases = {
-    { "no particle", { positions = {} } },
-    { "no threes", { positions = { 1, 2 } } },
-    { "must be finite", { positions = { 0, 0, nan } } },
-    { "must be finite", { positions = { 0, 0, huge } } },
-    { "got string x", { positions = { 0, 0, "x" } }, "got string" },
-    { "must be {x, y, z}", { positions = { { 0, 0 } } } },
-    { "in [-1e9, 1e9]", { positions = { 0, 0, 1e12 } } },
-    { "mass 1 = -1 kg", { masses = -1 } },
-    { "mass 1 = 0 kg", { masses = 0 } },
-    { "mass 2 = -3 kg", { masses = { 1, -3, 1 } } },
-    { "2 items for 3", { masses = { 1, 1 } } },
-    { "mass 1 = ", { masses = nan } },
-    { "must be a list", { links = 3 } },
-    { "names particle 4", { links = { { 1, 4, k = 1 } } } },
-    { "from 1 on", { links = { { 0, 1, k = 1 } } } },
-    { "from 1 on", { links = { { 1.5, 1, k = 1 } } } },
-    { "twice", { links = { { 1, 1, k = 1 } } } },
-    { "k is required", { links = { { 1, 2 } } } },
-    { "k = -1 N/m", { links = { { 1, 2, k = -1 } } } },
-    { "k = inf", { links = { { 1, 2, k = nan } } } },
-    { "rest = 0 m", { links = { { 1, 2, k = 1, rest = 0 } } } },
-    { "yield = -1", { links = { { 1, 2, k = 1, yield = -1 } } } },
-    { "hardening = -1", { links = { { 1, 2, k = 1, yield = 1, hardening = -1 } } } },
-    { "did you mean 'rest'", { links = { { 1, 2, k = 1, rset = 0 } } } },
-    { "names 3 particles", { links = { { 1, 2, 3, k = 1 } } } },
-    { "no multiple of 2", { links = { { pairs = { 1, 2, 3 }, k = 1 } } } },
-    { "1 items for 2", { links = { { pairs = { 1, 2, 2, 3 }, k = { 1 } } } } },
-    { "links 1 and 2 both join particles 1 and 2", { links = { { 1, 2, k = 1 }, { 2, 1, k = 2 } } } },
-    { "at the same place", { positions = { 0, 0, 0, 0, 0, 0, 1, 0, 0 }, links = { { 1, 2, k = 1 } } } },
-    { "stiffness is required", { folds = { { 1, 2, 3 } } } },
-    { "stiffness = 0", { folds = { { 1, 2, 3, stiffness = 0 } } } },
-    { "twice", { folds = { { 1, 2, 1, stiffness = 1 } } } },
-    { "names 2 particles", { elements = { { 1, 2, E = 1, nu = 0 } } } },
-    { "give mu and lambda", { elements = { { hexes = {} }, { prisms = { 1, 2, 3, 1, 2, 3 } } } } },
-    { "or a list of edges", { surface = "all" } },
-    { "{i, j} or {i, j, k}", { surface = { { 1 } } } },
-    { "names particle 9", { surface = { { 1, 2, 9 } } } },
-    { "radius is required", { radius = false } },
-    { "distance is required", { repel = { stiffness = 1 } } },
-    { "stiffness", { repel = { distance = 1, stiffness = -1 } } },
-    { "did you mean 'links'", { link = {} } },
-  }
-  for _, case in ipairs(cases) do
-    it("are refused: " .. case[1], function()
-      local scene = sw.scene{}
-      local args = { radius = 0.01 }
-      for k, v in pairs(good) do args[k] = v end
-      for k, v in pairs(case[2]) do args[k] = v end
-      if args.radius == false then args.radius = nil end
-      local ok, message = pcall(scene.particles, scene, args)
-      assert.is_false(ok)
-      assert.is_truthy(message:find(case[3] or case[1], 1, true), message)
-      assert.are.equal(0, #core.data(scene).particles)
-      assert.is_truthy(scene:particles{ positions = { 0, 0, 0 }, masses = 1, radius = 1 })
-    end)
-  end
-
-  it("refuse elements inside out and without volume", function()
-    local scene = sw.scene{}
-    local corners = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1 }
-    local function make(nodes, E)
-      nodes.E, nodes.nu = E or 1, 0.3
-      return scene:particles{ positions = corners, masses = 1, elements = { nodes } }
-    end
-    assert.are.equal(6, make{ 1, 2, 3, 4, 5, 6 }.count)
-    assert.has_error(function() make{ 1, 3, 2, 4, 6, 5 } end)
-    assert.has_error(function() make({ 1, 2, 3, 4, 5, 6 }, -1) end)
-  end)
-
-  it("refuse wrong numbers of particles afterwards", function()
-    local scene = sw.scene{}
-    local object = net(scene, 3)
-    assert.has_error(function() object:particle(0) end)
-    assert.has_error(function() object:particle(10) end)
-    assert.has_error(function() object:particle(nan) end)
-    assert.has_error(function() object:set_velocity{ 1, 2 } end)
-    assert.has_error(function() object:set_velocity{ 1, 2, 3, 4 } end)
-    for _, list in ipairs{ {}, { 10 }, { 0 }, { 1, 1 }, { 1.5 }, 7 } do
-      assert.has_error(function() scene:hold(object, { particles = list }) end)
-    end
-    scene:hold(object, { particles = { 1, 2 } })
-    assert.has_error(function() scene:hold(object, { particles = { 2, 3 } }) end)
-    assert.has_error(function()
-      scene:force{ kind = "push", on = object, particles = { 10 }, force = { 0, 0, 1 } }
-    end)
-    assert.are.equal(1, #core.data(scene).holds)
-  end)
-
-  it("are found out when their scene is gone", function()
-    local scene = sw.scene{}
-    local object = net(scene, 3)
-    scene:close()
-    assert.has_error(function() object:positions() end)
-    assert.is_truthy(tostring(object):find "closed")
-    local other = sw.scene{}
-    assert.has_error(function() other:hold(object, { particles = { 1 } }) end)
-  end)
-
-  it("tell where they are torn apart", function()
-    local scene = sw.scene{ gravity = { 0, 0, 0 } }
-    local object = net(scene, 3, { name = "net" })
-    local v = object:velocities()
-    v[3 * 9] = 1e4
-    object:set_velocity(v)
-    local run = scene:run{ duration = 0.1, dt = 0.01 }
-    assert.is_false(run.ok)
-    assert.is_truthy(run.reason:find "net", run.reason)
-    assert.has_error(function() object:positions() end)
   end)
 end)
 

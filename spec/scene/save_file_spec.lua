@@ -111,7 +111,7 @@ describe("a file of a scene", function()
       local path, scene = ("spec/scene/old/version_%d.sws"):format(version), small()
       local before = saving.all(scene)
       for _, read in ipairs{ sw.load, function(name) return scene:resume(name) end } do
-        fails({ path, ("of version %d of the format; this SoftWorld reads 10"):format(version),
+        fails({ path, ("of version %d of the format; this SoftWorld reads 11"):format(version),
           "let the scene's script write it again", "the SoftWorld that wrote it" }, read, path)
       end
       same(before, saving.all(scene))

@@ -2,7 +2,8 @@
 --- Abrasion where wires slide on obstacles and on each other, at the place where it is most, of every step
 -- of a run with wear = true: work of friction per area, and depth worn off by Archard's law,
 --     depth = coefficient x normal force x way / area.
--- The area is the wire's length times a width across it on which it rubs. Friction in feeds, sliders and
+-- The area is the wire's length times a width across it on which it rubs. Of a mesh the friction of all
+-- particles of a section counts at its place. Friction in feeds, sliders and
 -- clips, and that of blows, is not in it.
 -- @module softworld.check.abrasion
 local worn = require "softworld.check.worn"
@@ -20,15 +21,14 @@ local function join(a, b) return a and b and a .. "; " .. b or a or b end
 --- The largest of { rubbed =, slid = } over places by what of(place) gives, times repeats, over the width.
 function abrasion.largest(entry, context, of)
   local given = context.abrasion
-  local places, partial = worn.of(entry)
-  if not places then return worn.missing(entry) end
+  local places = worn.places(entry)
+  if not places then return worn.missing() end
   local across, assumed = width(entry, given)
   local best = { value = 0, note = assumed }
   for _, place in ipairs(places) do
     local now = of(place) / across * (given and given.repeats or 1)
     if now > best.value then best.value, best.s = now, place.s end
   end
-  if partial then worn.at_least(best, partial) end
   return best
 end
 

@@ -138,7 +138,7 @@ end
 local function at_curves(entry, context, given, strength)
   local places, partial = worn.of(entry)
   if places then return of_steps(entry, given, places, strength), partial end
-  if given.bending then return worn.missing(entry) end
+  if given.bending then return worn.no_cycles(entry) end
   return of_frames(entry, context, strength, given)
 end
 

@@ -20,6 +20,7 @@ local quantity = require "softworld.quantity"
 local refine = require "softworld.run.refine"
 local registry = require "softworld.model.registry"
 local spread = require "softworld.model.spread"
+local estimate = require "softworld.run.estimate"
 local trust = require "softworld.run.trust"
 
 local choose = {}
@@ -35,7 +36,7 @@ local function suffices(job, k, known)
   if k < decide.levels then return false end
   for _, q in ipairs(job.quantities) do
     local values = job.values[q.name]
-    local bar = trust.estimate(q, values, known.contact, known.moves)
+    local bar = estimate.bar(q, values, known.contact, known.moves)
     if bar > q.aim(quantity.asked(q, values[k])) then return false end
   end
   return true

@@ -6,7 +6,7 @@ local change = require "softworld.model.change"
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
 local quantity = require "softworld.quantity"
-local trust = require "softworld.run.trust"
+local estimate = require "softworld.run.estimate"
 
 local decide = {}
 
@@ -71,7 +71,7 @@ local function saves_nothing(context, above, before, k)
   if k < decide.levels or growth * above.work < MOMENT then return false end
   for _, q in ipairs(context.job.quantities) do
     local value = above.values[q.name] or NONE
-    local bar, rate = trust.estimate(q, { before.values[q.name] or NONE, value }, above.contact)
+    local bar, rate = estimate.bar(q, { before.values[q.name] or NONE, value }, above.contact)
     local enough = bar / rate <= quantity.asked(q, value) -- of numbers that are not known: not
     if not enough then return false end
   end
@@ -191,7 +191,7 @@ local function in_vain(context, rungs, up)
   for _, q in ipairs(one.ok and two.ok and job.quantities or {}) do
     local now = two.values[q.name] or NONE
     local asked = quantity.asked(q, now)
-    local bar = trust.hopeless(q, { one.values[q.name] or NONE, now }, two.contact, context.most, asked)
+    local bar = estimate.hopeless(q, { one.values[q.name] or NONE, now }, two.contact, context.most, asked)
     if bar then
       return ("the bar of %s is %s at least on the finest of %d levels, asked for is %s: no mesh mends that")
         :format(q.name, number.text(bar, q.unit), context.most, number.text(asked, q.unit))

@@ -1,0 +1,26 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Runs that specs of run:check look at, and what they say.
+local sw = require "softworld"
+
+-- A gripper lifts and lays the end of a wire. options: of the wire, and run's.
+local function laying(options, run_options)
+  local scene = sw.scene{ name = "lay" }
+  scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
+  local given = { name = "w", from = { 0, 0, 0.0015 }, to = { 0.3, 0, 0.0015 }, segments = 30 }
+  for key, value in pairs(options or { cable = "GXL 1.5" }) do given[key] = value end
+  local wire = scene:wire(given)
+  local left = scene:gripper{ name = "left", pads = { width = 0.02 } }
+  scene:process(function(p)
+    p:step("grasp", function() left:grasp(wire, { s = 0.02 }) end)
+    p:step("lift", function() left:move{ by = { 0.05, 0, 0.08 }, duration = 0.4 } end)
+    p:step("lay", function() left:move{ by = { 0, 0, -0.08 }, duration = 0.4 } end)
+    left:release()
+    p:wait(0.4)
+  end)
+  run_options = run_options or {}
+  run_options.dt = run_options.dt or 0.005
+  local run = scene:run(run_options)
+  return run, scene, wire, left
+end
+
+return { laying = laying }

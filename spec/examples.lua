@@ -1,0 +1,31 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Examples run as a user would run them, and what they print.
+local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec"
+local program = dofile(here .. "/host/program.lua")
+
+local examples = { program = program, here = here }
+
+-- What an example prints, and all numbers in it in their order.
+function examples.run(name, ...)
+  local out, err, code = program.run { "examples/" .. name .. ".lua", ... }
+  assert(code == 0, name .. " failed: " .. err)
+  local numbers = {}
+  for word in out:gmatch "%f[%w+-][+-]?%d[%d.]*[eE]?[+-]?%d*" do
+    numbers[#numbers + 1] = tonumber(word)
+  end
+  return out, numbers
+end
+
+function examples.after(out, words)
+  local _, stop = out:find(words, 1, true)
+  assert(stop, "'" .. words .. "' was not printed:\n" .. out)
+  return tonumber(out:match("^%s*([+-]?%d[%d.]*[eE]?[+-]?%d*)", stop + 1))
+end
+
+function examples.near(expected, value, tolerance, what)
+  local off = math.abs(value / expected - 1)
+  assert(off <= tolerance, ("%s: %.6g instead of %.6g, off by %.2g, allowed %.2g"):format(what or "value",
+    value, expected, off, tolerance))
+end
+
+return examples

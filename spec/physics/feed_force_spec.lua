@@ -1,0 +1,114 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Feeds by a force, and feeds with grippers.
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+local sleeves = require "spec.physics.sleeves"
+
+local sleeve = sleeves.sleeve
+local g, mass, EI = 9.81, 0.03, 3e-3
+local w = mass * g
+
+describe("a feed with a force", function()
+  -- Falling against a brake B: x'' = g - B / (mass x), whose energy integral is exact.
+  it("lets wire fall as the formula says", function()
+    local start = 0.5
+    local brake = 0.5 * w * start
+    local function speed_at(x)
+      return math.sqrt(2 * (g * (x - start) - brake / mass * math.log(x / start)))
+    end
+    local length, speed = start, 0 -- the same by Runge and Kutta
+    local h = 1e-4
+    local function slope(x) return g - brake / (mass * x) end
+    for _ = 1, 4000 do
+      local k1, k2 = slope(length), slope(length + 0.5 * h * speed)
+      local k3 = slope(length + 0.5 * h * (speed + 0.5 * h * k1))
+      local k4 = slope(length + h * (speed + 0.5 * h * k2))
+      length, speed = length + h * speed + h * h / 6 * (k1 + k2 + k3),
+        speed + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    end
+    t.share(speed_at(length), speed, 1e-8, "the formulas")
+    for _, dt in ipairs { 0.01, 0.0025 } do
+      local scene = sw.scene {}
+      local wire = scene:wire { EA = 1e5, EI = EI, mass_per_length = mass, radius = 0.002,
+        from = { 0, 0, 0 }, to = { 0, 0, -start }, segments = 25 }
+      local feed = scene:feed(wire, { force = -brake })
+      t.fine(scene:settle())
+      t.fine(scene:run { duration = 0.4, dt = dt })
+      t.share(length, wire.length, 0.5 * dt, "length")
+      t.share(speed_at(wire.length), feed:speed(), 0.15 * dt + 1e-4, "speed")
+      t.share(-brake, feed:drive_force(), 1e-6, "force")
+      t.share(-feed:speed(), wire:velocity(wire.length)[3], 1e-4, "the end's speed")
+    end
+  end)
+
+  it("with a limit holds until it slips, with just that force, and holds again", function()
+    local scene = sw.scene {}
+    local wire = scene:wire { EA = 1e5, EI = EI, mass_per_length = mass, radius = 0.002,
+      from = { 0, 0, 0 }, to = { 0, 0, -0.5 }, segments = 25 }
+    local feed = scene:feed(wire, { force_limit = 0.2 })
+    local clamp = scene:clamp(wire, { s = 0.5 })
+    t.fine(scene:settle())
+    t.share(-w * 0.25, feed:drive_force(), 1e-6, "half of the weight")
+    clamp:follow { points = { { 0, 0, 0 }, { 0, 0, -0.1 } }, duration = 1, relative = true }
+    for _ = 1, 95 do
+      t.fine(scene:run { duration = 0.01, dt = 0.01 })
+      t.below(0.2 * (1 + 1e-6), math.abs(feed:drive_force()), "force")
+      if scene.time > 0.05 then t.share(-0.2, feed:drive_force(), 1e-6, "force") end
+    end
+    t.fine(scene:run { duration = 0.3, dt = 0.01 })
+    t.near(0.1, feed:fed(), 1e-5, "fed") -- the wire's stretch is below that
+    t.near(0, feed:speed(), 1e-9, "speed")
+    t.below(0.2 * (1 + 1e-6), math.abs(feed:drive_force()), "force at rest")
+  end)
+end)
+
+describe("feeding and handling", function()
+  it("lays wire onto a table", function()
+    local scene = sw.scene {}
+    local table_ = scene:obstacle { shape = "plane", friction = 0.3 }
+    local wire = scene:wire { EA = 2e4, EI = EI, mass_per_length = mass, radius = 0.002,
+      from = { 0, 0, 0.15 }, to = { 0.1, 0, 0.15 }, segments = 10 }
+    local feed = scene:feed(wire)
+    scene:process(function(p)
+      p:feed(feed, { length = 0.6, speed = 0.3 })
+      p:wait(1)
+    end)
+    t.fine(scene:run { dt = 0.005 })
+    t.fine(scene:settle())
+    t.near(0.7, wire.length, 1e-12, "length")
+    t.share(w * 0.7, feed:force()[3] - table_:force()[3], 0.01, "weight") -- borne by both
+    t.below(2e-5, (scene:penetration()), "penetration")
+    t.near(0.002, wire:position(wire.length)[3], 1e-4, "end on the table")
+  end)
+
+  -- Two movers: what one pays out the other takes along; the wire between keeps its shape's family.
+  it("pays out what a gripper pulls away", function()
+    local scene, wire, feed = sleeve(0.5, 25)
+    local gripper = scene:gripper { name = "puller" }
+    gripper:grasp(wire, { s = 0.49 })
+    t.fine(scene:settle())
+    local sag = wire:position(0.24)[3]
+    scene:process(function()
+      feed:feed { length = 0.3, duration = 1 }
+      gripper:move { by = { 0.3, 0, 0 }, duration = 1 }
+    end)
+    t.fine(scene:run { duration = 1, dt = 0.01 })
+    t.fine(scene:settle())
+    t.near(0.8, wire.length, 1e-12, "length")
+    t.share(w * 0.8, feed:force()[3] + gripper:force()[3], 1e-6, "weight")
+    -- the gripper holds the same piece of wire, now further from the start
+    t.below(1e-5, t.distance({ 0.79, 0, 0 }, wire:position(0.79)), "tool centre off by")
+    assert.is_true(wire:position(0.39)[3] < sag) -- longer spans sag more
+  end)
+
+  it("keeps forces where they are on the wire", function()
+    local scene, wire, feed = sleeve(0.4, 20, { gravity = { 0, 0, 0 } })
+    scene:force { kind = "point", on = wire, s = 0.2, force = { 0, 0, -0.01 } }
+    feed:feed { length = 0.1, duration = 1 }
+    t.fine(scene:run { duration = 1, dt = 0.05, quasistatic = true })
+    -- the place that was at 0.2 m is at 0.3 m from the guide
+    t.share(0.01 * wire:position(0.3)[1], feed:moment()[2] * -1, 1e-4, "moment")
+    t.near(0, wire:curvature(0.4), 1e-9, "beyond it")
+  end)
+end)

@@ -1,0 +1,15 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Steps of given lengths with their forces, for specs of windows.
+package.path = "./?.lua;" .. package.path
+
+-- Steps of these lengths, one after another, with the force of f at each one's middle.
+local function steps(lengths, f)
+  local list, time = {}, 0
+  for i, h in ipairs(lengths) do
+    list[i] = { t0 = time, t1 = time + h, f(time + 0.5 * h), 0, 0 }
+    time = time + h
+  end
+  return list
+end
+
+return { steps = steps }

@@ -1,0 +1,23 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Wires of which some are taken away, for specs of scene:remove.
+local R = 0.0025
+
+local function rod(scene, name, y, more)
+  local p = { name = name, E = 50e6, density = 1500, radius = R, from = { 0, y, 0.1 }, to = { -0.5, y, 0.1 },
+    segments = 20 }
+  for key, value in pairs(more or {}) do p[key] = value end
+  return scene:wire(p)
+end
+
+-- Do f between two steps, at the first state from time t on.
+local function at(scene, t, f)
+  local done
+  scene:observe{ call = function(o)
+    if scene.time >= t and not done then
+      done = true
+      o:change(f)
+    end
+  end }
+end
+
+return { rod = rod, at = at }
