@@ -2,6 +2,7 @@
 --- Gnuplot in a separate process, fed by a temporary script with its data.
 -- @module softworld.output.gnuplot
 
+local letters = require "softworld.output.letters"
 local sink = require "softworld.output.sink"
 
 local gnuplot = {}
@@ -13,7 +14,7 @@ gnuplot.colours = { "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B
 -- @tparam string text
 -- @treturn string in quotes, on one line
 function gnuplot.quote(text)
-  text = tostring(text):gsub("%c", " ")
+  text = letters.utf8(tostring(text)):gsub("%c", " ")
   -- gnuplot takes two single quotes at the start for an empty string
   if text:sub(1, 1) ~= "'" then return "'" .. text:gsub("'", "''") .. "'" end
   return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
