@@ -51,6 +51,7 @@ local terminals = {
 -- Style common to all charts; the grid lies behind and is light.
 local style = [[
 set encoding utf8
+set format "%g"
 set border 3 lc rgb "#444444"
 set tics nomirror out scale 0.6 textcolor rgb "#222222" noenhanced
 set grid back lt 1 lc rgb "#dedede" lw 0.8
@@ -61,6 +62,7 @@ set bmargin
 -- Boxes of characters read better without a grid.
 local dumb_style = [[
 set encoding utf8
+set format "%g"
 set tics nomirror noenhanced
 set key noenhanced above left horizontal
 ]]
