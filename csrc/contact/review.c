@@ -26,19 +26,43 @@ static const double DEEPER = 1e-4;
 /* What has the softness of a section is meant to give way; of the radius [-]. */
 static const double SQUEEZED = 0.2;
 
-/* How deep the candidate's wire is with positions x, where it is deepest [m]. */
-static double depth_at(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                       const sw_contact_at *at, const double *x) {
-  double deepest = 0;
+/* How deep a place of the candidate's wire is [m]. */
+static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
+                       const sw_place *place) {
+  const sw_vec normal = sw_rotate(at[k->obstacle].pose.q, place->near.normal);
+  const double aslant = sw_contact_aslant(c, k->node, k->other, place->near.at, normal);
+  return k->skin - place->near.gap - (place->sharp ? 0.0 : aslant);
+}
+
+/* Where the candidate's wire is deepest with positions x. 0: it is not in the obstacle. */
+static int find_deepest(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                        const sw_contact_at *at, const double *x, sw_place *out, double *depth) {
   sw_places list;
+  *depth = 0;
   sw_contact_near(c, s, k, at, x, k->skin, &list);
   for (size_t i = 0; i < list.count; i++) {
-    const sw_closest *near = &list.place[i].near;
-    const sw_vec normal = sw_rotate(at[k->obstacle].pose.q, near->normal);
-    const double aslant = sw_contact_aslant(c, k->node, k->other, near->at, normal);
-    deepest = fmax(deepest, k->skin - near->gap - (list.place[i].sharp ? 0.0 : aslant));
+    const double deep = depth_of(c, k, at, &list.place[i]);
+    if (deep > *depth) *depth = deep, *out = list.place[i];
   }
-  return deepest;
+  return *depth > 0;
+}
+
+/* How deep the candidate's wire was at the step's start: anywhere, or at this place. The nearest
+ * place of a chord may have been its end, which is its node's and no place of its own [m]. */
+static double depth_before(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                           const sw_place *place) {
+  sw_place before = *place;
+  double deepest;
+  find_deepest(c, s, k, c->start, s->x, &before, &deepest);
+  if (!k->segment || place->sharp) return deepest;
+  const double at = place->near.at;
+  const sw_vec a = sw_contact_where(c, s->x, k->node, k->node, 0);
+  const sw_vec b = sw_contact_where(c, s->x, k->other, k->other, 0);
+  const sw_vec p = sw_pose_local(c->start[k->obstacle].pose, sw_lerp(a, b, at));
+  before.sharp = SW_SHARP_NOT;
+  if (!sw_shape_point(c->obstacles[k->obstacle].shape, p, k->skin, &before.near)) return deepest;
+  before.near.at = at;
+  return fmax(deepest, depth_of(c, k, c->start, &before));
 }
 
 /* Did the wire come far enough in the step to be deeper by so much? If not, a node has come from an
@@ -61,10 +85,11 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
   for (size_t i = 0; i < c->candidate_count; i++) {
     const sw_candidate *k = &c->candidates[i];
     if (c->flat[k->obstacle] || sw_contact_is_held(s, k)) continue;
-    const double depth = depth_at(c, s, k, c->now, x1);
     const double more = k->given ? SQUEEZED * k->radius : DEEPER;
-    if (depth > more && depth > depth_at(c, s, k, c->start, s->x) + more &&
-        may_sink(c, s, k, x1, more))
+    sw_place place;
+    double depth;
+    if (find_deepest(c, s, k, c->now, x1, &place, &depth) && depth > more &&
+        depth > depth_before(c, s, k, &place) + more && may_sink(c, s, k, x1, more))
       return 1;
   }
   return 0;

@@ -218,6 +218,7 @@ static void hold_now(const sw_scene *s, sw_tool *t) {
   sw_contact *contact = sw_scene_contact(s);
   sw_contact_grip sum = {0};
   sw_tool_state *now = &t->now;
+  const int held = now->normal > 0;
   for (size_t k = 0; contact && k < t->pads; k++)
     if (t->pad[k].finger >= 0)
       sw_contact_add_grip(contact, sw_scene_system(s), (int)t->pad[k].obstacle, &sum);
@@ -225,7 +226,9 @@ static void hold_now(const sw_scene *s, sw_tool *t) {
   now->normal = sum.normal, now->most = sum.most;
   now->margin = sum.most > 0 ? sw_norm(sum.tangent) / sum.most : 0;
   now->sliding = sum.normal > 0 ? sum.sliding / sum.normal : 0;
+  if (held && !(sum.normal > 0)) now->lost_time = sw_scene_time(s);
   if (!(sum.normal > 0)) return;
+  now->lost_time = NAN;
   now->place = sum.place / sum.normal;
   const sw_vec way = sw_unrotate(now->q, sw_scale(sum.slip, 1.0 / sum.normal));
   now->slipped = sw_add(now->slipped, way);
@@ -304,7 +307,7 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
 int sw_tool_slipped(const sw_scene *s) {
   SW_EACH(tool, t, s)
     if (t->alive && ((t->stops && t->now.slip_time == sw_scene_time(s)) ||
-                     t->now.lost_time == sw_scene_time(s) ||
+                     ((t->stops || t->frozen) && t->now.lost_time == sw_scene_time(s)) ||
                      (t->crashing && t->crash.time == sw_scene_time(s))))
       return 1;
   return 0;

@@ -45,7 +45,8 @@ typedef struct sw_tool_state {
   double crash_time;            /* when a part of it last ran into an obstacle; NAN = never [s] */
   double crash_depth;           /* [m] */
   const char *crash_part, *crash_obstacle; /* their names, the scene's */
-  double lost_time; /* when the margin of a frozen grip was used up; NAN = it is not [s] */
+  double lost_time; /* when the margin of a frozen grip was used up, or pads that pressed on
+                       something came to press on nothing; NAN: it is not, or they press [s] */
 } sw_tool_state;
 
 /* The jaws of a tool. Their opening at time t is opening + speed (t - since). */

@@ -35,6 +35,9 @@ sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
 /* 1: one was driven into an obstacle in the last step. */
 int sw_hold_crashed(const sw_scene *scene);
 
+/* Tells of a rod or string that two obstacles squeeze. */
+void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
+
 /* The obstacle that presses a wire hard, as the end of a sentence, or nothing. */
 void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
 

@@ -27,6 +27,15 @@ describe("chart", function()
     { x = 0.1, y = 1e-3, series = "late" },
   }
 
+  it("writes large numbers at its axes without marks of markup", function()
+    local run = scene.run { frames = 5 }
+    for i, frame in ipairs(run.frames) do frame.energy = { kinetic = 1e6 * i, elastic = 0, gravity = 0 } end
+    chart.series { run = run, energy = true, path = folder .. "/large.svg" }
+    local text = shown(folder .. "/large.svg")
+    assert.truthy(text:find "%de%+06")
+    assert.falsy(text:find("^{", 1, true))
+  end)
+
   it("draws energies of the frames, and running means under a title that says so", function()
     local run = scene.run { frames = 5 }
     for i, frame in ipairs(run.frames) do

@@ -6,6 +6,7 @@ local cells = require "softworld.check.cells"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local json = require "softworld.output.json"
+local letters = require "softworld.output.letters"
 local methods = require "softworld.methods"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
@@ -77,16 +78,7 @@ function Check:json(path)
     rows = cells.known_rows(columns, own.rows) })
 end
 
-local entities = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
-
--- XML 1.0 has no control characters and no bytes that are not UTF-8.
-local function xml(text)
-  text = cells.one_line(text)
-  if not utf8.len(text) then
-    text = text:gsub("[\128-\255]", function(byte) return utf8.char(byte:byte()) end)
-  end
-  return (text:gsub('[&<>"]', entities))
-end
+local function xml(text) return letters.xml(tostring(text)) end
 
 local tags = { FAIL = "failure", OPEN = "error" }
 

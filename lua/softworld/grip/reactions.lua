@@ -83,7 +83,7 @@ local function look_at(self)
   end
   if self.held and now.normal == 0 and not now.frozen then
     self.held = false
-    local event = { kind = "lost", time = self.scene.time, s = now.place }
+    local event = { kind = "lost", time = now.lost_time or self.scene.time, s = now.place }
     why = react(self, event, self.on_slip, lost_text) or why
   end
   if self.frozen and now.lost_time then mixed.lose(self, now) end

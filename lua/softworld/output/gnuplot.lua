@@ -2,6 +2,7 @@
 --- Gnuplot in a separate process, fed by a temporary script with its data.
 -- @module softworld.output.gnuplot
 
+local letters = require "softworld.output.letters"
 local sink = require "softworld.output.sink"
 
 local gnuplot = {}
@@ -13,7 +14,7 @@ gnuplot.colours = { "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B
 -- @tparam string text
 -- @treturn string in quotes, on one line
 function gnuplot.quote(text)
-  text = tostring(text):gsub("%c", " ")
+  text = letters.utf8(tostring(text)):gsub("%c", " ")
   -- gnuplot takes two single quotes at the start for an empty string
   if text:sub(1, 1) ~= "'" then return "'" .. text:gsub("'", "''") .. "'" end
   return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
@@ -50,6 +51,7 @@ local terminals = {
 -- Style common to all charts; the grid lies behind and is light.
 local style = [[
 set encoding utf8
+set format "%g"
 set border 3 lc rgb "#444444"
 set tics nomirror out scale 0.6 textcolor rgb "#222222" noenhanced
 set grid back lt 1 lc rgb "#dedede" lw 0.8
@@ -60,6 +62,7 @@ set bmargin
 -- Boxes of characters read better without a grid.
 local dumb_style = [[
 set encoding utf8
+set format "%g"
 set tics nomirror noenhanced
 set key noenhanced above left horizontal
 ]]

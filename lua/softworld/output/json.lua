@@ -2,6 +2,7 @@
 --- A small JSON writer whose numbers read back to the same bits.
 -- @module softworld.output.json
 
+local letters = require "softworld.output.letters"
 local sink = require "softworld.output.sink"
 
 local json = {}
@@ -21,17 +22,11 @@ local function escape(char)
   return short[char] or string.format("\\u%04x", char:byte())
 end
 
--- Bytes that are not UTF-8 are taken as Latin-1: a file that any reader accepts.
-local function latin1(text)
-  return (text:gsub("[\128-\255]", function(char) return utf8.char(char:byte()) end))
-end
-
 --- A string in JSON quotes.
 -- @tparam string text UTF-8, or else taken as Latin-1
 -- @treturn string
 function json.string(text)
-  if not utf8.len(text) then text = latin1(text) end
-  return '"' .. text:gsub('[%c"\\\127]', escape) .. '"'
+  return '"' .. letters.utf8(text):gsub('[%c"\\\127]', escape) .. '"'
 end
 
 local encode

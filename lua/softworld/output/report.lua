@@ -5,6 +5,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local json = require "softworld.output.json"
+local letters = require "softworld.output.letters"
 local number = require "softworld.output.number"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
@@ -200,17 +201,12 @@ end
 
 -- --- the page ------------------------------------------------------------------------------
 
--- Text within HTML.
-local function escaped(text)
-  return (text:gsub('[&<>"]', { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }))
-end
-
 local function write_page(page, write)
   local template = core.page()
   local title_from, title_to = template:find("@title@", 1, true)
   local data_from, data_to = template:find("@data@", 1, true)
   write(template:sub(1, title_from - 1))
-  write(escaped(page.data.title))
+  write(letters.xml(page.data.title))
   write(template:sub(title_to + 1, data_from - 1))
   for i, text in ipairs(page.blobs) do
     write(('<script type="text/plain" id="blob-%d">'):format(i - 1))

@@ -7,6 +7,7 @@
 --    sheet:bytes()                             what a file of the kind holds
 -- @module softworld.output.sheet
 local core = require "softworld.core"
+local letters = require "softworld.output.letters"
 
 local sheet = {}
 
@@ -41,13 +42,6 @@ local function hex(colour)
   return ("#%02x%02x%02x"):format(part(colour[1]), part(colour[2]), part(colour[3]))
 end
 
-local function escaped(text)
-  -- control characters are not allowed in XML
-  text = text:gsub("[%c\127]", " "):gsub('[&<>"]',
-    { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" })
-  return utf8.len(text) and text or text:gsub("[\128-\255]", "?")
-end
-
 local function add(self, text) self.parts[#self.parts + 1] = text end
 
 function Lines:fill(x, y, width, height, colour)
@@ -59,7 +53,8 @@ function Lines:text(text, x, y, size, colour)
   local long = core.text_width(text, size)
   if text:find "%S" then
     add(self, ('<text x="%s" y="%s" font-size="%s" textLength="%s" lengthAdjust="spacingAndGlyphs" fill="%s">'
-      .. "%s</text>\n"):format(number(x), number(y), number(size), number(long), hex(colour), escaped(text)))
+      .. "%s</text>\n"):format(number(x), number(y), number(size), number(long), hex(colour),
+        letters.xml(text)))
   end
   return long
 end

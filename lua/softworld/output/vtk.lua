@@ -9,6 +9,7 @@
 -- @module softworld.output.vtk
 
 local json = require "softworld.output.json"
+local letters = require "softworld.output.letters"
 local sink = require "softworld.output.sink"
 local solid = require "softworld.output.solid"
 
@@ -32,12 +33,6 @@ local function write_array(write, kind, name, values, components)
   write "</DataArray>\n"
 end
 
-local xml = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
-
-local function escape(text)
-  return (text:gsub('[&<>"]', xml))
-end
-
 local function write_cells(write, tag, cells)
   write("<" .. tag .. ">\n")
   write_array(write, "Int64", "connectivity", cells.connectivity)
@@ -54,7 +49,7 @@ local function write_poly(write, data)
     write "<FieldData>\n"
     for _, array in ipairs(data.fields) do
       write(string.format('<DataArray type="Float64" Name="%s" NumberOfTuples="1" format="ascii">\n',
-        escape(array.name)))
+        letters.xml(array.name)))
       write_numbers(write, { array.value })
       write "</DataArray>\n"
     end
@@ -236,7 +231,7 @@ local function write_collection(path, entries)
     write "<Collection>\n"
     for _, entry in ipairs(entries) do
       write(string.format('<DataSet timestep="%s" group="" part="%d" file="%s"/>\n',
-        sink.number(entry.t), entry.part, escape(entry.file)))
+        sink.number(entry.t), entry.part, letters.xml(entry.file)))
     end
     write "</Collection>\n</VTKFile>\n"
   end)

@@ -9,6 +9,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local json = require "softworld.output.json"
 local judge = require "softworld.study.judge"
+local letters = require "softworld.output.letters"
 local output = require "softworld.study.output"
 local rows = require "softworld.rows"
 local sealed = require "softworld.sealed"
@@ -126,10 +127,6 @@ local function data_of(own, files)
     results = results, parts = parts_of(own, list), rows = shown, players = json.object(files) }
 end
 
-local function escaped(text)
-  return (text:gsub('[&<>"]', { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }))
-end
-
 local function do_report(self, path, args)
   local own, o = sealed.fields(self), call:read(args == nil and {} or args)
   if type(path) ~= "string" or not path:find "%.html?$" then
@@ -140,7 +137,7 @@ local function do_report(self, path, args)
   local files = players(self, own, path, o.play)
   local data = json.encode(data_of(own, files)):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e",
     ["&"] = "\\u0026" }) -- nothing within can end the script, or open a comment in it
-  local parts = { title = escaped(own.name), STYLES = sink.read_file(folder .. "style.css"),
+  local parts = { title = letters.xml(own.name), STYLES = sink.read_file(folder .. "style.css"),
     SCRIPTS = sink.read_file(folder .. "study.js"),
     data = '<script type="application/json" id="data">' .. data .. "</script>" }
   local page = sink.read_file(folder .. "index.html")
