@@ -219,7 +219,7 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
 sw_status sw_scene_read_join(sw_scene *s, sw_handle h, const char *const **names,
                              double out[SW_LINK_OUTPUTS], sw_error *err) {
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_editable(s, err));
+  SW_TRY(sw_scene_still(s, err));
   SW_FIND(const sw_joint, j, sw_scene_find_join(s, h, err));
   const sw_joint_acts *acts = j->cls->joint;
   *names = acts->outputs;

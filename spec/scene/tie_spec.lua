@@ -286,6 +286,20 @@ describe("a tie of two wires", function()
     t.below(-0.1, lower:position(0.2)[3], "height of the lower wire")
   end)
 
+  it("is read by observers", function()
+    local scene = sw.scene{}
+    local one = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.2 }, to = { 0.4, 0, 0.2 } }
+    local two = scene:wire{ cable = "GXL 1.5", from = { 0, 0.01, 0.2 }, to = { 0.4, 0.01, 0.2 } }
+    scene:clamp(one, { s = 0 })
+    local tie, looks, most = scene:tie(one, { s = 0.2, to = { two, s = 0.2 } }), 0, 0
+    scene:observe{ every = 0.01, call = function()
+      looks, most = looks + 1, math.max(most, tie:tension())
+      assert.is_true(tie:distance() >= 0 and tie.peak_force >= most - 1e-12 and not tie.broken)
+    end }
+    scene:run{ duration = 0.1 }
+    assert.is_true(looks >= 9 and most > 0)
+  end)
+
   it("lets tied wires touch each other", function()
     local scene, upper, lower = hung()
     scene:wire_contact{ between = { upper, lower } }
