@@ -255,13 +255,15 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   p->off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
+  /* friction that stretches its spring by rounding only: it has no direction, nor need have one */
+  const int idle = fmax(most, friction * p->lag) <= small;
   /* one that turned round in the iterate: its friction, which came from lag, must not matter */
-  if (p->sliding && along < 0) return fmax(most, friction * p->lag) <= small;
-  if (p->sliding && beyond && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
+  if (p->sliding && along < 0) return idle;
+  if (p->sliding && beyond && !idle && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
   /* a change of state matters when the force does */
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;
   if (p->off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
-  if (!p->sliding || !beyond) return 1;
+  if (!p->sliding || !beyond || idle) return 1;
   if (p->lag_at_first > DROWNED * (p->normal_force + force_scale)) return 0;
   return lag_agrees(p, p->normal_force, force_scale);
 }
