@@ -55,6 +55,7 @@ int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate
     out->p[j] = sw_pose_local(at[k->obstacle].pose, node_at(c, b, i, j, x));
   if (sw_shape_over_face(shape, out->p, 4)) return 0;
   out->shape = shape, out->firm = k->firm;
+  for (int j = 0; j < 2; j++) out->firm_beside[j] = k->firm_beside[j];
   out->starts = i == 0, out->ends = i + 2 >= b->plan->nodes;
   const double one = out->starts ? 0 : off_middle(out->p[0], out->p[1], out->p[2]);
   const double two = out->ends ? 0 : off_middle(out->p[1], out->p[2], out->p[3]);

@@ -12,7 +12,7 @@ typedef struct sw_piece {
   int starts, ends; /* 1: the wire ends at p[1] or p[2] */
   double bulge;     /* largest distance of the curve from the nodes [m] */
   const sw_shape *shape;
-  double firm; /* as the candidate's [-] */
+  double firm, firm_beside[2]; /* as the candidate's [-] */
 } sw_piece;
 
 /* Where a wire is near an obstacle. */
@@ -22,7 +22,14 @@ typedef struct sw_place {
   sw_vec edge;  /* along it, or 0 [-] */
   sw_vec along; /* the curve there [-] */
   sw_vec wire;  /* of a place without an edge: where the wire is, likewise [m] */
+  double faint; /* share of its stiffness that it has not, for another place is about as near [-] */
 } sw_place;
+
+/* The share that it has: a place as faint as can be still is one [-]. */
+static inline double sw_place_share(const sw_place *place) {
+  const double faintest = 1e-3;
+  return place->faint < 1.0 - faintest ? 1.0 - place->faint : faintest;
+}
 
 /* Of a segment: the nearest places on its curve, or all on its chord, or its samples. */
 enum { SW_PLACES_MOST = 3 * SW_CLOSEST_MAX };

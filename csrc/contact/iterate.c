@@ -36,13 +36,14 @@ static void mark(sw_contact *c) {
   }
 }
 
-/* A touch is that of the matrix while it moved by less than this share of its segment, and its
- * normal turned by less than this angle [-], [rad]. */
-static const double MOVED = 1e-3, TURNED = 0.01;
+/* A touch is that of the matrix while it moved by less than this share of its segment, its normal
+ * turned by less than this angle, and its stiffness changed by no more than this share [-], [rad],
+ * [-]. */
+static const double MOVED = 1e-3, TURNED = 0.01, STIFFENED = 0.01;
 
 static int is_marked(const sw_touch *t, const sw_mark *m) {
-  return !slides(t) && m->candidate == t->candidate && m->k == t->press.k &&
-         fabs(m->at - t->at) < MOVED &&
+  return !slides(t) && m->candidate == t->candidate &&
+         fabs(m->k - t->press.k) <= STIFFENED * m->k && fabs(m->at - t->at) < MOVED &&
          sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
 }
 
@@ -153,13 +154,14 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return !(changes || first) || sw_contact_stays(c, s, t, y, way, scale);
 }
 
-/* Touches that sink in too deep are made stiffer. Stiffness of one from the next iterate on [N/m].
- */
+/* Touches that sink in too deep are made stiffer. Stiffness of one from the next iterate on, in
+ * full [N/m]. */
 static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const int small = sw_press_is_short(c->regime == SW_CONTACT_STATIC, c->h, c->nominal);
   if (t->held || c->candidates[t->candidate].given) return t->stiffer;
   const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
-  return sw_press_stiffer(&t->press, t->usual, t->forgiven, before);
+  const double k = sw_press_stiffer(&t->press, t->share * t->usual, t->forgiven, before);
+  return k > t->press.k ? k / t->share : t->stiffer;
 }
 
 /* 1 = there were some. */
@@ -168,7 +170,7 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
     sw_touch *t = &c->touches[i];
     t->stiffer = stiffer(c, s, t);
-    any |= t->stiffer > t->press.k;
+    any |= sw_touch_is_softer(t);
   }
   return any;
 }
@@ -187,7 +189,7 @@ static int update_all(sw_contact *c, const sw_system *s, const double *y, const 
       fine &= update(c, s, t, y, delta, scale);
       if (!fine) continue;
       note_pressed(c, t);
-      if (may) *changes |= stiffer(c, s, t) != t->stiffer || t->stiffer > t->press.k;
+      if (may) *changes |= stiffer(c, s, t) != t->stiffer || sw_touch_is_softer(t);
     }
   }
   return fine;

@@ -72,11 +72,12 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
 }
 
 /* Touches of one obstacle nearer to each other than this share of the radius, on edges or corners,
- * are one [-]. */
+ * are one. On a round side each has its share [-]. */
 static const double ONE_POINT = 0.02;
 
 static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *place) {
   const double near = ONE_POINT * k->radius;
+  if (place->sharp == SW_SHARP_ROUND) return 0;
   for (size_t i = c->touch_count; i-- > c->parts.touch;) {
     const sw_touch *t = &c->touches[i];
     if (t->body != k->body || t->node + 1 < k->node) break;

@@ -6,7 +6,7 @@
 static void take(sw_places *list, sw_vec wire) {
   sw_place *place = &list->place[list->count++];
   place->sharp = SW_SHARP_NOT;
-  place->edge = sw_v(0, 0, 0), place->wire = wire;
+  place->edge = sw_v(0, 0, 0), place->wire = wire, place->faint = 0;
 }
 
 /* The nearest place to a point of the candidate's segment, `at` along it. */
@@ -43,5 +43,6 @@ void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate
     if (k->round && sw_contact_is_rounds(c, k, a, b, near[i].at)) continue;
     list->place[list->count].near = near[i];
     take(list, sw_lerp(a, b, near[i].at));
+    list->place[list->count - 1].faint = sw_contact_faint(c, s, k, near[i].at);
   }
 }

@@ -27,6 +27,7 @@ typedef struct sw_candidate {
   int smooth;                /* 1: the wire is its smooth curve there, not its chords */
   int round;                 /* 1: its curve at a thin round obstacle, chords elsewhere */
   double firm;               /* then: firmness of the touch in the middle of its edge [-] */
+  double firm_beside[2];     /* the same on the edges before and after it [-] */
   double lone;               /* and share of it in one place, 0 to 1 [-] */
   int samples; /* number of touches, spread evenly along the segment; 0: at the nearest places */
 } sw_candidate;
@@ -51,7 +52,8 @@ typedef struct sw_touch {
   double let_out;   /* unexplained part of the true depth that this step ends [m] */
   double hardened;  /* energy stored at once by a higher stiffness, of a mesh [J] */
   double usual;     /* of a new touch here [N/m] */
-  double stiffer;   /* its stiffness from the next iterate on [N/m] */
+  double stiffer;   /* its stiffness from the next iterate on, in full [N/m] */
+  double share;     /* of that stiffness, near a place of the edge beside [-] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
   double friction;  /* coefficient in this step: kinetic if it slid before [-] */
@@ -61,6 +63,11 @@ typedef struct sw_touch {
   size_t stage;     /* in which it was found */
   sw_press press;   /* its normal is the obstacle's, outward, in the world */
 } sw_touch;
+
+/* Is it softer in this iterate than it is to be in the next? */
+static inline int sw_touch_is_softer(const sw_touch *t) {
+  return t->press.k < t->share * t->stiffer;
+}
 
 /* A touch that pressed at the end of a stage and may have struck, as far as impacts need it. A
  * touch itself is large, and many nodes may land in one step. */

@@ -108,9 +108,14 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   k->round = 0;
   if (!(c->round[k->obstacle] > 0) || !(radius < THICK * edge)) return;
   const double round = radius * bend_beside(s, b, k->node, k->segment);
+  const double least = thin ? LOOSE : 0.0;
   const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND;
   k->round = thin || (!wound && passes_side(c, s, k, low, high));
-  k->firm = fmax(thin ? LOOSE : 0.0, round - SW_GOES_ROUND);
+  k->firm = fmax(least, round - SW_GOES_ROUND);
+  for (size_t j = 0; j < 2; j++) {
+    const size_t beside = j ? high + 1 : high - (high > 0);
+    k->firm_beside[j] = fmax(least, radius * bend_at(s, b, beside, beside) - SW_GOES_ROUND);
+  }
   k->lone = fmin(1.0, fmax(0.0, (1.0 - round) / (1.0 - SW_GOES_ROUND)));
 }
 
@@ -150,6 +155,24 @@ static double find_place(const sw_piece *c, double low, double high, double at_l
 /* Nearer to the middle line than this share of its radius, a wire goes through it [-]. */
 static const double THROUGH = 1e-9;
 
+/* Where a wire begins to go round, places on two edges come near each other at their joint. Were
+ * one as stiff as the other from the beginning, the wire would meet twice the force at once, be
+ * thrown back, and meet one again. So one takes over from the other as the zero moves on. */
+static double share_beside(const sw_piece *c, double joint, double beside, double way) {
+  sw_vec along, q, e;
+  const sw_vec x = sw_contact_curve(c, joint, &along);
+  const double both = 0.5 * (c->firm + beside) * sw_norm2(along);
+  if (!(both > 0) || !(sw_shape_middle(c->shape, x, &q, &e) > 0)) return 1.0;
+  const double rise = way * sw_dot(along, sw_sub(x, q)) + 0.5 * c->firm * sw_norm2(along);
+  return fmin(1.0, fmax(0.0, rise / both));
+}
+
+static double share_of(const sw_piece *c) {
+  const double before = c->starts ? 1.0 : share_beside(c, 0.0, c->firm_beside[0], -1.0);
+  const double after = c->ends ? 1.0 : share_beside(c, 1.0, c->firm_beside[1], 1.0);
+  return before * after;
+}
+
 /* The place there; 0: the wire goes along the obstacle. If it goes through the middle line, the
  * normal is across both, as for chords. */
 static int make_place(const sw_piece *c, double u, sw_place *place) {
@@ -169,7 +192,8 @@ static int make_place(const sw_piece *c, double u, sw_place *place) {
                                .feature = SW_ON_CURVE},
                       .sharp = SW_SHARP_ROUND,
                       .edge = e,
-                      .along = along};
+                      .along = along,
+                      .faint = 1.0 - share_of(c)};
   return 1;
 }
 
@@ -184,6 +208,16 @@ void sw_contact_round_places(const sw_piece *c, double reach, sw_places *list) {
       list->place[list->count++] = place;
     before = after;
   }
+}
+
+/* The same of chords: beside a node that is nearest, places on both of them have its force at once.
+ * They fade in over this share of a chord [-]. */
+static const double FADES = 0.25;
+
+double sw_contact_faint(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at) {
+  const int fades = k->segment && !k->samples && c->round[k->obstacle] > 0;
+  if (!fades || s->bodies[k->body].plan->web) return 0;
+  return fmax(0.0, 1.0 - fmin(at, 1.0 - at) / FADES);
 }
 
 /* --- what is left to nodes and chords -------------------------------------------------------- */

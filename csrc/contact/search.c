@@ -110,7 +110,7 @@ enum { FEW = 4 };
 /* Stages go on until they change nothing any more. */
 static void harden(sw_contact *c, const sw_system *s) {
   int any = 0;
-  for (size_t i = 0; i < c->touch_count; i++) any |= c->touches[i].press.k < c->touches[i].stiffer;
+  for (size_t i = 0; i < c->touch_count; i++) any |= sw_touch_is_softer(&c->touches[i]);
   if (!c->softer)
     c->softer = first_stage(c, s);
   else

@@ -379,14 +379,15 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   t->stiffer = stiffness_of(c, k, m, last, t->usual);
   press->normal = sw_contact_leaning(c, s, k, place, place->sharp ? t->steady : 0.0);
   press->gap = near->gap - k->skin;
-  press->k = c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer;
+  t->share = sw_place_share(place);
+  press->k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (web && !web->per_ring) press->soft = fmin(SW_SOFTEST, (double)web->particles);
   forgive(c, s, k, m, y, t);
   if (m && web)
-    t->hardened =
-        0.5 * m->kept.depth * fmax(0.0, t->stiffer * m->kept.depth - m->kept.normal_force);
+    t->hardened = 0.5 * m->kept.depth *
+                  fmax(0.0, t->share * t->stiffer * m->kept.depth - m->kept.normal_force);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   activate(c, s, k, m, last, press);

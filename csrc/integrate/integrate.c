@@ -252,6 +252,13 @@ double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, s
   return p->trial_h * sqrt(largest);
 }
 
+double sw_stepper_drift(const sw_stepper *p, const sw_system *s) {
+  double largest = 0;
+  for (size_t i = 0; i < s->nodes; i++)
+    largest = fmax(largest, sw_norm2(sw_sub(sw_vec_at(p->trial_v, i), sw_vec_at(s->v, i))));
+  return 0.5 * p->trial_h * sqrt(largest);
+}
+
 sw_status sw_stepper_trial(sw_stepper *p, sw_system *s, double t, double h, sw_error *err) {
   memcpy(p->tension, s->tension, s->edges * sizeof(double));
   sw_system_begin_step(s);

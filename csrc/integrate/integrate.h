@@ -121,6 +121,9 @@ sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, dou
  * when it has none [m]. */
 double sw_stepper_error(const sw_stepper *stepper, const sw_system *system, size_t first,
                         size_t end);
+/* What the last trial would be off by as a step of implicit Euler, which has no estimate: half the
+ * change of velocities, times the step [m]. */
+double sw_stepper_drift(const sw_stepper *stepper, const sw_system *system);
 void sw_stepper_reject(sw_stepper *stepper, sw_system *system);
 /* Make the trial the system's state. */
 void sw_stepper_accept(sw_stepper *stepper, sw_system *system, double h);

@@ -14,6 +14,16 @@ static int is_short_enough(const sw_ladder *p, double h) {
   return sw_scene_course(p->s)->stepper.restart && h <= SW_SMALLEST_SHARE * p->args->dt;
 }
 
+/* The next step after one of h. Implicit Euler gives no estimate, and is taken as it is: the step
+ * after it is longer where it changed little. */
+static double next_of(const sw_ladder *p, double h, double error) {
+  const sw_scene *s = p->s;
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
+  if (error > 0) return sw_stepper_next_h(stepper, h, error, p->args->tolerance);
+  const double drift = sw_stepper_drift(stepper, sw_scene_system(s));
+  return fmax(h, sw_stepper_next_h(stepper, h, drift, p->args->tolerance));
+}
+
 /* An adaptive step of at most `left`; refuses steps whose error is too large. */
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
@@ -32,23 +42,18 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     if (sw_ladder_hopeless(status)) return status;
     const double error = sw_stepper_error(&course->stepper, system, 0, system->nodes);
     const int fine = status == SW_OK && (error <= tolerance || is_short_enough(p, h));
-    double next =
-        status == SW_OK ? sw_stepper_next_h(&course->stepper, h, error, tolerance) : 0.25 * h;
+    double next = status == SW_OK ? next_of(p, h, error) : 0.25 * h;
     if (fine && sw_blow_begins(s, h)) {
       sw_ladder_undo(p);
       h = sw_blow_part(s, h);
       continue;
     }
     if (fine) {
-      const int unknown = !(error > 0); /* implicit Euler gives no estimate */
       const double before = sw_scene_time(s);
       sw_ladder_accept(p, h, last ? t1 : before + h);
       if (!(sw_scene_time(s) > before))
         return sw_fail(err, SW_ENOCONV, "steps of %g s are no time", h);
-      course->next_dt = uncut > 0          ? uncut
-                        : unknown          ? h
-                        : last && next > h ? fmax(next, course->next_dt)
-                                           : next;
+      course->next_dt = uncut > 0 ? uncut : last && next > h ? fmax(next, course->next_dt) : next;
       return sw_ladder_record(p, h, err);
     }
     if (status == SW_OK) sw_ladder_undo(p);
