@@ -170,10 +170,12 @@ static void nudge(sw_statics *p, int number) {
 }
 
 /* Factor on the pseudo step, by the iterations of the last one. Where wires touch, a failed step
- * costs more than a long step gains [-]. */
-static double growth(const sw_scene *s, size_t iterations) {
+ * costs more than a long step gains. In steps below the first one what is out of balance shifts
+ * wires so little that touches which look for their states in many iterations would do so for
+ * ever: these grow until they fail [-]. */
+static double growth(const sw_scene *s, size_t iterations, int is_small) {
   if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
-  return iterations <= 14 ? 1.1 : 0.7;
+  return iterations <= 14 || is_small ? 1.1 : 0.7;
 }
 
 int sw_rest_stops(sw_status status) {
@@ -206,7 +208,8 @@ static sw_status transient(sw_statics *p, sw_error *err) {
     /* in a shorter step than the first one what is out of balance shifts by tau^2 */
     const double reserve = fmax(1.0, first * first / (tau * tau));
     if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
-    tau = fmin(tau * growth(s, p->report->iterations - before), LARGEST_GROWTH * first);
+    const double factor = growth(s, p->report->iterations - before, tau < first);
+    tau = fmin(tau * factor, LARGEST_GROWTH * first);
   }
   return sw_fail(
       err, SW_ENOCONV,
