@@ -190,13 +190,31 @@ local function watched(context)
   given_up(context, found.state, found.time)
 end
 
+-- A fine run that failed by a rung which coarse ones could be computed with: its choice goes up.
+local function goes_on_above(context, result)
+  if not result.refused then return false end
+  for _, state in ipairs(context.states) do
+    if state.choice.instead and state.by ~= "given" and state.rung < state.last then
+      decide.raise(context, state, ("%s cannot be computed finer: %s"):format(
+        state.choice.rungs[state.rung].as, result.reason))
+      decide.settle(context)
+      return true
+    end
+  end
+  return false
+end
+
+local function is_good(context, result)
+  if goes_on_above(context, result) then return false end
+  return result.refused or not broken(context, result) and not shorter(context, result)
+end
+
 local function compute(context)
   local base = decide.settle(context)
   if base then context.spread:look(decide.rungs(context), base) end
   for _ = 1, 2 * #context.states do
     local result = watched(context)
-    local good = result and (result.refused or not broken(context, result) and not shorter(context, result))
-    if good then return result end
+    if result and is_good(context, result) then return result end
   end
   context.unwatched = true
   return refined(context)

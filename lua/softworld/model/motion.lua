@@ -15,7 +15,7 @@ local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-
 local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
-local motion = { name = "motion", safety = SAFETY, rungs = {
+local motion = { name = "motion", safety = SAFETY, instead = true, rungs = {
   { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
   { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 

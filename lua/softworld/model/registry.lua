@@ -7,6 +7,7 @@
 --   levels: coarse ones on which its rungs are compared, where it is another number than usual
 --   steady: bars do not become shorter with the next rung, and the other choices stay as they are with it.
 --     A rung with own = true: what the next one's own edges change counts too
+--   instead: where the fine run fails, it is computed by the next rung
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
