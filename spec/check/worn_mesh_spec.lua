@@ -165,7 +165,8 @@ describe("wear of a mesh between pads", function()
       end)
       scene:run{ dt = 0.005, wear = true }
       local nodes, work = kept(wire)
-      is_share(2 * MU * F * way, work, 0.01, "of 2 mu F x way")
+      local stretch = 2 * MU * F * 0.05 / wire.beam.EA -- of the wire from its clamp on: 0.7 % of the way
+      is_share(2 * MU * F * (way - stretch), work, 0.01, "of 2 mu F x way")
       for _, place in ipairs(nodes) do -- the pads have passed it with all of their width, or not come to it
         if place.s > 0.06 and place.s < 0.07 then assert.is_near(2 * MU * F, place.rubbed, 0.1 * MU * F) end
         if place.s < 0.04 or place.s > 0.09 then assert.is_near(0, place.rubbed, 1e-3) end
