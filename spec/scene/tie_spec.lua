@@ -309,6 +309,15 @@ describe("a tie of two wires", function()
     t.near(0.006, apart, 2e-4, "distance of the axes at a tie")
   end)
 
+  it("tells where the other wire goes", function()
+    local scene = sw.scene{}
+    local one = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.4, 0, 0 } }
+    local two = scene:wire{ cable = "GXL 1.5", from = { 0, 0.1, 0 }, to = { 0.4, 0.1, 0 } }
+    local fine, why = pcall(scene.tie, scene, one, two, { s = 0.2 })
+    assert.is_false(fine)
+    assert.is_truthy(why:find("another wire is in it: to = { wire, s = 0.2 }", 1, true), why)
+  end)
+
   it("refuses meshes, and more than two ends", function()
     local scene = sw.scene{}
     local a = rod(scene, { name = "a" })

@@ -64,6 +64,10 @@ end
 
 local function checked(scene, wire, args)
   local what
+  if core.type(args) == "wire" then
+    error("scene:tie takes a wire and one table of parameters; another wire is in it: to = { wire, s = 0.2 }",
+      0)
+  end
   args, what = fixing.arguments(scene, new, "tie", args)
   fixing.wire(scene, what, "the first argument", wire)
   local here = place(what, wire, args.s, "")
