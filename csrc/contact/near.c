@@ -43,6 +43,5 @@ void sw_contact_near(const sw_contact *c, const sw_system *s, const sw_candidate
     if (k->round && sw_contact_is_rounds(c, k, a, b, near[i].at)) continue;
     list->place[list->count].near = near[i];
     take(list, sw_lerp(a, b, near[i].at));
-    list->place[list->count - 1].faint = sw_contact_faint(c, s, k, near[i].at);
   }
 }

@@ -210,16 +210,6 @@ void sw_contact_round_places(const sw_piece *c, double reach, sw_places *list) {
   }
 }
 
-/* The same of chords: beside a node that is nearest, places on both of them have its force at once.
- * They fade in over this share of a chord [-]. */
-static const double FADES = 0.25;
-
-double sw_contact_faint(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at) {
-  const int fades = k->segment && !k->samples && c->round[k->obstacle] > 0;
-  if (!fades || s->bodies[k->body].plan->web) return 0;
-  return fmax(0.0, 1.0 - fmin(at, 1.0 - at) / FADES);
-}
-
 /* --- what is left to nodes and chords -------------------------------------------------------- */
 
 int sw_contact_is_rounds(const sw_contact *c, const sw_candidate *k, sw_vec a, sw_vec b,

@@ -13,9 +13,6 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
  * touches keep to the middles of edges? */
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k);
 
-/* What a place on the candidate's chord, at this share of it, lacks of its stiffness [-]. */
-double sw_contact_faint(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at);
-
 /* Places of a piece that are less than reach away from it [m]. */
 void sw_contact_round_places(const sw_piece *piece, double reach, sw_places *list);
 

@@ -4,7 +4,7 @@
  * iterate. */
 #include <math.h>
 
-#include "contact/round.h"
+#include "contact/curve.h"
 #include "contact/same.h"
 
 /* A touch has stayed if its normal turned by at most this, and at most this share of its force went
@@ -52,7 +52,6 @@ static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, cons
     const double away = fabs(near[i].at - t->at);
     if (away < nearest) *out = near[i], nearest = away;
   }
-  place->faint = sw_contact_faint(c, s, k, nearest < SW_SAME_TOUCH ? out->at : t->at);
   if (nearest < SW_SAME_TOUCH) return 1;
   out->at = t->at; /* a sample, a node, or a place that goes on pushing where it was */
   return sw_shape_point(shape, t->segment ? sw_lerp(a, b, t->at) : a, reach, out);
