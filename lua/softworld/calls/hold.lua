@@ -5,7 +5,7 @@ local rows = require "softworld.rows"
 
 rows.calls{
   { "clamp.name", nil, "name in messages and series", "text" },
-  { "clamp.kind", nil, "clamp, pin, grip, feed or slider", "text" },
+  { "clamp.kind", nil, "the method that made it", "text" },
   { "clamp.held", nil, "whether it holds still", "true or false" },
   { "clamp:force", "", "on the wire", "{x, y, z} [N]" },
   { "clamp:moment", "", "on the wire, about the clamp's place", "{x, y, z} [N m]" },

@@ -2,7 +2,12 @@
 --- What a scene has: rows of the methods and fields that the core gives it. What makes things has its own
 -- parameters besides, see help 'wire', 'obstacle', 'clamp', ...
 -- @module softworld.calls.scene
+local core = require "softworld.core"
 local rows = require "softworld.rows"
+
+for _, hold in ipairs(core.registry().holds) do
+  rows.calls{ { "scene:" .. hold.name, "wire, {...}", hold.summary, "a clamp" } }
+end
 
 rows.calls{
   { "scene.name", nil, "name in messages and files", "text" },
@@ -11,11 +16,6 @@ rows.calls{
   { "scene:wire", "{...}", "a wire, a cable or a tube", "a wire" },
   { "scene:obstacle", "{...}", "a rigid body, fixed or moving", "an obstacle" },
   { "scene:force", "{...}", "acts on wires: damping, wind, a spring, a function of your own", "a force" },
-  { "scene:clamp", "wire, { s = }", "holds place and direction", "a clamp" },
-  { "scene:pin", "wire, { s = }", "holds place only", "a clamp" },
-  { "scene:grip", "wire, { s = }", "holds place and direction over a length", "a clamp" },
-  { "scene:feed", "wire, { s = }", "holds while wire slides through", "a clamp" },
-  { "scene:slider", "wire, { s =, direction = }", "a place that keeps on a rail", "a clamp" },
   { "scene:join", "{ ends = {...} }", "wires fixed to each other", "a join" },
   { "scene:particles", "{...}", "any object made of particles", "an object" },
   { "scene:hold", "object, { particles = {...} }", "holds particles", "a clamp" },
