@@ -84,8 +84,8 @@ static void share(const sw_contact *c, const sw_system *s, sw_touch *t) {
   if (!k->given || k->samples || t->sharp) return;
   const double near = nearest_beside(c, t, &any);
   if (!any) return;
-  t->stiffer = fmax(LEAST_SHARE, t->segment ? 1.0 - near : near) * k->usual;
-  t->press.k = c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer;
+  t->share = fmax(LEAST_SHARE, t->segment ? 1.0 - near : near);
+  t->press.k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
 }
 
 /* Find the touches of an iterate; want: and add their forces, unless it is 0. */

@@ -178,14 +178,15 @@ static int went_sideways(const sw_contact *c, const sw_body *b, const sw_memory 
 
 /* Does a wire that was held get free in a way that only a long step has? */
 static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, double h) {
-  const sw_body *b = s->bodies;
+  const sw_body *b = s->bodies, *of = NULL;
+  double most = 0; /* that a node of the body bears without being held [N] */
   if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < c->memory_count; i++) { /* in the order of nodes */
     const sw_memory *m = &c->memory[i];
     while (m->node >= b->first_node + b->plan->nodes) b++;
     if (b->plan->web) continue;
-    const double usual = sw_contact_usual_force(s, b->plan) / (double)b->plan->nodes;
-    if (!(m->kept.normal_force > HELD * usual)) continue;
+    if (of != b) most = HELD * sw_contact_usual_force(s, b->plan) / (double)b->plan->nodes, of = b;
+    if (!(m->kept.normal_force > most)) continue;
     if (went_sideways(c, b, m, x1) && !is_pressed_still(c, m)) return 1;
   }
   return 0;

@@ -71,7 +71,7 @@ int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t,
   const double aslant = sw_contact_aslant(c, t->node, t->other, near.at, normal);
   const double gap = near.gap - k->skin + aslant + t->forgiven;
   if (!p->active) return gap >= 0;
-  const double stiff = p->k * sw_place_share(&place) / t->share;
+  const double stiff = t->sharp ? p->k * sw_place_share(&place) / t->share : p->k;
   return fabs(near.at - t->at) < MOVED &&
          fabs(stiff * gap - p->k * p->gap_after) <= OFF * p->normal_force + LITTLE * scale &&
          sw_norm2(sw_sub(normal, p->normal)) < TURNED * TURNED;
