@@ -3,19 +3,7 @@
 local sw = require "softworld"
 local laid = require "spec.check.laid"
 
-local laying = laid.laying
-
--- Limits that make all rows of a wire and a gripper pass.
-local function wide()
-  return { max_sidewall = { max = 1e9, sure = true }, peak_force = { max = 1e3, sure = true },
-    peak_moment = { max = 1e3, sure = true } }
-end
-
-local function fails(f, ...)
-  local fine, why = pcall(f)
-  assert.is_false(fine)
-  for _, words in ipairs{ ... } do assert.truthy(why:find(words, 1, true), why) end
-end
+local laying, wide, fails = laid.laying, laid.wide, laid.fails
 
 describe("run:check of what broke or slides", function()
   it("fails where a tie breaks", function()

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Runs that specs of run:check look at, and what they say.
+local assert = require "luassert"
 local sw = require "softworld"
 
 -- A gripper lifts and lays the end of a wire. options: of the wire, and run's.
@@ -23,4 +24,16 @@ local function laying(options, run_options)
   return run, scene, wire, left
 end
 
-return { laying = laying }
+-- Limits that make all rows of a wire and a gripper pass.
+local function wide()
+  return { max_sidewall = { max = 1e9, sure = true }, peak_force = { max = 1e3, sure = true },
+    peak_moment = { max = 1e3, sure = true } }
+end
+
+local function fails(f, ...)
+  local fine, why = pcall(f)
+  assert.is_false(fine)
+  for _, words in ipairs{ ... } do assert.truthy(why:find(words, 1, true), why) end
+end
+
+return { laying = laying, wide = wide, fails = fails }

@@ -1,36 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Fits: known least squares with known errors, bounds, failures, what data cannot tell, the same bits.
-local sw = require "softworld"
+local straight = require "spec.study.lines"
 local fitlinear = require "softworld.study.fitlinear"
 
-local function study(parameters, evaluate, more)
-  local args = { name = "f", parameters = parameters, evaluate = evaluate, workers = 0 }
-  for key, value in pairs(more or {}) do args[key] = value end
-  return sw.study(args)
-end
-
-local function near(expected, value, tolerance, what)
-  local off = math.abs(value - expected)
-  assert.is_true(off <= tolerance * math.max(1e-300, math.abs(expected)),
-    ("%s: %.12g instead of %.12g"):format(what or "value", value, expected))
-end
-
-local X = { 0.1, 0.4, 0.5, 0.9, 1.3, 1.4, 1.9, 2.2, 2.6, 3.0 }
-local Y = { 1.12, 1.61, 1.75, 2.13, 2.92, 2.87, 3.64, 4.02, 4.61, 4.95 }
-
-local function line(p)
-  local y = {}
-  for k, x in ipairs(X) do y[k] = p.a + p.b * x end
-  return { y = y }
-end
-
-local RANGES = { a = { -5, 5 }, b = { 0, 10 } }
-
-local function data(list, sigma)
-  local copy = table.move(list, 1, #list, 1, {})
-  copy.sigma = sigma
-  return copy
-end
+local study, near, X, Y, line, RANGES, data = straight.study, straight.near, straight.X, straight.Y,
+  straight.line, straight.RANGES, straight.data
 
 -- Means and sums of the line: b = Sxy / Sxx, a = mean y - b mean x, var b = s^2 / Sxx,
 -- var a = s^2 (1 / n + mean x^2 / Sxx).

@@ -1,37 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- study:fit: residuals that are no noise, its evaluations, what it refuses.
-local sw = require "softworld"
+local straight = require "spec.study.lines"
 local program = require "host.program"
 local fitnoise = require "softworld.study.fitnoise"
 
-local function study(parameters, evaluate, more)
-  local args = { name = "f", parameters = parameters, evaluate = evaluate, workers = 0 }
-  for key, value in pairs(more or {}) do args[key] = value end
-  return sw.study(args)
-end
-
-local function near(expected, value, tolerance, what)
-  local off = math.abs(value - expected)
-  assert.is_true(off <= tolerance * math.max(1e-300, math.abs(expected)),
-    ("%s: %.12g instead of %.12g"):format(what or "value", value, expected))
-end
-
-local X = { 0.1, 0.4, 0.5, 0.9, 1.3, 1.4, 1.9, 2.2, 2.6, 3.0 }
-local Y = { 1.12, 1.61, 1.75, 2.13, 2.92, 2.87, 3.64, 4.02, 4.61, 4.95 }
-
-local function line(p)
-  local y = {}
-  for k, x in ipairs(X) do y[k] = p.a + p.b * x end
-  return { y = y }
-end
-
-local RANGES = { a = { -5, 5 }, b = { 0, 10 } }
-
-local function data(list, sigma)
-  local copy = table.move(list, 1, #list, 1, {})
-  copy.sigma = sigma
-  return copy
-end
+local study, near, Y, line, RANGES, data = straight.study, straight.near, straight.Y, straight.line,
+  straight.RANGES, straight.data
 
 describe("residuals that are no noise", function()
   it("are told by their sum where sigma is given", function()
