@@ -182,6 +182,8 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
 /* After a step. 1: the obstacles' forces at its end come from a shock, and the next step must not
  * begin with them. */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
+/* A wire's weight, or the force that bends it [N]. */
+double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
 /* The hardest new blow on an obstacle in a trial step: its mean over the step, over the striking
  * wire's weight or bending force. 0: none [-]. followed: 1, a blow that is followed in parts goes
  * on. */

@@ -89,8 +89,6 @@ double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 #define SW_FLIGHT_LEAST 1e-4
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
-/* A wire's weight, or the force that bends it [N]. */
-double sw_contact_usual_force(const sw_system *s, const sw_plan *p);
 /* An impact at the step's start gave an obstacle this impulse at a point [m], [N s]. A step begins
  * without any. The trial was accepted: what obstacles remember. */
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);

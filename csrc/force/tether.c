@@ -86,7 +86,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
 
 static double pull(const void *args, const sw_field *f, const double *h, double *bears) {
   const tether_args *a = args;
-  *bears = h[FATE + SW_TIE_BROKEN] > 0 || isnan(a->strength) ? 0.0 : a->strength;
+  *bears = h[FATE + SW_TIE_BROKEN] > 0 ? 0.0 : isnan(a->strength) ? HUGE_VAL : a->strength;
   return *bears > 0 ? tied_of(a, f).pull : 0.0;
 }
 

@@ -215,6 +215,18 @@ static const double *step_tension(const sw_scene *s, const sw_body *b) {
   return b->plan->web || !(sw_scene_course(s)->span > 0) ? NULL : sw_scene_step_tension(s, b);
 }
 
+/* The step that led here, with these values, or NULL: those that are in the window's room. */
+static void add_step(sw_scene *s, size_t w, const double *T, sw_extreme *kept) {
+  const sw_course *course = sw_scene_course(s);
+  sw_window *window = &sw_scene_wire_in(s, w)->window;
+  const double *values = T ? T : sw_window_values(window), end = sw_scene_time(s);
+  double from = end - course->span;
+  for (double at; (at = sw_window_cut(window, end, course->window)) < end; from = at)
+    if (sw_window_add(window, values, at, at - from, course->window)) keep_mean(s, w, kept);
+  if (sw_window_add(window, values, end, end - from, course->window) && sw_scene_is_averaged(s))
+    keep_mean(s, w, kept);
+}
+
 static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
   sw_course *course = sw_scene_course(s);
   sw_scene_wire *wire = sw_scene_wire_in(s, w);
@@ -230,10 +242,7 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
     sw_window_forget(&wire->window);
     return;
   }
-  if (sw_window_add(&wire->window, T ? T : sw_window_values(&wire->window), sw_scene_time(s),
-                    course->span, course->window) &&
-      sw_scene_is_averaged(s))
-    keep_mean(s, w, &kept->tension);
+  add_step(s, w, T, &kept->tension);
 }
 
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,

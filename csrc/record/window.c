@@ -87,6 +87,17 @@ int sw_window_add(sw_window *w, const double *values, double time, double h, dou
   return sw_window_full(w, window);
 }
 
+double sw_window_cut(const sw_window *w, double time, double window) {
+  if (!w->edges || !w->marks) return time;
+  const double part = (1 - SLACK) / SW_WINDOW_PARTS * window;
+  const double least = w->time[slot(w, w->marks - 1)] + part; /* the next mark */
+  for (size_t k = 0; k < w->marks; k++) {
+    const double at = w->time[slot(w, k)] + window;
+    if (at > w->now && at >= least && at <= time - SLACK * window) return at;
+  }
+  return time;
+}
+
 int sw_window_full(const sw_window *w, double window) {
   return w->marks && w->now - w->begun >= (1 - SLACK) * window;
 }

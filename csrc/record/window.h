@@ -39,6 +39,10 @@ static inline double *sw_window_values(sw_window *w) { return w->room + w->edges
 /* Add a step of size h up to a time, with these values. 1: the mean over the whole window up to
  * then is due to be looked at. */
 int sw_window_add(sw_window *w, const double *values, double time, double h, double window);
+/* A step up to a time is to be added in two, of the same values: the next moment before its end at
+ * which a window ends that begins with a mark, for means are largest where windows begin or end
+ * with a step. The time itself: none [s]. */
+double sw_window_cut(const sw_window *w, double time, double window);
 /* Largest of the edges' means over the window up to now, or over the whole record while that is
  * shorter: its edge, and the mean. */
 size_t sw_window_largest(const sw_window *w, double window, double *mean);

@@ -22,6 +22,7 @@ typedef struct sw_course {
   /* a blow that began at blow_since, or a bundle that converges badly, is followed in parts of
    * blow_part until blow_until [s] */
   double blow_part, blow_since, blow_until;
+  double snap; /* hardest pull of ties that went taut and were followed so [N] */
   double next_dt; /* of an adaptive run; 0 = not known [s] */
   size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
   double covered; /* steps that these make together [-] */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blows of wires on obstacles, followed in parts of a step. */
+/* Blows of wires on obstacles and of ties that snap taut, followed in parts of a step. */
 #include "step/blow.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/parts.h"
+#include "watch/observe.h"
 
 /* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
  * step, and a wire that is pushed on buckles at once instead of bearing the push for a while.
@@ -57,15 +58,42 @@ static double parts_for(double jolt) {
   return exp2(ceil(log2(fmin(jolt * fmax(2.0, jolt), MOST_PARTS))));
 }
 
+/* A tie that snaps taut with less than so many usual forces strikes nothing; one that does is
+ * followed when it is so many times as hard as any before; and goes on so, as blows on obstacles
+ * do [-]. */
+static const double LIGHT = 1.1, HARDER = 1.2, HARD = 5.0, GOES_ON = 0.5;
+/* It is followed as if it were so many times the usual force, in 64 parts: a stiff tie throws the
+ * wire back within a tenth of a millisecond [-]. */
+static const double SNAP = 6.0;
+
+/* As sw_contact_jolt, of ties. */
+static double jolt_of_ties(sw_scene *s, int followed) {
+  double *hardest = &sw_scene_course(s)->snap;
+  sw_snap snap;
+  if (!sw_scene_ties_snap(s, &snap) || !(snap.jolt > (followed ? HARD : LIGHT)) ||
+      !(snap.pull > (followed ? GOES_ON : HARDER) * *hardest))
+    return 0;
+  if (!followed) *hardest = snap.pull;
+  return fmax(snap.jolt, SNAP);
+}
+
+/* waits: 1, of obstacles none is to be followed yet. */
+static double jolt_of(sw_scene *s, int followed, int waits) {
+  sw_contact *contact = sw_scene_contact(s);
+  const double ties = jolt_of_ties(s, followed);
+  if (!contact || waits) return ties;
+  return fmax(ties, sw_contact_jolt(contact, sw_scene_system(s), followed));
+}
+
 int sw_blow_begins(sw_scene *s, double h) {
   sw_course *course = sw_scene_course(s);
   const int followed = sw_scene_time(s) < course->blow_until;
-  if (sw_scene_wire_slots(s) > MOST_WIRES || !sw_scene_contact(s) || sw_scene_pairs(s) ||
-      sw_scene_grains(s) || (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
+  if (sw_scene_wire_slots(s) > MOST_WIRES || sw_scene_pairs(s) || sw_scene_grains(s) ||
+      (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
-  if (!followed && course->blow_until > 0 && sw_scene_time(s) < course->blow_since + BETWEEN_BLOWS)
-    return 0;
-  const double jolt = sw_contact_jolt(sw_scene_contact(s), sw_scene_system(s), followed);
+  const int waits = !followed && course->blow_until > 0 &&
+                    sw_scene_time(s) < course->blow_since + BETWEEN_BLOWS;
+  const double jolt = jolt_of(s, followed, waits);
   if (!(jolt > 0)) return 0;
   if (!followed) course->blow_since = sw_scene_time(s);
   course->blow_until =

@@ -60,6 +60,11 @@ double sw_coarse_part(double h, double dt, double over) {
   return fmax(SHORTEST, part);
 }
 
+double sw_coarse_half(double h, double dt) {
+  const double part = 0.5 * h;
+  return part >= fmax(SMALLEST * dt, SHORTEST) ? part : h;
+}
+
 /* Half a part of smooth motion has an eighth of its error, one with a jump in it more than all. */
 int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, before); }
 

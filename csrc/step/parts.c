@@ -12,6 +12,7 @@
 #include "step/passing.h"
 #include "step/restart.h"
 #include "step/slip.h"
+#include "watch/observe.h"
 
 /* A first step after a jump knows no accelerations, and its reactions are off by their own
  * size, by which slips would be wrong: it is kept to this share [-]. */
@@ -50,9 +51,12 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
  * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   const double over = k->rough ? 0.0 : sw_coarse_of(p->s);
-  const double shorter = sw_coarse_part(k->part, p->args->dt, over);
+  sw_snap snap;
+  const int snaps = over > 1 && sw_scene_ties_snap(p->s, &snap);
+  const double shorter =
+      snaps ? sw_coarse_half(k->part, p->args->dt) : sw_coarse_part(k->part, p->args->dt, over);
   *may_grow = sw_coarse_may_grow(over);
-  if (k->doubted > 0 && !sw_coarse_helps(k->over, over)) {
+  if (k->doubted > 0 && !snaps && !sw_coarse_helps(k->over, over)) {
     k->rough = 1;
     k->part = k->doubted, k->doubted = 0;
     return 1;

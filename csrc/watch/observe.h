@@ -27,6 +27,14 @@ void sw_scene_watch_kink(sw_scene *scene, size_t wire, const sw_wire_extremes *n
 int sw_scene_may_break(const sw_scene *scene);
 /* SW_ENOCONV when a tie is pulled far beyond its strength with nodes at x: it breaks earlier. */
 sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *err);
+/* The hardest pull of ties that go taut, and as a share of what is usual for their wires [N],
+ * [-]. */
+typedef struct sw_snap {
+  double pull, jolt;
+} sw_snap;
+/* 1: a tie goes taut or slack between the scene's places and those of the last trial's stages: one
+ * that snaps taut may be slack again at its end. */
+int sw_scene_ties_snap(const sw_scene *scene, sw_snap *snap);
 /* After a step, before histories follow: ties that were pulled too hard break. */
 void sw_scene_watch_ties(sw_scene *scene);
 

@@ -2,6 +2,7 @@
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
 #include <math.h>
 
+#include "contact/contact.h"
 #include "link/joint.h"
 #include "scene/course.h"
 #include "scene/events.h"
@@ -51,7 +52,7 @@ int sw_scene_may_break(const sw_scene *s) {
     SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       bears = 0;
       if (term->cls->pull) pull_of(body, term, system->x, &bears);
-      if (bears > 0) return 1;
+      if (bears > 0 && isfinite(bears)) return 1;
     }
   }
   return 0;
@@ -70,6 +71,54 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++)
     SW_TRY(check_terms(&system->bodies[b], x, err));
   return SW_OK;
+}
+
+/* A tie pulls so hard at the scene's places and in a trial, wires p at its ends [N]. */
+static int note_snap(const sw_scene *s, double before, double now, const sw_plan *const *p,
+                     sw_snap *snap) {
+  if ((before > 0) == (now > 0)) return 0;
+  snap->pull = fmax(snap->pull, now);
+  for (size_t k = 0; k < SW_JOIN_ENDS && p[k]; k++)
+    if (!p[k]->web)
+      snap->jolt = fmax(snap->jolt, now / sw_contact_usual_force(sw_scene_system(s), p[k]));
+  return 1;
+}
+
+static int joint_snaps(const sw_scene *s, size_t joint, const double *x, sw_snap *snap) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_joint *j = sw_scene_join_in(s, joint);
+  double bears;
+  const double before = pull_of_joint(s, joint, system->x, &bears);
+  const sw_plan *const plans[SW_JOIN_ENDS] = {system->bodies[j->ends[0].wire].plan,
+                                              system->bodies[j->ends[1].wire].plan};
+  return note_snap(s, before, pull_of_joint(s, joint, x, &bears), plans, snap);
+}
+
+static int snap_at(const sw_scene *s, const double *x, sw_snap *snap) {
+  const sw_system *system = sw_scene_system(s);
+  int any = 0;
+  double bears;
+  for (size_t k = 0; k < sw_scene_join_slots(s); k++)
+    if (breakable(s, k)) any |= joint_snaps(s, k, x, snap);
+  for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++) {
+    const sw_body *body = &system->bodies[b];
+    const sw_plan *const plans[SW_JOIN_ENDS] = {body->plan};
+    SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
+      if (!term->cls->pull) continue;
+      const double before = pull_of(body, term, system->x, &bears);
+      any |= note_snap(s, before, pull_of(body, term, x, &bears), plans, snap);
+    }
+  }
+  return any;
+}
+
+int sw_scene_ties_snap(const sw_scene *s, sw_snap *snap) {
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
+  const size_t stages = stepper->used ? stepper->used->stages : 0;
+  int any = 0;
+  *snap = (sw_snap){.pull = 0};
+  for (size_t k = 0; k < stages; k++) any |= snap_at(s, stepper->y[k], snap);
+  return any;
 }
 
 /* Ties to points, which break when their force is told of the accepted state. */
