@@ -184,6 +184,9 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
 /* A wire's weight, or the force that bends it [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
+/* Axial stiffness of the edge that begins or ends at a node; 0: of a mesh, or a loose particle
+ * [N/m]. */
+double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 /* The hardest new blow on an obstacle in a trial step: its mean over the step, over the striking
  * wire's weight or bending force. 0: none [-]. followed: 1, a blow that is followed in parts goes
  * on. */

@@ -100,6 +100,13 @@ double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
   return fmax(weight, p->beam.EI / (p->length * p->length));
 }
 
+double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
+  const sw_body *b = &s->bodies[body];
+  const size_t e = node - b->first_node, edges = b->plan->edges;
+  if (b->plan->web || !edges) return 0;
+  return b->EA / b->plan->rest[e < edges ? e : edges - 1];
+}
+
 /* A force at a step's end that differs from its mean by this share of it, and by this of what is
  * usual, is that of a shock [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;

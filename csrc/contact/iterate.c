@@ -204,7 +204,9 @@ static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t
   const int small = sw_press_is_short(c->regime == SW_CONTACT_STATIC, c->h, c->nominal);
   if (t->held || c->candidates[t->candidate].given) return t->stiffer;
   const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
-  const double k = sw_press_stiffer(&t->press, t->share * t->usual, t->forgiven, before);
+  const double k = sw_press_stiffer(&t->press, t->share * t->usual,
+                                    t->share * sw_contact_edge_stiffness(s, t->body, t->node),
+                                    t->forgiven, before);
   return k > t->press.k ? k / t->share : t->stiffer;
 }
 

@@ -314,9 +314,10 @@ int sw_press_is_short(int statics, double h, double nominal) {
   return !statics && h > 0 && h < SHORT * nominal;
 }
 
-double sw_press_stiffer(const sw_press *p, double usual, double forgiven, double before) {
+double sw_press_stiffer(const sw_press *p, double usual, double axial, double forgiven,
+                        double before) {
   const double over = p->gap_after / -DEEPEST;
-  if (over <= 1.0 || p->k >= MOST_BOOST * usual) return p->k;
+  if (over <= 1.0 || p->k >= fmax(MOST_BOOST * usual, axial)) return p->k;
   if (before < 0) return p->k * fmin(LARGEST_STEP, 2.0 * over);
   /* what strikes in a short step gets there fast */
   return forgiven - p->gap_after < before + DEEPER ? p->k : p->k * LARGEST_STEP;

@@ -167,8 +167,10 @@ int sw_press_apart(const sw_press *press);
 int sw_press_is_short(int statics, double h, double nominal);
 
 /* Stiffness from the next iterate on: higher for a touch that is too deep, else as it is [N/m].
- * usual: of a new touch. before: depth at the step's start in a short step, else negative [m].
+ * usual: of a new touch; axial: of the wire's edge, for what a taut wire presses with has nothing
+ * to do with its weight. before: depth at the step's start in a short step, else negative [m].
  * forgiven: see above. */
-double sw_press_stiffer(const sw_press *press, double usual, double forgiven, double before);
+double sw_press_stiffer(const sw_press *press, double usual, double axial, double forgiven,
+                        double before);
 
 #endif

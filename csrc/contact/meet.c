@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "contact/contact.h"
 #include "contact/same.h"
 
 /* --- one touch ------------------------------------------------------------------- */
@@ -143,7 +144,9 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   for (size_t i = 0; i < m->touch_count; i++) {
     sw_meet *t = &m->touches[i];
     const double before = fmax(0.0, t->reach - sw_dot(t->square, sw_bows_apart(s->x, t->bow)));
-    t->stiffer = sw_press_stiffer(&t->press, t->usual, t->forgiven, small ? before : -1.0);
+    const double axial = fmin(sw_contact_edge_stiffness(s, t->of.body[0], t->of.node[0]),
+                              sw_contact_edge_stiffness(s, t->of.body[1], t->of.node[1]));
+    t->stiffer = sw_press_stiffer(&t->press, t->usual, axial, t->forgiven, small ? before : -1.0);
     any |= t->stiffer > t->press.k;
   }
   return any;
