@@ -182,7 +182,7 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
 /* After a step. 1: the obstacles' forces at its end come from a shock, and the next step must not
  * begin with them. */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
-/* A wire's weight, or the force that bends it [N]. */
+/* A wire's weight; of one without, the force that bends it [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
 /* Axial stiffness of the edge that begins or ends at a node; 0: of a mesh, or a loose particle
  * [N/m]. */

@@ -97,7 +97,7 @@ void sw_contact_conclude(sw_contact *c) {
 
 double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
   const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
-  return fmax(weight, p->beam.EI / (p->length * p->length));
+  return weight > 0 ? weight : fmax(weight, p->beam.EI / (p->length * p->length));
 }
 
 double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
@@ -139,9 +139,14 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
 /* A blow whose mean over the step is less than so many usual forces is none [-]. */
 static const double LIGHT = 1.1;
 /* Of one obstacle only those are followed that are so many times as hard as any before [-]. */
-static const double HARDER = 1.2;
+static const double HARDER = 1.5;
 /* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
 static const double GOES_ON = 0.5, HARD = 5.0; /* and this hard, of usual forces */
+
+/* A blow is followed in parts of this length at most, for which jolts are squares of their number,
+ * see step/blow.c: the sections of a soft mesh throw it back within a millisecond, and the end of a
+ * stiff wire that falls on a peg bounces as fast [s]. */
+static const double LONGEST_PART = 3e-4;
 
 /* Did what an obstacle gets come and go within the step? mean: over it, end: at its end [N]. */
 static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const sw_plan *p,
@@ -165,12 +170,12 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
     const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
                                   : fmax(LIGHT * usual, HARDER * l->past.hardest);
-    if (p->web || c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
+    if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (size > p->beam.EA) continue;     /* driven into it by a hold: no blow of a wire has that */
     if (!followed && t->known) continue; /* what slips or sticks here strikes nothing */
     if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
-    hardest = fmax(hardest, size / usual);
+    hardest = fmax(hardest, fmax(size / usual, sqrt(c->h / LONGEST_PART)));
   }
   return hardest;
 }

@@ -260,6 +260,18 @@ double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, s
   return p->trial_h * sqrt(largest);
 }
 
+double sw_stepper_error_of_mean(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
+  const sw_integrator *m = p->used;
+  if (!m || m->error[0] == 0 || !(end > first)) return 0;
+  double mean[3] = {0};
+  for (size_t i = 3 * first; i < 3 * end; i++) {
+    double *sum = &mean[i % 3];
+    *sum += m->error[0] * s->v[i];
+    for (size_t k = 0; k < m->stages; k++) *sum += m->error[1 + k] * p->w[k][i];
+  }
+  return p->trial_h * sw_norm(sw_load(mean)) / (double)(end - first);
+}
+
 double sw_stepper_drift(const sw_stepper *p, const sw_system *s) {
   double largest = 0;
   for (size_t i = 0; i < s->nodes; i++)

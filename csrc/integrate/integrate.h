@@ -121,6 +121,9 @@ sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, dou
  * when it has none [m]. */
 double sw_stepper_error(const sw_stepper *stepper, const sw_system *system, size_t first,
                         size_t end);
+/* The same of the mean place of these nodes [m]. */
+double sw_stepper_error_of_mean(const sw_stepper *stepper, const sw_system *system, size_t first,
+                                size_t end);
 /* What the last trial would be off by as a step of implicit Euler, which has no estimate: half the
  * change of velocities, times the step [m]. */
 double sw_stepper_drift(const sw_stepper *stepper, const sw_system *system);

@@ -17,8 +17,6 @@
 static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
 /* What goes on longer is no blow but a rattle, and costs too much to be followed [s]. */
 static const double LONGEST_BLOW = 0.03;
-/* From one that is followed to the next: a wire that tumbles would be followed all the time [s]. */
-static const double BETWEEN_BLOWS = 0.1;
 
 double sw_blow_part(const sw_scene *s, double h) {
   return sw_scene_time(s) < sw_scene_course(s)->blow_until
@@ -61,7 +59,7 @@ static double parts_for(double jolt) {
 /* A tie that snaps taut with less than so many usual forces strikes nothing; one that does is
  * followed when it is so many times as hard as any before; and goes on so, as blows on obstacles
  * do [-]. */
-static const double LIGHT = 1.1, HARDER = 1.2, HARD = 5.0, GOES_ON = 0.5;
+static const double LIGHT = 1.1, HARDER = 1.5, HARD = 5.0, GOES_ON = 0.5;
 /* It is followed as if it were so many times the usual force, in 64 parts: a stiff tie throws the
  * wire back within a tenth of a millisecond [-]. */
 static const double SNAP = 6.0;
@@ -77,12 +75,10 @@ static double jolt_of_ties(sw_scene *s, int followed) {
   return fmax(snap.jolt, SNAP);
 }
 
-/* waits: 1, of obstacles none is to be followed yet. */
-static double jolt_of(sw_scene *s, int followed, int waits) {
+static double jolt_of(sw_scene *s, int followed) {
   sw_contact *contact = sw_scene_contact(s);
   const double ties = jolt_of_ties(s, followed);
-  if (!contact || waits) return ties;
-  return fmax(ties, sw_contact_jolt(contact, sw_scene_system(s), followed));
+  return contact ? fmax(ties, sw_contact_jolt(contact, sw_scene_system(s), followed)) : ties;
 }
 
 int sw_blow_begins(sw_scene *s, double h) {
@@ -91,9 +87,7 @@ int sw_blow_begins(sw_scene *s, double h) {
   if (sw_scene_wire_slots(s) > MOST_WIRES || sw_scene_pairs(s) || sw_scene_grains(s) ||
       (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
-  const int waits = !followed && course->blow_until > 0 &&
-                    sw_scene_time(s) < course->blow_since + BETWEEN_BLOWS;
-  const double jolt = jolt_of(s, followed, waits);
+  const double jolt = jolt_of(s, followed);
   if (!(jolt > 0)) return 0;
   if (!followed) course->blow_since = sw_scene_time(s);
   course->blow_until =

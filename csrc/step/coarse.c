@@ -37,7 +37,18 @@ static int touch_each_other(const sw_scene *s) {
   return near > 0;
 }
 
-/* Sections of meshes swing far faster than any step, which is to damp that. */
+/* Sections of meshes swing far faster than any step, which is to damp that: their axis counts. */
+static double error_of(const sw_stepper *stepper, const sw_system *system, const sw_body *b) {
+  const sw_web *web = b->plan->web;
+  const size_t first = b->first_node;
+  double most = 0;
+  if (!web) return sw_stepper_error(stepper, system, first, first + b->plan->nodes);
+  for (size_t r = 0; web->per_ring && r < web->rings; r++)
+    most = fmax(most, sw_stepper_error_of_mean(stepper, system, first + web->first[r],
+                                               first + web->first[r + 1]));
+  return most;
+}
+
 double sw_coarse_of(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -45,10 +56,8 @@ double sw_coarse_of(const sw_scene *s) {
   if (touch_each_other(s)) return 0;
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
     const sw_plan *p = b->plan;
-    if (p->web) continue;
     const double allowed = fmin(OF_LENGTH * p->length, OF_RADIUS * p->beam.radius);
-    const double error = sw_stepper_error(stepper, system, b->first_node, b->first_node + p->nodes);
-    over = fmax(over, error / allowed);
+    over = fmax(over, error_of(stepper, system, b) / allowed);
   }
   return over;
 }
