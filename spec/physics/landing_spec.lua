@@ -31,7 +31,8 @@ local function compare(make, fine, dts, limits)
 end
 
 describe("a cable that lands all but level", function()
-  for _, case in ipairs{ { "GXL 1.5", 0.01 }, { "GXL 1.5", 0.02 }, { "FLRY-B 10", 0.01 }, { "FLRY-B 10", 0.02 } } do
+  for _, case in ipairs{ { "GXL 1.5", 0.01 }, { "GXL 1.5", 0.02 }, { "FLRY-B 10", 0.01 },
+    { "FLRY-B 10", 0.02 } } do
     it(("bends as with fine steps: %s, %g m higher at its end"):format(case[1], case[2]), function()
       compare(function(dt)
         local scene = sw.scene{}
