@@ -13,9 +13,10 @@ local SAFETY = 3     -- coarse steps do not see all that swings [-]
 local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
 local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
 local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
+local MANY = 30      -- iterations of a pose, of those which steps need some five each [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
-local motion = { name = "motion", safety = SAFETY, instead = true, rungs = {
+local motion = { name = "motion", safety = SAFETY, instead = true, rough = true, rungs = {
   { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
   { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 
@@ -147,12 +148,15 @@ function motion.onward(context, options)
   end
 end
 
+--- Does a run of poses need so many iterations for each that it may cost more than one of dynamics?
+function motion.toils(rung, run) return rung == 1 and run.iterations > MANY * run.steps end
+
 --- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
 -- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
 -- in_doubt: it is not known whether they suffice; then they are no saving already where they need as many.
 function motion.costly(rung, here, above, in_doubt)
   if rung == 1 and here.iterations >= (in_doubt and 1 or COSTLY) * above.iterations then
-    return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
+    return ("poses cost more: %d iterations on a mesh on which dynamics take %d"):format(here.iterations,
       above.iterations)
   end
 end
