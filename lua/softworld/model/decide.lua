@@ -17,8 +17,8 @@ local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
-local CLEAR = 0.01 -- a change over what is allowed that is small enough though steps hide more of it [-]
-local SEEN = 0.1   -- the share of it that they must show for that [-]
+local CLEAR = 0.002 -- a change over what is allowed that is hardly so small by chance [-]
+local SEEN = 0.1   -- of a swing: what steps must show for that [-]
 local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 
