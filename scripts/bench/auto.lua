@@ -156,9 +156,10 @@ local function true_values(build, moves, share)
   local options = { rolls = true, contact = true, settle = not moves }
   local truth, why = run(build, options, share, COARSE)
   if not truth or truth.met then return truth, why end
-  local last, before = truth.levels[#truth.levels].cpu, truth.levels[#truth.levels - 1].cpu
+  local n = #truth.levels -- fewer than COARSE, where those would not tell
+  local last, before = truth.levels[n].cpu, truth.levels[n - 1].cpu
   local growth, expected = last / math.max(before, 1e-3), 0
-  for k = 1, FINE - COARSE do expected = expected + last * growth ^ k end
+  for k = 1, FINE - n do expected = expected + last * growth ^ k end
   if expected > LONGEST then return nil, ("to know what is true would take about %.0f s"):format(expected) end
   return run(build, options, share, FINE)
 end
