@@ -6,7 +6,8 @@
 -- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
 -- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run;
 -- case=study: what a study's workers bring and cost; case=calibration: 1,000 known cables, and how often
--- intervals hold the truth; case=auto: runs that choose their model, against fixed models.
+-- intervals hold the truth; case=auto: runs that choose their model, against fixed models, with seed=, count=
+-- of scenes and kind= of them.
 -- Compare numbers of one run only: machines differ, and so do their loads.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 package.cpath = (arg[-1]:match "^(.*/)" or "") .. "lib/?.so;" .. package.cpath -- softworld.probe
@@ -18,18 +19,21 @@ local sink = require "softworld.output.sink"
 
 -- Choosing -------------------------------------------------------------------------
 
-local wanted, quick, out = {}, false, "out/bench"
+local wanted, numbers, quick, out = {}, {}, false, "out/bench"
 for _, word in ipairs(arg) do
   local key, value = word:match "^(%w+)=(.+)$"
   if word == "quick" then
     quick = true
   elseif key == "out" then
     out = value
-  elseif key == "case" or key == "model" or key == "integrator" or key == "n" then
+  elseif key == "case" or key == "model" or key == "integrator" or key == "n" or key == "kind" then
     wanted[key] = {}
     for item in value:gmatch "[^,]+" do wanted[key][item] = true end
+  elseif (key == "seed" or key == "count") and math.tointeger(tonumber(value)) then
+    numbers[key] = math.tointeger(tonumber(value))
   else
-    io.stderr:write("bench: '", word, "' is none of quick case= model= integrator= n= out=\n")
+    io.stderr:write("bench: '", word, "' is none of quick case= model= integrator= n= seed= count= kind= "
+      .. "out=\n")
     os.exit(2)
   end
 end
@@ -80,7 +84,9 @@ if not next(wanted) or wanted.case and wanted.case.grip then special.grips(out) 
 if wanted.case and wanted.case.view then special.view() end
 if wanted.case and wanted.case.study then special.study() end
 if wanted.case and wanted.case.calibration then special.calibration() end
-if wanted.case and wanted.case.auto then require("bench.auto").print(wanted.n and next(wanted.n)) end
+if wanted.case and wanted.case.auto then
+  require("bench.auto").print(numbers.seed, wanted.kind, numbers.count)
+end
 if wanted.case and wanted.case.crowds then special.crowds() end
 if wanted.case and wanted.case.bundle then special.bundles() end
 local bad = {}

@@ -131,6 +131,9 @@ end
 
 -- --- what is true ------------------------------------------------------------------------------
 
+local COARSE, FINE = 4, 6 -- levels: of a first look at how long it takes to know, and to know [-]
+local LONGEST = 120       -- that it may take [s]
+
 local function tolerance(names, share)
   local t = {}
   for _, name in ipairs(names) do t[name] = { relative = share } end
@@ -146,6 +149,19 @@ local function run(build, options, share, levels, static)
     quasistatic = static, dt = static and 0.04 or nil })
   if not fine then return nil, r end
   return r.ok and r or nil, r.reason, sw.core.clock() - clock
+end
+
+-- What is true, by far finer runs of the dearest model; nil where that would take too long, and why.
+local function true_values(build, moves, share)
+  local options = { rolls = true, contact = true, settle = not moves }
+  local truth, why = run(build, options, share, COARSE)
+  if not truth or truth.met then return truth, why end
+  local n = #truth.levels -- fewer than COARSE, where those would not tell
+  local last, before = truth.levels[n].cpu, truth.levels[n - 1].cpu
+  local growth, expected = last / math.max(before, 1e-3), 0
+  for k = 1, FINE - n do expected = expected + last * growth ^ k end
+  if expected > LONGEST then return nil, ("to know what is true would take about %.0f s"):format(expected) end
+  return run(build, options, share, FINE)
 end
 
 local function near(a, b)
@@ -186,7 +202,7 @@ local function one(kind, random, share)
   local build, moves, known = kind.of(random)
   local truth, why = { quantities = known }, nil
   if not known then
-    truth, why = run(build, { rolls = true, contact = true, settle = not moves }, share / 8, 6)
+    truth, why = true_values(build, moves, share / 8)
   end
   if not truth then return nil, why end
   for name, t in pairs(truth.quantities) do
@@ -245,21 +261,24 @@ local function rate(row)
 end
 
 --- Scenes drawn by a seed, until so many are known well enough: { name =, share =, rungs =, held =, rows =,
--- cheapest =, too_cheap =, cost =, probes = }.
-function auto.draw(count, seed, tell)
-  local generator, list = require("softworld.study.design").generator(seed, 17), {}
-  local k, known = 0, 0
-  while known < count and k < 4 * count do
+-- cheapest =, too_cheap =, cost =, probes = }. kinds: a set of names, or nil for all. Each scene is drawn by
+-- its own numbers, so that it is the same whatever else is drawn.
+function auto.draw(count, seed, tell, kinds)
+  local design, list = require "softworld.study.design", {}
+  local k, known, drawn = 0, 0, 0
+  while known < count and drawn < 4 * count do
     k = k + 1
     local kind, round = auto.scenes[1 + (k - 1) % #auto.scenes], (k - 1) // #auto.scenes
-    local share = ({ 0.1, 0.03, 0.01 })[1 + (k - 1 + round) % 3] -- another one in each round
-    local row, why = one(kind, generator, share)
-    row = row or { failed = tostring(why), no_truth = true }
-    row.name, row.share = kind.name, share
-    if not row.no_truth then known = known + 1 end
-    if row.enough then rate(row) end
-    list[k] = row
-    if tell then tell(row) end
+    if not kinds or kinds[kind.name] then
+      local share = ({ 0.1, 0.03, 0.01 })[1 + (k - 1 + round) % 3] -- another one in each round
+      local row, why = one(kind, design.generator(seed, 17, k), share)
+      row = row or { failed = tostring(why), no_truth = true }
+      row.name, row.share = kind.name, share
+      if not row.no_truth then known = known + 1 end
+      if row.enough then rate(row) end
+      drawn, list[drawn + 1] = drawn + 1, row
+      if tell then tell(row) end
+    end
   end
   return list
 end
@@ -348,16 +367,28 @@ local function print_aims(f)
     .. "within their bars and 2 %%"):format(f.same, f.looked, f.choice, f.near, f.near_rows))
 end
 
---- Draw twenty scenes by each of two seeds and print what comes of it.
-function auto.print(seed)
-  for k = 1, 2 do
-    local number = (tonumber(seed) or 1) + k - 1
+local function check_kinds(kinds)
+  for name in pairs(kinds or {}) do
+    local found
+    for _, kind in ipairs(auto.scenes) do found = found or kind.name == name end
+    if not found then error(("bench: there is no kind '%s' of scenes"):format(name), 0) end
+  end
+end
+
+--- Draw so many scenes (20) by each of two seeds, or by the one given, and print what comes of it. kinds: a
+-- set of names, or nil for all.
+function auto.print(seed, kinds, count)
+  check_kinds(kinds)
+  for k = 1, seed and 1 or 2 do
+    local number = seed or k
     print(("\nruns that choose their model, seed %d"):format(number))
-    local list = auto.draw(20, number, print_missed)
+    local list = auto.draw(count or 20, number, print_missed, kinds)
     local f = auto.figures(list)
     print(("  %d scenes (%d not known well enough)"):format(f.scenes, f.failed))
-    print_aims(f)
-    print_front(list)
+    if f.scenes > 0 then
+      print_aims(f)
+      print_front(list)
+    end
   end
 end
 

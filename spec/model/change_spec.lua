@@ -68,10 +68,10 @@ describe("steps of dynamics", function()
   it("show of a swing what tr-bdf2 leaves of it in half a period, at the step next to the peak", function()
     for _, n in ipairs { 2.5, 4, 8, 20 } do
       local expected = step_of(2 * math.pi / n) ^ (n / 2) * math.cos(math.pi / n)
-      assert.is_near(expected, motion.shows { period = 1, dt = 1 / n, weight = 9.81 }, 1e-12)
+      assert.is_near(expected, motion.shows { swing = 1, dt = 1 / n, weight = 9.81 }, 1e-12)
     end
-    assert.equal(0, motion.shows { period = 1, dt = 0.5, weight = 9.81 })
+    assert.equal(0, motion.shows { swing = 1, dt = 0.5, weight = 9.81 })
     assert.equal(0, motion.shows { dt = 0.5, weight = 9.81 })
-    assert.equal(1, motion.shows { period = 1, dt = 0.5, weight = 9.81, acceleration = 0.9 })
+    assert.equal(1, motion.shows { swing = 1, dt = 0.5, weight = 9.81, acceleration = 0.9 })
   end)
 end)

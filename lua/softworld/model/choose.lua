@@ -29,6 +29,7 @@ local LEAST = 0.25 -- of a tolerance: what edges and steps may always take [-]
 local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 local LONGEST = 300 -- that a level is expected to take [s]
+local OWN = 4      -- of what the next rung changes: by how much it shortens a bar at most [-]
 local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
 
 -- Do the values of k levels already have the bars that are asked for?
@@ -52,6 +53,14 @@ local function is_dear(context, k)
   return true
 end
 
+-- Does a rung of the run turn out to cost more than the next one, before the bars are short enough?
+local function is_wasteful(context, k)
+  if not context.run_of[k] then return false end
+  local state, why = decide.wasteful(context, k, context.run_of[k])
+  context.wasteful = state and { state = state, why = why } or nil
+  return state ~= nil
+end
+
 -- No finer levels than can be waited for, as far as it is known; and as it turns out, from level to level.
 local function affordable(context)
   local job = context.job
@@ -62,7 +71,7 @@ local function affordable(context)
       break
     end
   end
-  function job.enough(k, good) return good >= 2 and is_dear(context, k) end
+  function job.enough(k, good) return good >= 2 and (is_dear(context, k) or is_wasteful(context, k - 1)) end
 end
 
 -- The steps of levels, each with a guard of what free checks stand on.
@@ -102,6 +111,7 @@ local function refined(context)
     for k = job.begun + 1, #values do values[k] = nil end
   end
   affordable(context)
+  context.wasteful, context.run_of = nil, {}
   if not kept then job.restore() end
   function job.kept(k)
     local known = k == job.begun + 1 and kept
@@ -114,7 +124,9 @@ local function refined(context)
   local total = { wall = kept and kept.run.wall or 0, cpu = kept and kept.run.cpu or 0 }
   context.last = nil
   local result = trust.work(job, function(k, name)
-    return refine.computer(job, steps, context.run_once, total)(k, name)
+    local run = refine.computer(job, steps, context.run_once, total)(k, name)
+    context.run_of[k] = { iterations = run.iterations, steps = run.steps }
+    return run
   end)
   result.wall, result.cpu = total.wall, total.cpu
   return result
@@ -156,8 +168,16 @@ local function broken(context, result)
   return again
 end
 
--- A bar that stays too long may be the rung's own, as friction makes bars of poses: the first choice that
--- the quantity depends on goes up. True when it does.
+-- May the next rung of a choice make the bar of a quantity short enough? over: by how much it is too long
+-- with what the rungs leave out. That is taken away, and a bar, being so many changes from level to level,
+-- shortens by no more than some times what the rung changes. But friction makes bars of fine poses.
+local function may_mend(state, q, over)
+  if state.by == "free" then return state.choice.name == "motion" and not q.met end
+  local change = state.by == "compared" and state.change[q.name] or 0
+  return change > 0 and (state.choice.rough and not q.met or over <= OWN * change)
+end
+
+-- Where a bar stays too long the first choice whose next rung may mend that goes up. True when one does.
 local function shorter(context, result)
   if context.dear then return false end -- the bars are those of a mesh that is not to be finer
   for _, state in ipairs(context.states) do
@@ -166,12 +186,12 @@ local function shorter(context, result)
   for _, q in ipairs(result:error_bars()) do
     local least = context.job.read[q.name].least -- coarse levels of a motion make a bar longer
     local hopeless = least > HOPELESS * q.tolerance or q.error <= context.spread:floor(q)
-    for _, state in ipairs(not q.met and not hopeless and context.states or {}) do
-      local depends = state.by == "free" and state.choice.name == "motion"
-        or state.by == "compared" and (state.change[q.name] or 0) > 0
-      if state.rung < state.last and depends and not state.choice.steady then
+    local all = q.error + decide.left_out(context, q.name)
+    local over = all - q.tolerance
+    for _, state in ipairs(over > 0 and not hopeless and context.states or {}) do
+      if state.rung < state.last and not state.choice.steady and may_mend(state, q, over) then
         decide.raise(context, state, ("with %s the bar of %s stays at %s (asked for %s)"):format(
-          state.choice.rungs[state.rung].as, q.name, number.text(q.error, q.unit),
+          state.choice.rungs[state.rung].as, q.name, number.text(all, q.unit),
           number.text(q.tolerance, q.unit)))
         decide.settle(context)
         return true
@@ -204,8 +224,17 @@ local function goes_on_above(context, result)
   return false
 end
 
+-- A rung that costs more than the next one is given up.
+local function spares(context)
+  local found = context.wasteful
+  if not found then return false end
+  decide.raise(context, found.state, found.why)
+  decide.settle(context)
+  return true
+end
+
 local function is_good(context, result)
-  if goes_on_above(context, result) then return false end
+  if goes_on_above(context, result) or spares(context) then return false end
   return result.refused or not broken(context, result) and not shorter(context, result)
 end
 

@@ -17,6 +17,9 @@ local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
+local CLEAR = 0.002 -- a change over what is allowed that is hardly so small by chance [-]
+local SEEN = 0.1   -- of a swing: what steps must show for that [-]
+local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 
 decide.levels = 3 -- coarse ones on which rungs are compared [-]
@@ -33,6 +36,29 @@ local function with(rungs, name, rung)
   for key, value in pairs(rungs) do copy[key] = value end
   copy[name] = rung
   return copy
+end
+
+-- Iterations that the next rung of a choice needs on level k at least, by what was computed of it on the way,
+-- or now on the coarsest level; nil: it cannot be.
+local function iterations_above(context, state, k)
+  local up = with(decide.rungs(context), state.choice.name, state.rung + 1)
+  for j = k, 2, -1 do
+    local above = probe.known(context, up, j)
+    if above and above.ok then return GROWTH ^ (k - j) * above.iterations end
+  end
+  local above = probe.of(context, up, 1)
+  return above.ok and GROWTH ^ (k - 1) * above.iterations or nil
+end
+
+--- The choice whose rung costs more than the next one, as a run of the rungs chosen tells by what it needed
+-- on level k, and why; nil: there is none. The scene may then be as another run left it.
+function decide.wasteful(context, k, run)
+  for _, state in ipairs(context.states) do
+    local open = state.by ~= "given" and not state.went_on and state.rung < state.last and state.choice.toils
+    local above = open and open(state.rung, run) and iterations_above(context, state, k)
+    local why = above and state.choice.costly(state.rung, run, { iterations = above })
+    if why then return state, why end
+  end
 end
 
 --- The tightest tolerance over its value [-].
@@ -84,8 +110,10 @@ local function is_blurred(context, state, now, c)
   if now.k > 1 then return false end
   if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
   if c.worst > 1 then return c.worst <= FAR end
+  local above = now.above.facts[choice.name]
+  if c.worst < CLEAR and choice.shows and choice.shows(above) > SEEN then return false end
   local share = decide.tightest(context, now.above.values)
-  return choice.blurred and choice.blurred(now.here.facts[choice.name], now.above.facts[choice.name], share)
+  return choice.blurred and choice.blurred(now.here.facts[choice.name], above, share)
 end
 
 -- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a

@@ -13,9 +13,10 @@ local SAFETY = 3     -- coarse steps do not see all that swings [-]
 local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
 local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
 local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
+local MANY = 30      -- iterations of a pose, of those which steps need some five each [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
-local motion = { name = "motion", safety = SAFETY, instead = true, rungs = {
+local motion = { name = "motion", safety = SAFETY, instead = true, rough = true, rungs = {
   { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
   { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 
@@ -60,11 +61,18 @@ local function period(scene)
 end
 
 -- A wire that lay on a table and is lifted swings more slowly than it did: the longest period also counts of
--- where the first poses end.
+-- where the first poses end. Where the scene does not rest as it begins, that tells how it swings, not
+-- whether motion is slow.
 local function look_at_end(context)
-  if not context.period or context.period_of_end or speed(context.scene) > 0 then return end
+  if context.period_of_end or speed(context.scene) > 0 then return end
   context.period_of_end = period(context.scene) or 0
-  context.period = math.max(context.period, context.period_of_end)
+  if context.period then context.period = math.max(context.period, context.period_of_end) end
+end
+
+-- First period of swings [s], where one is known.
+local function swing(context)
+  local ends = context.period_of_end or 0
+  return context.period or ends > 0 and ends or nil
 end
 
 function motion.look(context, run)
@@ -73,7 +81,8 @@ function motion.look(context, run)
   local _, _, acceleration, slower = facts.swept()
   return { jumps = run.jumps, lasts = run.time - run.start, acceleration = acceleration, slower = slower,
     weight = (scene:gravity()[1] ^ 2 + scene:gravity()[2] ^ 2 + scene:gravity()[3] ^ 2) ^ 0.5,
-    period = context.period, dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
+    period = context.period, swing = swing(context),
+    dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
 --- The first period, of the scene at rest as it begins [s]; look_at_end may find a longer one.
@@ -94,7 +103,7 @@ end
 -- the first period, at the step next to its peak. All where it hardly speeds up.
 function motion.shows(f)
   if f.acceleration and f.acceleration <= SMALL * f.weight then return 1 end
-  local steps = f.period and f.period / f.dt or 0
+  local steps = f.swing and f.swing / f.dt or 0
   return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
@@ -147,12 +156,15 @@ function motion.onward(context, options)
   end
 end
 
+--- Does a run of poses need so many iterations for each that it may cost more than one of dynamics?
+function motion.toils(rung, run) return rung == 1 and run.iterations > MANY * run.steps end
+
 --- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
 -- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
 -- in_doubt: it is not known whether they suffice; then they are no saving already where they need as many.
 function motion.costly(rung, here, above, in_doubt)
   if rung == 1 and here.iterations >= (in_doubt and 1 or COSTLY) * above.iterations then
-    return ("poses cost more: %d iterations on the coarse mesh, dynamics %d"):format(here.iterations,
+    return ("poses cost more: %d iterations on a mesh on which dynamics take %d"):format(here.iterations,
       above.iterations)
   end
 end

@@ -8,6 +8,7 @@
 --   steady: bars do not become shorter with the next rung, and the other choices stay as they are with it.
 --     A rung with own = true: what the next one's own edges change counts too
 --   instead: where the fine run fails, it is computed by the next rung
+--   rough: fine levels of a rung may tell less than those of the next one, where coarse ones are alike
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
@@ -27,8 +28,10 @@
 --   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
 --   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
 --   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
+--   toils(rung, run): may the rung cost more than the next one, by what a run of it needed? Then costly is
+--     asked
 --   costly(rung, here, above, in_doubt): a sentence where the rung costs no less than the next one, which is
---     in doubt or not; here and above: coarse computations by both, with iterations =
+--     in doubt or not; here and above: computations by both on like levels, with iterations =
 --   short(context, facts, share, state): a sentence where the rung leaves out too much all the same
 -- @module softworld.model.registry
 local registry = {}

@@ -1,0 +1,142 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What choosing a model costs: no computation that cannot change the choice, and none by a rung that has
+-- turned out to be the dearer one.
+local sw = require "softworld"
+local refine = require "softworld.run.refine"
+local rod = require "spec.model.rod"
+local sealed = require "softworld.sealed"
+
+local FINE = 20 -- segments from which poses need many iterations
+
+-- f() while runs of a model go through instead(run_once, scene, options, name, why).
+local function computing(instead, f)
+  local computer = refine.computer
+  function refine.computer(job, steps, run_once, total)
+    return computer(job, steps, function(...) return instead(run_once, ...) end, total)
+  end
+  local fine, result = pcall(f)
+  refine.computer = computer
+  assert(fine, result)
+  return result
+end
+
+-- A wire hangs between two clamps, and one comes nearer slowly.
+local function hung(toils)
+  local scene = sw.scene { name = "hung" }
+  scene:force { kind = "damping", mass = 5 }
+  local w = rod.wire(scene)
+  scene:clamp(w, { s = 0 })
+  local right = scene:clamp(w, { s = 0.6, name = "right" })
+  scene:settle()
+  right:follow { points = { { 0.6, 0, 0 }, { 0.4, 0.1, 0 } }, duration = 10 }
+  return computing(function(run_once, s, options, name, why)
+    local run = run_once(s, options, name, why)
+    if toils and options.quasistatic and sw.core.segments(w) >= FINE then
+      rawset(sealed.fields(run), "iterations", 1000 * run.steps)
+    end
+    return run
+  end, function()
+    return scene:run { duration = 10, tolerance = { ["right.force"] = { relative = 0.001 } } }
+  end)
+end
+
+describe("model = 'auto', where poses of fine edges need many iterations,", function()
+  it("goes on with dynamics before the next level, and has the same value", function()
+    local poses, run = hung(false), hung(true)
+    assert.equal("poses", poses.model.motion)
+    assert.equal("dynamic", run.model.motion)
+    local why = tostring(run:why())
+    assert.truthy(why:find("poses cost more: %d+ iterations on a mesh on which dynamics take %d+"), why)
+    local a, b = poses.quantities["right.force"], run.quantities["right.force"]
+    local away = 0
+    for i = 1, 3 do away = away + (a.value[i] - b.value[i]) ^ 2 end
+    assert.is_true(away ^ 0.5 <= a.error + b.error, ("%.3g N apart"):format(away ^ 0.5))
+  end)
+end)
+
+-- Two wires hang one above the other, so near that only touches tell whether they meet, and sag. The quantity
+-- is another on each level, so that no bar of it is short, and is changed a little by computing touches.
+local function beside(change)
+  local scene = sw.scene { name = "beside" }
+  scene:force { kind = "damping", mass = 5 }
+  local a
+  for k, name in ipairs { "a", "b" } do
+    local z = 2.2 * rod.radius * (k - 1)
+    local w = rod.wire(scene, { name = name, from = { 0, 0, z }, to = { 0.6, 0, z } })
+    a = a or w
+    scene:clamp(w, { s = 0 })
+    scene:clamp(w, { s = 0.6 }):follow { relative = true, duration = 0.5,
+      points = { { 0, 0, 0 }, { -0.1, 0, 0 } } }
+  end
+  local function odd()
+    local level = math.tointeger(math.log(sw.core.segments(a) / 6, 2) // 1)
+    return 1 + 0.02 * (level % 2) + (sw.core.data(scene).touching and change or 0)
+  end
+  return scene:run { duration = 0.5, model = "auto", levels = 4, quasistatic = false,
+    tolerance = { { name = "odd", value = 0.03, unit = "-", of = odd } } }
+end
+
+describe("model = 'auto', where a bar stays too long,", function()
+  it("computes the next rung where that may shorten it", function()
+    local run = beside(0.015)
+    assert.is_false(run.met)
+    assert.equal("wires", run.model.contact, tostring(run:why()))
+    assert.truthy(tostring(run:why()):find("with no touches of wires the bar of odd stays at", 1, true))
+  end)
+
+  it("does not where that changes the value by far less than the bar is too long", function()
+    local run = beside(1e-5)
+    assert.is_false(run.met)
+    assert.equal("none", run.model.contact, tostring(run:why()))
+  end)
+end)
+
+-- A cable is pressed into a clip, over whose lips it jumps.
+describe("model = 'auto', where a wire jumps,", function()
+  it("computes dynamics on one level where they change hardly anything and show what rings", function()
+    local scene, span, high = sw.scene { name = "clipped" }, 0.15, 0.035
+    scene:clip { name = "clip", at = { span / 2, 0, 0 }, width = 0.01, insertion = 2, retention = 6,
+      friction = 0.25 }
+    local w = scene:wire { name = "w", from = { 0, 0, high }, to = { span, 0, high }, segments = 32, E = 60e6,
+      density = 1500, radius = rod.radius }
+    for s, name in pairs { [0] = "left", [span] = "right" } do
+      scene:clamp(w, { s = s, name = name }):follow { relative = true, duration = 4,
+        points = { { 0, 0, 0 }, { 0, 0, -high - 0.1 * span } } }
+    end
+    scene:force { kind = "damping", mass = 5 }
+    scene:settle()
+    local run = scene:run { duration = 4, model = "auto",
+      tolerance = { ["left.force"] = { relative = 0.03 } } }
+    assert.is_true(run.met, tostring(run:why()))
+    assert.equal("poses", run.model.motion)
+    assert.equal("compared", run.model.choices[1].by)
+    assert.equal(2, run.model.probes)
+  end)
+end)
+
+-- It falls on a table while one end is moved to the side, by less than the tolerance.
+describe("model = 'auto', where the scene does not rest as it begins,", function()
+  local function dropped(args)
+    local scene = sw.scene { name = "dropped" }
+    scene:obstacle { name = "table", shape = "plane", friction = 0 }
+    local w = scene:wire { name = "w", EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03,
+      radius = 0.0018, from = { 0, 0, 0.02 }, to = { 0.5, 0, 0.02 }, segments = 24 }
+    scene:clamp(w, { s = 0 }):follow { relative = true, duration = 0.4,
+      points = { { 0, 0, 0 }, { 0, 0.03, 0 } } }
+    scene:force { kind = "damping", mass = 5 }
+    args.duration, args.tolerance = 0.5, { tip = { relative = args.share } }
+    args.share = nil
+    return scene:run(args)
+  end
+
+  it("knows by where the first poses end what coarse steps show of a swing, and stays with poses", function()
+    local truth = dropped { share = 0.01 }
+    local run = dropped { share = 0.1, model = "auto" }
+    local a, b = truth.quantities.tip, run.quantities.tip
+    local away = 0
+    for i = 1, 3 do away = away + (a.value[i] - b.value[i]) ^ 2 end
+    assert.equal("poses", run.model.motion, tostring(run:why()))
+    assert.is_true(away ^ 0.5 <= a.error + b.error, ("%.3g m apart"):format(away ^ 0.5))
+    assert.is_true(away ^ 0.5 > 0.3 * b.tolerance) -- a change that is seen
+  end)
+end)
