@@ -26,6 +26,7 @@ typedef struct sw_held_node {
   int slides;       /* wire slides through: the wire's velocity differs from the node's */
   sw_vec local;     /* [m] */
   double saved[36]; /* its matrix couplings to the nodes -2 -1 +1 +2 [N/m] */
+  double own[6];    /* and to itself, upper half: in statics the update moves it too [N/m] */
   sw_vec own_force; /* inertia minus forces before the last solve [N] */
   sw_vec reaction;  /* force on the wire needed to hold it [N] */
   size_t kept;      /* its place in the system's strains, or 0: it is not there */

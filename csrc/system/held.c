@@ -21,6 +21,7 @@ static void transpose(const double *u, double *out) {
 static void hold_row(sw_held_node *h, double *rows, size_t n, size_t i, double *right) {
   const double *row = rows + SW_ROW_SIZE * i;
   memset(h->saved, 0, sizeof h->saved);
+  memcpy(h->own, row + SW_ROW_OWN, sizeof h->own);
   if (i >= 2) transpose(rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND, h->saved);
   if (i >= 1) transpose(rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT, h->saved + 9);
   if (i + 1 < n) memcpy(h->saved + 18, row + SW_ROW_NEXT, 9 * sizeof *row);
@@ -36,11 +37,18 @@ static void add_block(sw_vec *f, const double *u, const double *d) {
   f->z += u[6] * d[0] + u[7] * d[1] + u[8] * d[2];
 }
 
+static void add_own(sw_vec *f, const double *u, const double *d) {
+  f->x += u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
+  f->y += u[1] * d[0] + u[3] * d[1] + u[4] * d[2];
+  f->z += u[2] * d[0] + u[4] * d[1] + u[5] * d[2];
+}
+
 /* Reaction after the update delta, linearised as the solve was. */
 static void update_reaction(sw_held_node *h, const sw_body *b, const double *delta) {
   const size_t i = h->node - b->first_node, n = b->plan->nodes;
   const double *d = delta + 3 * h->node;
   sw_vec f = h->own_force;
+  add_own(&f, h->own, d);
   if (i >= 2) add_block(&f, h->saved, d - 6);
   if (i >= 1) add_block(&f, h->saved + 9, d - 3);
   if (i + 1 < n) add_block(&f, h->saved + 18, d + 3);
