@@ -9,20 +9,17 @@ static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
   return 1;
 }
 
-/* The wire at 1, how many places of it are kept, and which cycles. */
-static lsw_self wire_at(lua_State *L, size_t *places, sw_worn_cycles *cycles) {
+/* The wire at 1, and how many places of it are kept. */
+static lsw_self wire_at(lua_State *L, size_t *places) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
-  LSW_DO(L, sw_scene_worn, w.scene, w.id, places, cycles);
+  LSW_DO(L, sw_scene_worn, w.scene, w.id, places);
   return w;
 }
 
-/* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }, are cycles of load kept
- * too?: "whole" run, a "part" of it, nil; nil where nothing is kept */
+/* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }; nil where nothing is kept */
 static int mod_worn(lua_State *L) {
-  static const char *const words[] = {NULL, "part", "whole"};
   size_t count;
-  sw_worn_cycles cycles;
-  const lsw_self w = wire_at(L, &count, &cycles);
+  const lsw_self w = wire_at(L, &count);
   if (!count) return 0;
   lua_createtable(L, (int)count, 0);
   for (size_t k = 0; k < count; k++) {
@@ -35,17 +32,15 @@ static int mod_worn(lua_State *L) {
     lua_setfield(L, -2, "side");
     lua_rawseti(L, -2, (lua_Integer)k + 1);
   }
-  lua_pushstring(L, words[cycles]);
-  return 2;
+  return 1;
 }
 
 /* core.worn_sidewall(wire) -> largest pressure T/R where it touched [N/m], where [m], when [s]; nil
- * where nothing is kept, or of a part of the run only */
+ * where nothing is kept */
 static int mod_worn_sidewall(lua_State *L) {
   size_t count;
-  sw_worn_cycles cycles;
-  const lsw_self w = wire_at(L, &count, &cycles);
-  if (!count || cycles != SW_WORN_WHOLE) return 0;
+  const lsw_self w = wire_at(L, &count);
+  if (!count) return 0;
   const sw_extreme x = sw_scene_worn_sidewall(w.scene, w.id);
   lua_pushnumber(L, x.value), lua_pushnumber(L, x.s), lua_pushnumber(L, x.time);
   return 3;
@@ -57,11 +52,9 @@ static int mod_worn_sidewall(lua_State *L) {
 static int mod_worn_cycles(lua_State *L) {
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
   size_t count;
-  sw_worn_cycles cycles;
-  const lsw_self w = wire_at(L, &count, &cycles);
+  const lsw_self w = wire_at(L, &count);
   const lua_Integer k = lsw_integer(L, 2, "worn_cycles: the place");
   const lua_Integer signal = lsw_integer(L, 3, "worn_cycles: the signal");
-  luaL_argcheck(L, cycles != SW_WORN_NONE, 1, "no cycles of load are kept of it");
   luaL_argcheck(L, k >= 1 && (size_t)k <= count, 2, "there is no such place");
   luaL_argcheck(L, signal >= 0 && signal < SW_WORN_SIGNALS, 3, "there is no such signal");
   double open[SW_CYCLES_OPEN];

@@ -10,6 +10,7 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "strand/ring.h"
+#include "system/axial.h"
 #include "system/system.h"
 
 /* --- sections -------------------------------------------------------------------- */
@@ -29,8 +30,8 @@ static void add_solid_force(const sw_plan *p, const double *x, const sw_web_soli
 
 /* Force of the part of the wire after slice number r (between rings r and r + 1) on that
  * before, and its moment about a point [N], [N m]. */
-static void slice_force(const sw_plan *p, const double *x, size_t r, sw_vec about, sw_vec *force,
-                        sw_vec *moment) {
+static void slice_force(const sw_plan *p, const double *x, const double *T, size_t r, sw_vec about,
+                        sw_vec *force, sw_vec *moment) {
   const sw_web *w = p->web;
   *force = *moment = sw_v(0, 0, 0);
   const size_t next = w->first[r + 1];
@@ -38,8 +39,7 @@ static void slice_force(const sw_plan *p, const double *x, size_t r, sw_vec abou
     const sw_web_link *link = &w->link[e];
     if (link->b < next) continue; /* within ring r */
     const sw_vec a = sw_vec_at(x, link->a), d = sw_sub(sw_vec_at(x, link->b), a);
-    const double l = sw_norm(d);
-    const sw_vec f = sw_scale(d, link->k * (l - link->rest) / l);
+    const sw_vec f = sw_scale(d, T[e] / sw_norm(d));
     *force = sw_add(*force, f);
     *moment = sw_add(*moment, sw_cross(sw_sub(a, about), f));
   }
@@ -47,24 +47,21 @@ static void slice_force(const sw_plan *p, const double *x, size_t r, sw_vec abou
     add_solid_force(p, x, &w->solid[k], about, force, moment);
 }
 
-typedef struct slice {
-  double tension, twist_moment, curvature; /* [N], [N m], [1/m] */
-} slice;
-
-static slice slice_of(const sw_plan *p, const double *x, size_t r) {
+sw_slice sw_strand_slice(const sw_plan *p, const double *x, const double *T, size_t r) {
   const sw_web *w = p->web;
   const sw_vec a = sw_strand_middle(w, x, r), b = sw_strand_middle(w, x, r + 1),
                about = sw_lerp(a, b, 0.5);
   const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const sw_vec axis = sw_unit_or(sw_add(t0, t1), t0);
   const double h = w->s[w->first[r + 1]] - w->s[w->first[r]];
+  const double curvature = 2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h;
   sw_vec force, moment;
-  slice_force(p, x, r, about, &force, &moment);
-  return (slice){sw_dot(force, axis), sw_dot(moment, axis),
-                 2.0 * asin(fmin(1.0, 0.5 * sw_dist(t0, t1))) / h};
+  slice_force(p, x, T, r, about, &force, &moment);
+  return (sw_slice){sw_dot(force, axis), sw_dot(moment, axis), curvature,
+                    sw_scale(sw_unit_or(sw_sub(t1, t0), sw_v(0, 0, 0)), curvature)};
 }
 
-double sw_strand_moment(const sw_plan *p, const double *x, double place) {
+double sw_strand_moment(const sw_plan *p, const double *x, const double *T, double place) {
   double f;
   const size_t r = sw_plan_locate(p, place, &f);
   const sw_vec about =
@@ -72,24 +69,24 @@ double sw_strand_moment(const sw_plan *p, const double *x, double place) {
   const sw_vec axis = sw_unit_or(
       sw_add(sw_strand_facing(p->web, x, r), sw_strand_facing(p->web, x, r + 1)), sw_v(1, 0, 0));
   sw_vec force, moment;
-  slice_force(p, x, r, about, &force, &moment);
+  slice_force(p, x, T, r, about, &force, &moment);
   return sw_norm(sw_madd(moment, axis, -sw_dot(moment, axis)));
 }
 
-static slice blend(slice a, slice b, double f) {
-  return (slice){a.tension + f * (b.tension - a.tension),
-                 a.twist_moment + f * (b.twist_moment - a.twist_moment),
-                 a.curvature + f * (b.curvature - a.curvature)};
+static sw_slice blend(sw_slice a, sw_slice b, double f) {
+  return (sw_slice){a.tension + f * (b.tension - a.tension),
+                    a.twist_moment + f * (b.twist_moment - a.twist_moment),
+                    a.curvature + f * (b.curvature - a.curvature), sw_lerp(a.bend, b.bend, f)};
 }
 
 /* Values are of the middles of slices: linear between these, and on to the ends. */
-static slice slice_at(const sw_plan *p, const double *x, size_t r, double f) {
+static sw_slice slice_at(const sw_plan *p, const double *x, const double *T, size_t r, double f) {
   const size_t slices = p->web->rings - 1;
-  if (slices == 1) return slice_of(p, x, 0);
+  if (slices == 1) return sw_strand_slice(p, x, T, 0);
   size_t k = f < 0.5 ? (r > 0 ? r - 1 : 0) : r;
   if (k + 1 >= slices) k = slices - 2;
   const double at = (double)r + f - ((double)k + 0.5);
-  return blend(slice_of(p, x, k), slice_of(p, x, k + 1), at);
+  return blend(sw_strand_slice(p, x, T, k), sw_strand_slice(p, x, T, k + 1), at);
 }
 
 void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b, double place,
@@ -103,7 +100,7 @@ void sw_strand_at(const sw_scene *s, const sw_scene_wire *wire, const sw_body *b
   const sw_vec t0 = sw_strand_facing(w, x, r), t1 = sw_strand_facing(w, x, r + 1);
   const double l = sw_dist(x0, x1), h00 = (1 + 2 * f) * (1 - f) * (1 - f);
   const double h10 = f * (1 - f) * (1 - f), h01 = f * f * (3 - 2 * f), h11 = f * f * (f - 1);
-  const slice at = slice_at(b->plan, x, r, f);
+  const sw_slice at = slice_at(b->plan, x, sw_system_elastic(system, b), r, f);
   const double EA = wire->beam.EA, bent = fmax(0.0, at.curvature) * wire->beam.radius;
   out->position = sw_add(sw_add(sw_scale(x0, h00), sw_scale(t0, l * h10)),
                          sw_add(sw_scale(x1, h01), sw_scale(t1, l * h11)));
@@ -121,12 +118,13 @@ void sw_strand_extremes(const sw_scene *s, size_t wire, double *tension, sw_wire
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[wire];
   const sw_web *w = b->plan->web;
-  const double *x = system->x + 3 * b->first_node, EA = b->plan->beam.EA;
+  const double *x = system->x + 3 * b->first_node, *T = sw_system_elastic(system, b);
+  const double EA = b->plan->beam.EA;
   const sw_extreme least = {.value = -HUGE_VAL};
   *now = (sw_wire_extremes){least, least, least, least, least, least, least, 0};
   if (!w->rings) return; /* an object of particles */
   for (size_t r = 0; r + 1 < w->rings; r++) {
-    const slice at = slice_of(b->plan, x, r);
+    const sw_slice at = sw_strand_slice(b->plan, x, T, r);
     if (tension) tension[r] = at.tension;
     const double place = 0.5 * (w->s[w->first[r]] + w->s[w->first[r + 1]]);
     const double strain = at.tension / EA + b->plan->beam.radius * at.curvature;

@@ -13,6 +13,7 @@
 #include "read/readout.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
+#include "system/axial.h"
 
 static double of_line(sw_scene *s, size_t body) {
   sw_system *system = sw_scene_system(s);
@@ -43,14 +44,14 @@ static void fold_energies(const sw_web *w, const double *x, double *rings, doubl
   }
 }
 
-static double of_mesh(const sw_plan *p, const double *x, double EI) {
+static double of_mesh(const sw_plan *p, const double *x, const double *T, double EI) {
   const sw_web *w = p->web;
   double rings, lines, squares = 0;
   fold_energies(w, x, &rings, &lines);
   for (size_t r = 0; r + 1 < w->rings; r++) {
     const double s0 = w->s[w->first[r]], s1 = w->s[w->first[r + 1]];
     if (!sw_web_is_ring(w, r) || !sw_web_is_ring(w, r + 1)) continue;
-    const double M = sw_strand_moment(p, x, 0.5 * (s0 + s1));
+    const double M = sw_strand_moment(p, x, T, 0.5 * (s0 + s1));
     squares += 0.5 * M * M * (s1 - s0);
   }
   if (!(rings > 0) || !(squares > 0)) return rings + lines + squares / EI;
@@ -77,7 +78,8 @@ static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_er
                    "wire '%s': bend_energy is not known of meshes with two values of EI; it is of "
                    "model = 'rod'",
                    w->name);
-  *out = of_mesh(b->plan, system->x + 3 * b->first_node, beam->EI_axis[0]);
+  *out = of_mesh(b->plan, system->x + 3 * b->first_node, sw_system_elastic(system, b),
+                 beam->EI_axis[0]);
   return SW_OK;
 }
 

@@ -76,22 +76,6 @@ static void outline_of(const spot *p, double *out) {
 
 /* --- torsion ------------------------------------------------------------------------ */
 
-/* The angle by which the outline of a ring is turned about its tangent t against u, in which
- * the undeformed section has its x: of the rotation that brings it nearest. */
-static double turned(const sw_web *w, const double *x, size_t ring, sw_vec t, sw_vec u) {
-  const double *at = x + 3 * w->first[ring];
-  const sw_vec middle = sw_strand_middle(w, x, ring), v = sw_cross(t, u);
-  double sine = 0, cosine = 0;
-  for (size_t k = 0; k < w->around_count; k++) {
-    const double *rest = w->section + 2 * (size_t)w->around[k];
-    const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);
-    const double a = sw_dot(p, u), b = sw_dot(p, v);
-    cosine += rest[0] * a + rest[1] * b;
-    sine += rest[0] * b - rest[1] * a;
-  }
-  return atan2(sine, cosine);
-}
-
 /* Turn and its rate at the spot, and where the section's x is. */
 static void torsion(const spot *p, sw_section_shape *out) {
   const sw_web *w = p->web;
@@ -99,7 +83,8 @@ static void torsion(const spot *p, sw_section_shape *out) {
   size_t start = p->ring; /* where the mesh begins that has the spot */
   while (start > 0 && sw_web_is_ring(w, start - 1)) start--;
   sw_vec t = sw_strand_facing(w, p->x, start), u = sw_perpendicular(t);
-  double before = turned(w, p->x, start, t, u), sum = 0, ends[2] = {0, 0}, rate[2] = {0, 0};
+  double before = sw_strand_turned(w, p->x, start, t, u), sum = 0, ends[2] = {0, 0},
+         rate[2] = {0, 0};
   u = sw_madd(sw_scale(u, cos(before)), sw_cross(t, u), sin(before));
   before = 0;
   sw_vec carried = u;
@@ -107,7 +92,7 @@ static void torsion(const spot *p, sw_section_shape *out) {
     const sw_vec next = sw_strand_facing(w, p->x, r);
     u = sw_carry_unit(u, t, next);
     t = next;
-    const double now = turned(w, p->x, r, t, u), step = remainder(now - before, 2 * M_PI);
+    const double now = sw_strand_turned(w, p->x, r, t, u), step = remainder(now - before, 2 * M_PI);
     before = now;
     sum += step;
     if (r <= p->ring) ends[0] = sum, carried = u;

@@ -37,13 +37,13 @@ static void tape_place(sw_tape *t, sw_wear_place *x) {
   sw_tape_expect(t, isfinite(all) && sw_finite(x->tangent) && sw_finite(x->across), "wear");
 }
 
-/* Room for what the tape has; counts: cycles too. */
-static sw_status make_room(sw_wear *w, size_t count, int counts) {
+/* Room for what the tape has. */
+static sw_status make_room(sw_wear *w, size_t count) {
   sw_wear_free(w);
   if (!count) return SW_OK;
   w->places = sw_alloc(count, sizeof *w->places);
-  if (counts) w->cycles = sw_alloc(SW_WEAR_SIGNALS * count, sizeof *w->cycles);
-  if (!w->places || (counts && !w->cycles)) {
+  w->cycles = sw_alloc(SW_WEAR_SIGNALS * count, sizeof *w->cycles);
+  if (!w->places || !w->cycles) {
     sw_wear_free(w);
     return SW_ENOMEM;
   }
@@ -53,26 +53,23 @@ static sw_status make_room(sw_wear *w, size_t count, int counts) {
 
 void sw_tape_wear(sw_tape *t, sw_wear *w) {
   size_t count = w->count, nodes = w->nodes;
-  int counts = w->cycles != NULL;
-  SW_TAPE_STRUCT(t, sw_wear, 272); /* across is room for work */
-  sw_tape_int(t, &counts);
-  sw_tape_count(t, &count, 8 * (10 + (counts ? SW_WEAR_SIGNALS : 0))), sw_tape_size(t, &nodes);
+  SW_TAPE_STRUCT(t, sw_wear, 264); /* across is room for work */
+  sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
   sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
-  sw_tape_expect(t, counts == 0 || (counts == 1 && count > 0), "wear");
   if (!sw_tape_good(t)) return;
-  if (sw_tape_reads(t) && (count != w->count || counts != (w->cycles != NULL))) {
-    const sw_status status = make_room(w, count, counts);
+  if (sw_tape_reads(t) && count != w->count) {
+    const sw_status status = make_room(w, count);
     if (status != SW_OK) {
       sw_tape_fail(t, status);
       return;
     }
   }
   w->nodes = nodes;
-  sw_tape_raw(t, &w->holds, sizeof w->holds), sw_tape_int(t, &w->partial);
+  sw_tape_raw(t, &w->holds, sizeof w->holds);
   sw_tape_double(t, &w->sidewall.value), sw_tape_double(t, &w->sidewall.s);
   sw_tape_double(t, &w->sidewall.time);
   sw_tape_window(t, &w->pressed);
   for (size_t k = 0; k < w->count && sw_tape_good(t); k++) tape_place(t, &w->places[k]);
-  for (size_t k = 0; w->cycles && k < SW_WEAR_SIGNALS * w->count && sw_tape_good(t); k++)
+  for (size_t k = 0; k < SW_WEAR_SIGNALS * w->count && sw_tape_good(t); k++)
     tape_cycles(t, &w->cycles[k]);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is kept of the wear of a wire, place by place: cycles of tension and of bending, work of
- * friction. A mesh has the friction alone, at its rings. Bending is counted as the fibres feel it,
- * in SW_WORN_WAYS directions that turn with the wire, so that to and fro is one cycle of the whole
- * range. */
+ * friction; of a mesh at its rings. Bending is counted as the fibres feel it, in SW_WORN_WAYS
+ * directions that turn with the wire, so that to and fro is one cycle of the whole range. */
 #ifndef SW_RECORD_WEAR_H
 #define SW_RECORD_WEAR_H
 
@@ -32,12 +31,11 @@ typedef struct sw_wear_place {
 typedef struct sw_wear {
   size_t count, nodes;   /* places: nodes or rings, then clamps */
   sw_wear_place *places; /* (count) */
-  sw_cycles *cycles;     /* (count x SW_WEAR_SIGNALS); NULL: of a mesh, which has none */
+  sw_cycles *cycles;     /* (count x SW_WEAR_SIGNALS) */
   sw_vec *across;        /* (count) room for a step's work; NULL until the first */
-  uint64_t holds;        /* a number for what holds its direction where */
+  uint64_t holds;        /* a number for what gives its directions where; 0: not known */
   sw_extreme sidewall;   /* largest pressure T/R where it touches, a mean as peaks are [N/m] */
   sw_window pressed;     /* of the pressure at its nodes [N/m] */
-  int partial;           /* 1: it is or was a mesh for a while, of which no cycles are kept */
 } sw_wear;
 
 void sw_wear_free(sw_wear *wear);

@@ -63,7 +63,7 @@ void sw_tape_beam_of(sw_tape *t, sw_scene_wire *x) {
 
 void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_scene_wire, 1168);
+  SW_TAPE_STRUCT(t, sw_scene_wire, 1160);
   SW_TAPE_STRUCT(t, sw_twisted, 24);
   UINT32(generation), SIZE(number), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {

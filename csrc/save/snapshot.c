@@ -66,8 +66,7 @@ static size_t size_of(const sw_scene *s) {
     const size_t records = wire->window.marks ? (2 + wire->window.marks) * wire->window.edges : 0;
     const size_t each = wire->mesh.rest ? 17 : 7; /* doubles for a node */
     size += sizeof *wire + (each * wire->mesh.n + records) * sizeof(double);
-    const size_t signals = wire->wear.cycles ? SW_WEAR_SIGNALS : 0;
-    size += wire->wear.count * (sizeof(sw_wear_place) + signals * sizeof(double));
+    size += wire->wear.count * (sizeof(sw_wear_place) + SW_WEAR_SIGNALS * sizeof(double));
     size += (2 + wire->wear.pressed.marks) * wire->wear.pressed.edges * sizeof(double);
   }
   return size + s->hold_count * sizeof *s->holds + s->obstacle_count * sizeof *s->obstacles +

@@ -45,3 +45,17 @@ sw_vec sw_strand_facing(const sw_web *w, const double *x, size_t ring) {
   }
   return sw_unit_or(sum, sw_v(1, 0, 0));
 }
+
+double sw_strand_turned(const sw_web *w, const double *x, size_t ring, sw_vec t, sw_vec u) {
+  const double *at = x + 3 * w->first[ring];
+  const sw_vec middle = sw_strand_middle(w, x, ring), v = sw_cross(t, u);
+  double sine = 0, cosine = 0;
+  for (size_t k = 0; k < w->around_count; k++) {
+    const double *rest = w->section + 2 * (size_t)w->around[k];
+    const sw_vec p = sw_sub(sw_vec_at(at, w->around[k]), middle);
+    const double a = sw_dot(p, u), b = sw_dot(p, v);
+    cosine += rest[0] * a + rest[1] * b;
+    sine += rest[0] * b - rest[1] * a;
+  }
+  return atan2(sine, cosine);
+}

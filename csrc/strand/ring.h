@@ -15,6 +15,9 @@ void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
  * encloses [m], [-]. */
 sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
 sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
+/* The angle by which the outline of a ring is turned about its tangent against u, in which the
+ * undeformed section has its x: of the rotation that brings it nearest [rad]. */
+double sw_strand_turned(const sw_web *web, const double *x, size_t ring, sw_vec tangent, sw_vec u);
 /* How wide an outline (count x 3) is across the tangent. */
 typedef struct sw_widths {
   double least, largest;         /* [m] */

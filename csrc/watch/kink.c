@@ -11,6 +11,7 @@
 #include "scene/values.h"
 #include "scene/wire.h"
 #include "strand/ring.h"
+#include "system/axial.h"
 #include "watch/observe.h"
 
 static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
@@ -63,7 +64,8 @@ void sw_scene_watch_kink(sw_scene *s, size_t wire, const sw_wire_extremes *now) 
   const double unit = unit_curvature(&w->beam, web->wall);
   if (!(now->curvature.value > BEYOND * LIMIT * unit)) return;
   const sw_body *b = &system->bodies[wire];
-  const double moment = sw_strand_moment(b->plan, system->x + 3 * b->first_node, now->curvature.s);
+  const double moment = sw_strand_moment(b->plan, system->x + 3 * b->first_node,
+                                         sw_system_elastic(system, b), now->curvature.s);
   const double most = w->beam.EI_axis[0] * BUCKLES * unit * (1.0 - 1.5 * BUCKLES * BUCKLES);
   sw_event *known = sw_events_go_on(sw_scene_events_of(s), "kink", w->name, sw_scene_time(s));
   if (known) known->count++;

@@ -10,7 +10,6 @@
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "scene/wire.h"
-#include "state/hinge.h"
 #include "system/system.h"
 
 /* --- places ---------------------------------------------------------------------- */
@@ -34,7 +33,7 @@ static int side_of(const sw_plan *p, size_t k) {
 static int is_same(const sw_wear *w, const sw_plan *p) {
   const size_t n = along(p);
   const double slack = 0.25 * (place_of(p, n - 1) - place_of(p, 0)) / (double)n;
-  if (w->nodes != n || w->count != n + at_clamps(p) || !w->cycles != !!p->web) return 0;
+  if (w->nodes != n || w->count != n + at_clamps(p)) return 0;
   for (size_t k = 0; k < w->count; k++)
     if (w->places[k].side != side_of(p, k) || fabs(w->places[k].s - place_of(p, k)) > slack)
       return 0;
@@ -43,7 +42,6 @@ static int is_same(const sw_wear *w, const sw_plan *p) {
 
 static double widest(const sw_wear *w, size_t k) {
   double most = 0;
-  if (!w->cycles) return 0;
   for (int c = 0; c < SW_WEAR_SIGNALS; c++)
     most = fmax(most, sw_cycles_widest(&w->cycles[SW_WEAR_SIGNALS * k + (size_t)c]));
   return most;
@@ -96,9 +94,8 @@ static void carry_over(const sw_wear *old, const sw_plan *p, sw_wear *new) {
     if (old->count) {
       const size_t from = origin(old, s, side);
       new->places[k] = old->places[from];
-      if (new->cycles && old->cycles)
-        memcpy(new->cycles + SW_WEAR_SIGNALS *k, old->cycles + SW_WEAR_SIGNALS * from,
-               SW_WEAR_SIGNALS * sizeof *new->cycles);
+      memcpy(new->cycles + SW_WEAR_SIGNALS *k, old->cycles + SW_WEAR_SIGNALS * from,
+             SW_WEAR_SIGNALS * sizeof *new->cycles);
     }
     new->places[k].s = s, new->places[k].side = side;
   }
@@ -122,130 +119,19 @@ static sw_status move_places(sw_wear *w, const sw_plan *p) {
 
 static sw_status fit(sw_wear *w, const sw_plan *p) {
   if (w->count && is_same(w, p)) return move_places(w, p);
-  const int counts = !p->web;
   sw_wear new = {.count = along(p) + at_clamps(p), .nodes = along(p)};
   new.places = sw_alloc(new.count, sizeof *new.places);
-  if (counts) new.cycles = sw_alloc(SW_WEAR_SIGNALS * new.count, sizeof *new.cycles);
-  if (!new.places || (counts && !new.cycles)) {
+  new.cycles = sw_alloc(SW_WEAR_SIGNALS * new.count, sizeof *new.cycles);
+  new.across = sw_alloc(new.count, sizeof *new.across);
+  if (!new.places || !new.cycles || !new.across) {
     sw_wear_free(&new);
     return SW_ENOMEM;
   }
   carry_over(w, p, &new);
   new.pressed = w->pressed, w->pressed = (sw_window){0};
   new.sidewall = w->sidewall; /* holds 0: directions are found anew */
-  new.partial = w->partial || !counts;
   sw_wear_free(w);
   *w = new;
-  return SW_OK;
-}
-
-/* --- bending --------------------------------------------------------------------- */
-
-/* A number for what holds the wire's direction where. */
-static uint64_t holds_of(const sw_body *b) {
-  uint64_t sum = sw_sum(SW_SUM_START, &b->plan->clamp_count, sizeof b->plan->clamp_count);
-  SW_ITEMS(const sw_clamp_hinge, h, b->plan->clamps, b->plan->clamp_count) {
-    const size_t own[3] = {h->node, (size_t)h->hold, (size_t)(h->side + 1)};
-    sum = sw_sum(sum, own, sizeof own);
-  }
-  return sum | 1;
-}
-
-static size_t edge_of(const sw_plan *p, size_t k) {
-  if (k >= p->nodes) return p->clamps[k - p->nodes].edge;
-  return k < p->edges ? k : p->edges - 1;
-}
-
-/* A bend of this size towards the change of tangent, seen across the tangent t [1/m]. */
-static sw_vec towards(sw_vec change, sw_vec t, double size) {
-  const sw_vec way = sw_madd(change, t, -sw_dot(change, t));
-  return sw_scale(sw_unit_or(way, sw_v(0, 0, 0)), size);
-}
-
-/* Where the wire bends to, by the curvature, across the edge of the place [1/m]. */
-static sw_vec bend_of(const sw_system *s, const sw_body *b, size_t k) {
-  const sw_plan *p = b->plan;
-  if (k >= p->nodes) {
-    const sw_clamp_hinge *c = &p->clamps[k - p->nodes];
-    const sw_vec t = sw_field_tangent(&b->field, c->edge),
-                 d = sw_vec_at(s->directors_now, sw_clamp_place(c));
-    return towards(sw_scale(sw_sub(t, d), c->side), t, sw_scene_clamp_curvature(s, b, c));
-  }
-  if (k == 0 || k + 1 >= p->nodes || !(p->hinge[k] > 0)) return sw_v(0, 0, 0);
-  const sw_vec t = sw_field_tangent(&b->field, k),
-               change = sw_sub(t, sw_field_tangent(&b->field, k - 1));
-  return towards(change, t, 2.0 * asin(fmin(1.0, 0.5 * sw_norm(change))) / p->hinge[k]);
-}
-
-static double angle_from(sw_vec a, sw_vec b, sw_vec t) {
-  return atan2(sw_dot(sw_cross(a, b), t), sw_dot(a, b));
-}
-
-/* Across the wire at a place: between those of both edges. */
-static sw_vec across_at(const sw_body *b, const sw_vec *across, size_t k) {
-  const sw_plan *p = b->plan;
-  const size_t e = edge_of(p, k);
-  if (k == 0 || k >= p->edges || !(p->hinge[k] > 0)) return across[e];
-  const sw_vec before = sw_carry_unit(across[e - 1], sw_field_tangent(&b->field, e - 1),
-                                      sw_field_tangent(&b->field, e));
-  return sw_unit_or(sw_add(before, across[e]), across[e]);
-}
-
-/* The place's own direction: as before where what holds the wire is not as before. */
-static void turn_place(sw_wear_place *x, sw_vec tangent, sw_vec across, int anew) {
-  if (!x->seen) x->turn = 0;
-  if (x->seen && anew) {
-    const sw_vec was = sw_carry_unit(x->across, x->tangent, tangent);
-    x->turn = angle_from(across, was, tangent);
-  }
-  x->seen = 1, x->tangent = tangent;
-  x->across = sw_madd(sw_scale(across, cos(x->turn)), sw_cross(tangent, across), sin(x->turn));
-}
-
-static void count_place(sw_cycles *c, const sw_wear_place *x, double tension, sw_vec bend) {
-  const double one = sw_dot(bend, x->across), two = sw_dot(bend, sw_cross(x->tangent, x->across));
-  sw_cycles_add(&c[0], tension);
-  for (int k = 0; k < SW_WEAR_WAYS; k++) {
-    const double angle = k * 3.14159265358979323846 / SW_WEAR_WAYS;
-    sw_cycles_add(&c[1 + k], one * cos(angle) + two * sin(angle));
-  }
-}
-
-/* Axial force at a place: the mean of both edges, beside a clamp that of its edge. */
-static double tension_at(const sw_plan *p, const double *T, size_t k) {
-  if (k >= p->nodes) return T[p->clamps[k - p->nodes].edge];
-  if (k == 0) return T[0];
-  return k < p->edges ? 0.5 * (T[k - 1] + T[k]) : T[p->edges - 1];
-}
-
-/* T: of its edges [N]. */
-static sw_status count_all(sw_scene *s, size_t w, const double *T) {
-  sw_system *system = sw_scene_system(s);
-  sw_wear *wear = &sw_scene_wire_in(s, w)->wear;
-  const sw_body *b = &system->bodies[w];
-  const sw_plan *p = b->plan;
-  if (!wear->across) wear->across = sw_alloc(wear->count, sizeof *wear->across);
-  sw_vec *across = wear->across;
-  if (!across) return SW_ENOMEM;
-  const sw_wear_place *start = &wear->places[0];
-  const sw_vec t0 = sw_field_tangent(&b->field, 0);
-  const sw_vec first =
-      start->seen ? sw_carry_unit(start->across, start->tangent, t0) : sw_perpendicular(t0);
-  sw_wear_axes(system, b, first, across);
-  const uint64_t holds = holds_of(b);
-  for (size_t k = 0; k < wear->count; k++) {
-    const size_t e = edge_of(p, k);
-    sw_wear_place *x = &wear->places[k];
-    const int free_start = !p->clamp_count && !b->spin_block; /* it is carried on by itself */
-    if (free_start && k == 0) x->turn = 0;
-    turn_place(x, sw_field_tangent(&b->field, e), across_at(b, across, k),
-               wear->holds != holds && !(free_start && k == 0));
-    const sw_vec bend = bend_of(system, b, k);
-    const double tension = tension_at(p, T, k);
-    count_place(&wear->cycles[SW_WEAR_SIGNALS * k], x, tension, bend);
-    x->load = tension * sw_norm(bend), x->touches = 0;
-  }
-  wear->holds = holds;
   return SW_OK;
 }
 
@@ -289,6 +175,14 @@ sw_extreme sw_wear_sidewall(const sw_scene *s, const sw_wear *w) {
   return most;
 }
 
+static sw_status fit_pressed(sw_wear *w) {
+  if (w->pressed.edges == w->nodes) return SW_OK;
+  double *s SW_LOCAL = sw_alloc(w->nodes, sizeof *s);
+  if (!s) return SW_ENOMEM;
+  for (size_t i = 0; i < w->nodes; i++) s[i] = w->places[i].s;
+  return sw_window_fit(&w->pressed, w->nodes, s);
+}
+
 /* Single steps of a blow say nothing of how long it lasts: means count, as of other peaks. */
 static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   sw_course *c = sw_scene_course(s);
@@ -296,9 +190,9 @@ static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   double mean;
   press_sides(p, w);
   for (size_t i = 0; i < w->nodes && !averaged; i++)
-    keep(&w->sidewall, pressure_at(w, i), p->s[i], sw_scene_time(s));
+    keep(&w->sidewall, pressure_at(w, i), w->places[i].s, sw_scene_time(s));
   if (!averaged && !w->pressed.marks) return SW_OK;
-  if (w->pressed.edges != w->nodes) SW_TRY(sw_window_fit(&w->pressed, w->nodes, p->s));
+  SW_TRY(fit_pressed(w));
   if (!(c->span > 0)) {
     sw_window_forget(&w->pressed);
     return SW_OK;
@@ -308,8 +202,14 @@ static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   if (!sw_window_add(&w->pressed, values, sw_scene_time(s), c->span, c->window) || !averaged)
     return SW_OK;
   const size_t i = sw_window_largest(&w->pressed, c->window, &mean);
-  keep(&w->sidewall, mean, p->s[i], sw_scene_time(s));
+  keep(&w->sidewall, mean, w->places[i].s, sw_scene_time(s));
   return SW_OK;
+}
+
+/* What came from a tape or a snapshot has none. */
+static sw_status make_room(sw_wear *w) {
+  if (!w->across) w->across = sw_alloc(w->count, sizeof *w->across);
+  return w->across ? SW_OK : SW_ENOMEM;
 }
 
 sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
@@ -319,11 +219,14 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   const sw_web *web = b->plan->web;
   if (web && !web->per_ring) return SW_OK; /* an object, no wire */
   sw_status status = fit(wear, b->plan);
+  if (status == SW_OK) status = make_room(wear);
+  if (status == SW_OK && web) sw_wear_count_mesh(system, b, wear);
   if (status == SW_OK && !web)
-    status = count_all(s, w, rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b));
+    sw_wear_count_line(system, b, rubs ? sw_scene_step_tension(s, b) : sw_system_pull(system, b),
+                       wear);
   if (status == SW_OK && rubs) {
     sw_wear_rub(s, b, wear);
-    if (!web) status = press(s, b->plan, wear);
+    status = press(s, b->plan, wear);
   }
   if (status != SW_OK)
     return sw_fail(err, SW_ENOMEM, "out of memory for the wear of '%s'",

@@ -7,11 +7,9 @@
 #include "scene/wire.h"
 #include "watch/wear.h"
 
-sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, sw_worn_cycles *cycles,
-                        sw_error *err) {
+sw_status sw_scene_worn(const sw_scene *s, sw_handle h, size_t *places, sw_error *err) {
   SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   *places = w->wear.count;
-  *cycles = !w->wear.cycles ? SW_WORN_NONE : w->wear.partial ? SW_WORN_PART : SW_WORN_WHOLE;
   return SW_OK;
 }
 

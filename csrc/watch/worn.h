@@ -15,16 +15,12 @@ typedef struct sw_worn {
   int side;      /* -1, 1: where the wire enters or leaves what holds its direction; else 0 */
 } sw_worn;
 
-/* Of which part of the run cycles of load are kept: meshes have none. */
-typedef enum sw_worn_cycles { SW_WORN_NONE, SW_WORN_PART, SW_WORN_WHOLE } sw_worn_cycles;
-
 /* How many places there are: 0 where nothing is kept. */
-sw_status sw_scene_worn(const sw_scene *scene, sw_handle wire, size_t *places,
-                        sw_worn_cycles *cycles, sw_error *err);
+sw_status sw_scene_worn(const sw_scene *scene, sw_handle wire, size_t *places, sw_error *err);
 /* The largest pressure T/R of its surface where it touched something [N/m]. */
 sw_extreme sw_scene_worn_sidewall(const sw_scene *scene, sw_handle wire);
-/* Place number k of them, and its cycles, if there are some, of a signal (SW_CYCLES_KEPT +
- * SW_CYCLES_OPEN at most), whose number is returned. */
+/* Place number k of them, and its cycles of a signal (SW_CYCLES_KEPT + SW_CYCLES_OPEN at most),
+ * whose number is returned. */
 sw_worn sw_scene_worn_place(const sw_scene *scene, sw_handle wire, size_t k);
 size_t sw_scene_worn_cycles(const sw_scene *scene, sw_handle wire, size_t k, int signal,
                             sw_cycle *out);

@@ -61,6 +61,15 @@ case("what wears a wire, and zones", function(s)
     duration = 0.1 }
 end, run(0.08, { wear = true }), run(0.02, { wear = true }))
 
+case("what wears a mesh of which parts are lines", function(s)
+  s:obstacle{ shape = "plane", friction = 0.3 }
+  local w = rod(s)
+  s:clamp(w, { s = 0 })
+  s:clamp(w, { s = 0.4 }):follow{ points = { { 0, 0, 0 }, { -0.01, 0, 0.01 }, { 0, 0, 0 } }, relative = true,
+    duration = 0.06 }
+  w:remodel{ model = "tube", region = { 0.19, 0.22 } }
+end, run(0.04, { wear = true }), run(0.02, { wear = true }))
+
 case("a force that is a function", function(s)
   local w = rod(s)
   s:clamp(w, { s = 0 })

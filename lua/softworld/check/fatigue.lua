@@ -136,15 +136,15 @@ local function with(curves, given)
 end
 
 local function at_curves(entry, context, given, strength)
-  local places, partial = worn.of(entry)
-  if places then return of_steps(entry, given, places, strength), partial end
-  if given.bending then return worn.no_cycles(entry) end
+  local places = worn.places(entry)
+  if places then return of_steps(entry, given, places, strength) end
+  if given.bending then return worn.missing() end
   return of_frames(entry, context, strength, given)
 end
 
 -- How far the curves leave the sum open: by their factor, or by the curves of least and most damage.
 local function add_spread(best, entry, curves, given, strength)
-  local places = worn.of(entry)
+  local places = worn.places(entry)
   if curves.high and places then
     best.low = of_steps(entry, with(curves.low, given), places, strength).value
     best.high = of_steps(entry, with(curves.high, given), places, strength).value
@@ -171,9 +171,8 @@ local function value(entry, context)
   if strength == false then
     return { value = 0 / 0, note = "mean = 'goodman' needs the wire's breaking load: give strength [N]" }
   end
-  local best, partial = at_curves(entry, context, with(curves, given), strength)
+  local best = at_curves(entry, context, with(curves, given), strength)
   add_spread(best, entry, curves, given, strength)
-  if partial then worn.at_least(best, partial) end
   local known = curves.flag and ", " .. curves.flag or curves.source and "" or ", its source is not given"
   local from = ("S-N curve: %s%s"):format(source, known)
   best.note = best.note and best.note .. "; " .. from or from

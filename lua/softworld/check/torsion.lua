@@ -5,6 +5,8 @@
 local stored = require "softworld.check.stored"
 local worn = require "softworld.check.worn"
 
+local LINE = { rod = true, string = true } -- models that keep the largest torsion of all steps
+
 local function of_frames(entry, context, GJ)
   local best = { value = 0 }
   local count = stored.each(context, entry, function(values, k, time, s)
@@ -19,7 +21,7 @@ end
 local function value(entry, context)
   local GJ = entry.object.beam.GJ
   if not (GJ and GJ > 0) then return nil end
-  if not worn.LINE[entry.object.model] then return of_frames(entry, context, GJ) end
+  if not LINE[entry.object.model] then return of_frames(entry, context, GJ) end
   local torsion, s, time = entry.object:max_torsion()
   return { value = torsion, s = s, time = time }
 end
