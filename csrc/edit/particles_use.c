@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Objects of particles: reading, changing and holding them. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,18 +35,6 @@ sw_status sw_scene_particles_info(sw_scene *s, sw_handle h, sw_particles_info *o
                              .elements = web->solids,
                              .radius = w->beam.radius};
   for (size_t i = 0; i < web->particles; i++) out->mass += web->mass[i];
-  return SW_OK;
-}
-
-sw_status sw_scene_particles_copy(sw_scene *s, sw_handle h, double *positions, double *velocities,
-                                  sw_error *err) {
-  sw_system *system = sw_scene_system(s);
-  sw_scene_wire *w;
-  SW_TRY(open_particles(s, h, &w, err));
-  const sw_body *b = &system->bodies[h.slot];
-  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
-  if (positions) memcpy(positions, system->x + at, size);
-  if (velocities) memcpy(velocities, system->v + at, size);
   return SW_OK;
 }
 
@@ -186,9 +173,7 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
                .wire = object.slot,
                .args = {.direction = {NAN, NAN, NAN}},
                .scale = 1};
-  char usual[SW_NAME_SIZE];
-  snprintf(usual, sizeof usual, "clamp%zu", sw_scene_hold_slots(s) + 1);
-  snprintf(h.name, sizeof h.name, "%s", name[0] ? name : usual);
+  sw_scene_give_name(h.name, name, "clamp", sw_scene_hold_slots(s));
   sw_status status = sw_scene_unbuild(s);
   if (status == SW_OK) status = take(w, &h, particles, count, at);
   if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);

@@ -37,14 +37,15 @@ sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, s
 }
 
 sw_status sw_scene_wire_particle_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
-                                      sw_error *err) {
+                                      double *velocities, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   SW_TRY(sw_scene_open_body(s, h, &w, err));
   const sw_body *b = &system->bodies[h.slot];
-  const size_t n = b->plan->nodes;
-  memcpy(positions, system->x + 3 * b->first_node, 3 * n * sizeof(double));
-  for (size_t i = 0; i < n; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
+  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
+  if (positions) memcpy(positions, system->x + at, size);
+  if (velocities) memcpy(velocities, system->v + at, size);
+  for (size_t i = 0; arc && i < b->plan->nodes; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
   return SW_OK;
 }
 
