@@ -76,10 +76,7 @@ local function reader(kind, class, properties, known)
     if properties[key] then return build.call(3, properties[key], self) end
     local value = class[key]
     if value ~= nil or known[key] then return value end
-    local names = class.__names()
-    local near = core.nearest(checks.shown(key), names)
-    error(("%s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
-      or "it has: " .. table.concat(names, " ")), 2)
+    error(checks.lacks(kind, key, class.__names()), 2)
   end
 end
 

@@ -225,7 +225,8 @@ end
 local Fit = { __name = "fit" }
 local KNOWN = "parameters correlation unresolved remarks at_bound ok reason chi2 freedom chance scatter "
   .. "sigma computed residuals data best evaluations failed starts chart"
-local unknown = checks.fields("fit", KNOWN, "chance")
+local unknown
+unknown, Fit.__names = checks.fields("fit", KNOWN, "chance")
 
 -- Has it converged: is the step that is left nothing beside the error, or the tolerance?
 local function judge_end(fit, f, search, said)
@@ -333,12 +334,6 @@ function Fit.__index(_, key)
   local method = rawget(Fit, key)
   if method ~= nil and key == "chart" then return method end
   return unknown(nil, key)
-end
-
-function Fit.__names()
-  local list = {}
-  for name in KNOWN:gmatch "%S+" do list[#list + 1] = name end
-  return list
 end
 
 return fitted
