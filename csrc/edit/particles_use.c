@@ -140,10 +140,8 @@ static int by_number(const void *a, const void *b) {
 static sw_status take(const sw_scene_wire *w, sw_hold *h, const uint32_t *particles, size_t count,
                       sw_vec at) {
   const sw_strand *p = &w->strand;
-  h->s = sw_alloc(count, sizeof *h->s);
-  h->local = sw_alloc(3 * count, sizeof *h->local);
-  h->particle = sw_alloc(count, sizeof *h->particle);
-  if (!h->s || !h->local || !h->particle) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(h->s, count), SW_ROOM(h->local, 3 * count),
+                      SW_ROOM(h->particle, count)));
   memcpy(h->particle, particles, count * sizeof *particles);
   qsort(h->particle, count, sizeof *h->particle, by_number); /* one order, whatever was given */
   sw_vec middle = sw_v(0, 0, 0);

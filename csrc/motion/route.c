@@ -17,11 +17,8 @@ void sw_route_free(sw_route *route) {
 }
 
 static sw_status allocate(sw_route *route) {
-  route->p = sw_alloc(route->count, sizeof *route->p);
-  route->q = sw_alloc(route->count, sizeof *route->q);
-  route->t = sw_alloc(route->count, sizeof *route->t);
-  route->legs = sw_alloc(route->count, sizeof *route->legs);
-  return route->p && route->q && route->t && route->legs ? SW_OK : SW_ENOMEM;
+  return SW_ALLOC_ALL(SW_ROOM(route->p, route->count), SW_ROOM(route->q, route->count),
+                      SW_ROOM(route->t, route->count), SW_ROOM(route->legs, route->count));
 }
 
 /* Does a displacement need a way-point before its first? */

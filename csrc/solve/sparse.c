@@ -103,11 +103,8 @@ static sw_status find_targets(sw_sparse *s) {
 static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
                               analysis *a) {
   const size_t n = s->n;
-  a->order = sw_alloc(n, sizeof *a->order);
-  a->seen = sw_alloc(3 * (n + 1), sizeof *a->seen);
-  s->place = sw_alloc(n, sizeof *s->place);
-  s->start = sw_alloc(n + 1, sizeof *s->start);
-  if (!a->order || !a->seen || !s->place || !s->start) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(a->order, n), SW_ROOM(a->seen, 3 * (n + 1)), SW_ROOM(s->place, n),
+                      SW_ROOM(s->start, n + 1)));
   a->child = a->seen + n + 1, a->sibling = a->child + n + 1;
   SW_TRY(sw_sparse_neighbours(n, pairs, count, &a->first, &a->next));
   SW_TRY(sw_sparse_order(n, a->first, a->next, a->order));

@@ -175,10 +175,8 @@ static sw_status new_particles(sw_strand_maker *m) {
   if (!m->first) return SW_ENOMEM;
   for (size_t r = 0; r < n; r++)
     m->first[r + 1] = m->first[r] + (sw_strand_is_ring(m, r) ? m->lattice->particles : 1);
-  s->x = sw_alloc(3 * m->first[n], sizeof *s->x);
-  s->v = sw_alloc(3 * m->first[n], sizeof *s->v);
-  s->a = sw_alloc(3 * m->first[n], sizeof *s->a);
-  if (!s->x || !s->v || !s->a) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(s->x, 3 * m->first[n]), SW_ROOM(s->v, 3 * m->first[n]),
+                      SW_ROOM(s->a, 3 * m->first[n])));
   place_particles(m);
   return SW_OK;
 }
