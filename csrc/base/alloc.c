@@ -72,6 +72,10 @@ void sw_free(void *p) {
   free(h->raw);
 }
 
+void sw_free_all(void *const *list, size_t count) {
+  for (size_t i = 0; i < count; i++) sw_free(list[i]);
+}
+
 /* Twice the capacity, until it is enough; 0: too much. */
 static size_t doubled(size_t capacity, size_t need) {
   size_t wanted = capacity ? capacity : 8;

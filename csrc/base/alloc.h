@@ -28,8 +28,11 @@ sw_status sw_alloc_all(const sw_room *rooms);
 /* As sw_alloc, of bytes that are not zero, for what is written at once. */
 void *sw_alloc_bytes(size_t bytes);
 
-/* NULL is allowed. */
+/* NULL is allowed. SW_FREE_ALL(a->first, a->next, a): all of them. */
 void sw_free(void *p);
+#define SW_FREE_ALL(...) \
+  sw_free_all((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
+void sw_free_all(void *const *list, size_t count);
 
 /* Of a local pointer, before its value: what it points to then is freed when its block ends,
  * however it ends. double *work SW_LOCAL = sw_alloc(n, sizeof *work); */

@@ -44,12 +44,7 @@ static void drop(sw_scene *s) {
 }
 
 void sw_scene_forget_contact(sw_scene *s) {
-  sw_free(s->kept.memory);
-  sw_free(s->kept.pairs);
-  sw_free(s->kept.grains);
-  sw_free(s->kept.s);
-  sw_free(s->kept.first);
-  sw_free(s->kept.now);
+  SW_FREE_ALL(s->kept.memory, s->kept.pairs, s->kept.grains, s->kept.s, s->kept.first, s->kept.now);
   memset(&s->kept, 0, sizeof s->kept);
 }
 

@@ -18,9 +18,7 @@ sw_status sw_drawing_new(sw_drawing **out) {
 
 void sw_drawing_free(sw_drawing *d) {
   if (!d) return;
-  sw_free(d->faces), sw_free(d->balls), sw_free(d->lines), sw_free(d->edges);
-  sw_free(d->pieces), sw_free(d->floors), sw_free(d->is_tube);
-  sw_free(d);
+  SW_FREE_ALL(d->faces, d->balls, d->lines, d->edges, d->pieces, d->floors, d->is_tube, d);
 }
 
 static int all_finite(const double *p, size_t count) {

@@ -159,11 +159,7 @@ static sw_hold without_places(const sw_hold *h) {
   return new;
 }
 
-static void drop_places(sw_hold *h) {
-  sw_free(h->s);
-  sw_free(h->local);
-  sw_free(h->particle);
-}
+static void drop_places(sw_hold *h) { SW_FREE_ALL(h->s, h->local, h->particle); }
 
 /* It has taken hold, and goes on as this one, turned with the wire's twist so. */
 static sw_status become(sw_scene *s, sw_hold *h, sw_hold *new, sw_quat turn) {
@@ -198,9 +194,7 @@ sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to) {
   double *s = sw_alloc(from->count, sizeof *s), *local = sw_alloc(3 * from->count, sizeof *local);
   uint32_t *particle = from->particle ? sw_alloc(from->count, sizeof *particle) : NULL;
   if (!s || !local || (from->particle && !particle)) {
-    sw_free(s);
-    sw_free(local);
-    sw_free(particle);
+    SW_FREE_ALL(s, local, particle);
     return SW_ENOMEM;
   }
   if (particle) memcpy(particle, from->particle, from->count * sizeof *particle);

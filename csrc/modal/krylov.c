@@ -31,10 +31,7 @@ sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, doub
 }
 
 void sw_krylov_free(sw_krylov *k) {
-  sw_free(k->projected);
-  sw_free(k->coefficients);
-  sw_free(k->work);
-  sw_free(k->image);
+  SW_FREE_ALL(k->projected, k->coefficients, k->work, k->image);
   for (size_t j = 0; k->vectors && j < k->count; j++) sw_free(k->vectors[j]);
   sw_free(k->vectors);
   *k = (sw_krylov){0};

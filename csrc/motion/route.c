@@ -9,10 +9,7 @@ static const double same_place = 1e-9; /* [m] */
 static const double same_angle = 1e-9; /* [rad] */
 
 void sw_route_free(sw_route *route) {
-  sw_free(route->p);
-  sw_free(route->q);
-  sw_free(route->t);
-  sw_free(route->legs);
+  SW_FREE_ALL(route->p, route->q, route->t, route->legs);
   route->p = NULL, route->q = NULL, route->t = NULL, route->legs = NULL;
 }
 

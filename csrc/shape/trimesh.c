@@ -168,9 +168,8 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
 }
 
 void sw_trimesh_free(sw_trimesh *mesh) {
-  sw_free(mesh->vertices), sw_free(mesh->indices), sw_free(mesh->sides), sw_free(mesh->normals);
-  sw_free(mesh->edges), sw_free(mesh->corners), sw_free(mesh->corner_edges);
-  sw_free(mesh->nodes);
+  SW_FREE_ALL(mesh->vertices, mesh->indices, mesh->sides, mesh->normals, mesh->edges, mesh->corners,
+              mesh->corner_edges, mesh->nodes);
   memset(mesh, 0, sizeof *mesh);
 }
 

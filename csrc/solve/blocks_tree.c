@@ -42,15 +42,7 @@ struct sw_tree {
 
 void sw_tree_free(sw_tree *t) {
   if (!t) return;
-  sw_free(t->number);
-  sw_free(t->piece);
-  sw_free(t->row);
-  sw_free(t->entry);
-  sw_free(t->factor);
-  sw_free(t->scaled);
-  sw_free(t->left);
-  sw_free(t->x);
-  sw_free(t);
+  SW_FREE_ALL(t->number, t->piece, t->row, t->entry, t->factor, t->scaled, t->left, t->x, t);
 }
 
 /* --- analysis ------------------------------------------------------------------- */

@@ -109,8 +109,6 @@ sw_status sw_sparse_order_along(size_t n, const sw_sparse_pair *pairs, size_t co
     if (!w.seen[node]) end = spread(&w, find_end(&w, node, end), end, &last);
   turn_round(order, end);
   if (status == SW_OK) *work = find_work(&w);
-  sw_free(w.first);
-  sw_free(w.next);
-  sw_free(w.seen);
+  SW_FREE_ALL(w.first, w.next, w.seen);
   return status;
 }

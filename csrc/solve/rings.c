@@ -15,12 +15,7 @@ static inline const quad *look(const double *p) { return (const quad *)(const vo
 
 void sw_rings_free(sw_rings *r) {
   if (!r) return;
-  sw_free(r->values);
-  sw_free(r->factor);
-  sw_free(r->kept);
-  sw_free(r->scaled);
-  sw_free(r->x);
-  sw_free(r);
+  SW_FREE_ALL(r->values, r->factor, r->kept, r->scaled, r->x, r);
 }
 
 static sw_status allocate(sw_rings *r) {

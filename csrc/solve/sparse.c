@@ -14,13 +14,7 @@ static const size_t DENSE = 12;
 void sw_sparse_free(sw_sparse *s) {
   if (!s) return;
   sw_blocks_free(s->fronts);
-  sw_free(s->place);
-  sw_free(s->start);
-  sw_free(s->row);
-  sw_free(s->slot);
-  sw_free(s->target);
-  sw_free(s->x);
-  sw_free(s);
+  SW_FREE_ALL(s->place, s->start, s->row, s->slot, s->target, s->x, s);
 }
 
 size_t sw_sparse_fill(const sw_sparse *s) { return s->fill; }
@@ -121,10 +115,7 @@ static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t 
 static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
   analysis a = {0};
   const sw_status status = find_pattern(s, pairs, count, &a);
-  sw_free(a.first);
-  sw_free(a.next);
-  sw_free(a.order);
-  sw_free(a.seen);
+  SW_FREE_ALL(a.first, a.next, a.order, a.seen);
   return status;
 }
 

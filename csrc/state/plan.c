@@ -15,18 +15,8 @@ sw_plan *sw_plan_retain(sw_plan *plan) {
 void sw_plan_release(sw_plan *plan) {
   if (!plan || --plan->references > 0) return;
   sw_web_release(plan->web);
-  sw_free(plan->s);
-  sw_free(plan->rest);
-  sw_free(plan->lumped);
-  sw_free(plan->mass_own);
-  sw_free(plan->mass_next);
-  sw_free(plan->hinge);
-  sw_free(plan->held);
-  sw_free(plan->clamps);
-  sw_free(plan->spans);
-  sw_free(plan->rest_bend);
-  sw_free(plan->rest_twist);
-  sw_free(plan);
+  SW_FREE_ALL(plan->s, plan->rest, plan->lumped, plan->mass_own, plan->mass_next, plan->hinge,
+              plan->held, plan->clamps, plan->spans, plan->rest_bend, plan->rest_twist, plan);
 }
 
 /* Hinge lengths near a clamp whose first edge has length b * l, the second l:

@@ -30,13 +30,9 @@ sw_web *sw_web_retain(sw_web *web) {
 
 void sw_web_release(sw_web *w) {
   if (!w || --w->references > 0) return;
-  void *const blocks[] = {w->link,        w->first,     w->fold,   w->solid, w->shapes,
-                          w->ring_links,  w->mass,      w->s,      w->share, w->section,
-                          w->ring_solids, w->outer,     w->around, w->side,  w->side_first,
-                          w->yield,       w->hardening, w->along,  w->slide, w->face,
-                          w->crease,      w->behind};
-  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
-  sw_free(w);
+  SW_FREE_ALL(w->link, w->first, w->fold, w->solid, w->shapes, w->ring_links, w->mass, w->s,
+              w->share, w->section, w->ring_solids, w->outer, w->around, w->side, w->side_first,
+              w->yield, w->hardening, w->along, w->slide, w->face, w->crease, w->behind, w);
 }
 
 /* Edges of the surface: around each ring, and along the wire to the next one. */

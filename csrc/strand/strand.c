@@ -283,11 +283,7 @@ void sw_strand_calibrated_release(void *calibrated) {
 void sw_strand_free(sw_strand *s) {
   sw_web_release(s->web);
   sw_strand_calibrated_release(s->calibrated);
-  sw_free(s->x);
-  sw_free(s->v);
-  sw_free(s->a);
-  sw_free(s->axial);
-  sw_free(s->rate);
+  SW_FREE_ALL(s->x, s->v, s->a, s->axial, s->rate);
   memset(s, 0, sizeof *s);
 }
 

@@ -22,25 +22,15 @@
 void sw_system_free(sw_system *system) {
   for (size_t b = 0; system->bodies && b < system->body_count; b++) {
     sw_plan_release(system->bodies[b].plan);
-    sw_free(system->bodies[b].field_block);
-    sw_free(system->bodies[b].terms);
-    sw_free(system->bodies[b].twist_block);
-    sw_free(system->bodies[b].spin_block);
-    sw_free(system->bodies[b].roll_block);
+    SW_FREE_ALL(system->bodies[b].field_block, system->bodies[b].terms,
+                system->bodies[b].twist_block, system->bodies[b].spin_block,
+                system->bodies[b].roll_block);
     sw_web_discard(&system->bodies[b]);
   }
   sw_bridges_free(system);
   sw_joins_free(system);
-  sw_free(system->bodies);
-  sw_free(system->held);
-  sw_free(system->rails);
-  sw_free(system->rail_room);
-  sw_free(system->directors);
-  sw_free(system->hold_states);
-  sw_free(system->loads);
-  sw_free(system->state);
-  sw_free(system->pull_block);
-  sw_free(system->work);
+  SW_FREE_ALL(system->bodies, system->held, system->rails, system->rail_room, system->directors,
+              system->hold_states, system->loads, system->state, system->pull_block, system->work);
   memset(system, 0, sizeof *system);
 }
 

@@ -154,10 +154,7 @@ sw_status sw_body_plan_pairs(sw_body *b, const uint32_t *pairs, size_t count) {
 
 void sw_web_discard(sw_body *b) {
   sw_blocks_free(b->blocks);
-  sw_free(b->web_slots);
-  sw_free(b->web_fixed);
-  sw_free(b->web_pairs);
-  sw_free(b->web_room);
+  SW_FREE_ALL(b->web_slots, b->web_fixed, b->web_pairs, b->web_room);
 }
 
 size_t sw_web_couples_room(const sw_body *b) {
