@@ -177,13 +177,9 @@ static int last_frame(lua_State *L) {
 /* core.frame_now(scene) -> as scene:frame, of the scene as it is */
 static int mod_frame_now(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   lua_settop(L, 1);
   LSW_DO(L, sw_scene_readable, scene);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_frame_now(scene, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
+  LSW_DO_FORCES(L, sw_scene_frame_now, scene);
   lua_pushcfunction(L, last_frame);
   lua_pushvalue(L, 1);
   const int failed = lua_pcall(L, 1, 1, 0);

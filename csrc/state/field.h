@@ -160,4 +160,11 @@ static inline sw_vec sw_field_tangent(const sw_field *field, size_t edge) {
   return sw_v(field->tangent[0][edge], field->tangent[1][edge], field->tangent[2][edge]);
 }
 
+/* Adds d energy / d edge vector [N]. */
+static inline void sw_field_add_gradient(sw_field *field, size_t edge, sw_vec g) {
+  field->gradient[0][edge] += g.x;
+  field->gradient[1][edge] += g.y;
+  field->gradient[2][edge] += g.z;
+}
+
 #endif
