@@ -77,8 +77,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   sw_hold_args own = *given;
   const sw_hold_args *args = &own;
   const sw_hold_acts *acts = cls->hold;
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   own.s += sw_scene_wire_in(s, wire.slot)->mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));

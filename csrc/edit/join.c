@@ -121,8 +121,7 @@ static sw_status place_ends(sw_scene *s, sw_joint *j) {
 
 sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join_end *ends,
                             size_t count, sw_handle *out, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (count < 2 || count > SW_JOIN_ENDS)
     return sw_fail(err, SW_EINVAL, "scene:join: ends lists %zu wires; it must be from 2 to %d",
                    count, SW_JOIN_ENDS);

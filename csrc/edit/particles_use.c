@@ -162,8 +162,7 @@ static sw_status take(const sw_scene_wire *w, sw_hold *h, const uint32_t *partic
 sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *name,
                                   const uint32_t *particles, size_t count, sw_vec at,
                                   sw_handle *out, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   SW_FIND(const sw_scene_wire, w, find(s, object, err));
   SW_TRY(check_hold(s, w, object.slot, particles, count, err));
   sw_hold h = {.alive = 1,

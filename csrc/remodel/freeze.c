@@ -181,8 +181,7 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   sw_line line = {0};
   sw_grip_end ends[2];
   *out = (sw_freeze_report){0};
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   SW_TRY(check_freeze(s, t, wire, err));
   SW_TRY(sw_scene_build(s, err));

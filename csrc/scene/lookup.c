@@ -51,6 +51,11 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
+sw_status sw_scene_ready(const sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  return sw_scene_readable(s, err);
+}
+
 sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
     return &s->wires[h.slot];
