@@ -29,6 +29,17 @@ local function names_of(known)
   return names
 end
 
+--- The keys of a table in order; by: see table.sort.
+function checks.sorted(set, by)
+  local keys = {}
+  for key in pairs(set) do keys[#keys + 1] = key end
+  table.sort(keys, by)
+  return keys
+end
+
+--- Whatever keys scripts may give, in the order of what messages show of them.
+function checks.by_text(a, b) return shown(a) < shown(b) end
+
 --- The words of a text as a set: { word = true, ... }.
 function checks.set(text)
   local set = {}

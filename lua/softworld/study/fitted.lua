@@ -312,10 +312,7 @@ local function chart(fit, args)
   local o = rows.all["fit:chart"]:read(args == nil and {} or args)
   local list, low, high = { path = o.path, title = "fit", xlabel = "computed", ylabel = "measured" },
     math.huge, -math.huge
-  local names = {}
-  for name in pairs(fit.data) do names[#names + 1] = name end
-  table.sort(names)
-  for _, name in ipairs(names) do
+  for _, name in ipairs(checks.sorted(fit.data)) do
     list[#list + 1] = { x = fit.computed[name], y = fit.data[name], name = name, style = "points" }
     for k, x in ipairs(fit.computed[name]) do
       low, high = math.min(low, x, fit.data[name][k]), math.max(high, x, fit.data[name][k])
