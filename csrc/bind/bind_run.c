@@ -64,7 +64,7 @@ static sw_status look(sw_observer *o, sw_error *err) {
  * returns stop, and the next at and wall [s]. */
 int lsw_scene_advance(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_run_args args;
+  sw_run_args args = {0};
   sw_run_report r;
   lsw_arguments(L, 2, "scene:run", &sw_run_params, &args);
   const double until = lsw_number(L, 3, "scene:advance: until", "s");
@@ -95,7 +95,7 @@ int lsw_scene_advance(lua_State *L) {
 /* scene:settle{ tolerance =, max_iterations = } -> result */
 int lsw_scene_settle(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_settle_args args;
+  sw_settle_args args = {.stays = 0}; /* not a row */
   sw_settle_report r;
   sw_error err = {""};
   lsw_arguments(L, 2, "scene:settle", &sw_settle_params, &args);
