@@ -12,17 +12,110 @@ function child.unescape(text)
   return (text:gsub("\\(.)", function(c) return ({ n = "\n", t = "\t", r = "\r" })[c] or c end))
 end
 
---- Run a file's tests whose names contain name, or list them; records go to sink. root: of the tree;
--- host: the program, beside which its libraries are.
-function child.run(file, sink, name, list, root, host)
+local function recorder(sink)
   local write, flush = sink.write, sink.flush -- a spec may replace io's functions
-  local function record(...)
+  return function(...)
     local fields = table.pack(...)
     for i = 1, fields.n do fields[i] = escape(fields[i]) end
     write(sink, table.concat(fields, "\t"), "\n")
     flush(sink)
   end
+end
 
+-- Names of tests ----------------------------------------------------------------
+
+local function line_of(trace)
+  return trace and trace.currentline and trace.currentline > 0 and trace.currentline or "?"
+end
+
+local function full_name(busted, element)
+  local names = {}
+  while element and element.descriptor and element.descriptor ~= "file" do
+    table.insert(names, 1, tostring(element.name or element.descriptor))
+    element = busted.context.parent(element)
+  end
+  return table.concat(names, " ")
+end
+
+-- With the line of the test itself, when the message names one of a helper or of other code.
+local function message_of(file, message, trace)
+  message = type(message) == "string" and message or "no message"
+  local outermost
+  for at in (trace and trace.traceback or ""):gmatch("\n%s*(" .. file:gsub("%p", "%%%0") .. ":%d+): in ") do
+    outermost = at
+  end
+  if not outermost or message:find(outermost .. ":", 1, true) then return message end
+  return message .. "\n(called from " .. outermost .. ")"
+end
+
+-- A file ------------------------------------------------------------------------
+
+-- Selection happens when a test registers itself.
+local function choose(busted, file, record, name, list)
+  local first = { priority = 1 }
+  for _, descriptor in ipairs { "it", "pending" } do
+    busted.subscribe({ "register", descriptor }, function(test_name, _, trace)
+      local parents = full_name(busted, busted.context.get())
+      local whole = (parents == "" and "" or parents .. " ") .. tostring(test_name or descriptor)
+      local wanted = not name or whole:find(name, 1, true) ~= nil
+      if list and wanted then record("test", file .. ":" .. line_of(trace), whole) end
+      return nil, wanted and not list
+    end, first)
+  end
+  for _, descriptor in ipairs(list and { "setup", "teardown", "strict_setup", "strict_teardown",
+    "lazy_setup", "lazy_teardown", "before_each", "after_each" } or {}) do
+    busted.subscribe({ "register", descriptor }, function() return nil, false end, first)
+  end
+end
+
+local function watch(busted, file, record)
+  local messages = {} -- of the running test
+  local function place(element) return file .. ":" .. line_of(element.trace) end
+  busted.subscribe({ "test", "start" }, function(element)
+    messages = {}
+    record("start", place(element), full_name(busted, element))
+    return nil, true
+  end)
+  busted.subscribe({ "test", "end" }, function(element, _, status)
+    local seconds, whole = ("%.6f"):format(element.duration or 0), full_name(busted, element)
+    if status == "success" then
+      record("pass", place(element), whole, seconds)
+    else
+      local why = table.concat(messages, "\n")
+      if status == "pending" then why = "pending: not run, so not passed. " .. why end
+      record("fail", place(element), whole, why, seconds)
+    end
+    messages = {}
+    return nil, true
+  end)
+  local function problem(element, _, message, trace)
+    local why = message_of(file, message, trace)
+    if element.descriptor == "it" then
+      messages[#messages + 1] = why -- recorded with the test's end
+    else
+      record("fail", place(element), full_name(busted, element),
+        ("error in %s: %s"):format(element.descriptor or "?", why), 0)
+    end
+    return nil, true
+  end
+  for _, event in ipairs { "failure", "error", "pending" } do busted.subscribe({ event }, problem) end
+end
+
+local function execute(busted, file, record)
+  local chunk, err = loadfile(file)
+  if not chunk then return record("fail", file, "(loading)", err, 0) end
+  local function trace_of(_, info)
+    info.traceback = info.traceback:match "^(.-)\n%s*%[C%]" or info.traceback
+    return info
+  end
+  busted.executors.file(file, setmetatable({ getTrace = trace_of }, { __call = chunk }))
+  require "busted.execute"(busted)(1, {})
+end
+
+--- Run a file's tests whose names contain name, or list them; records go to sink. root: of the tree;
+-- host: the program, beside which its libraries are.
+function child.run(file, sink, name, list, root, host)
+  local record = recorder(sink)
   local places = "%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;%s/scripts/?.lua;"
   package.path = places:gsub("%%s", (root:gsub("%%", "%%%%"))) .. package.path
   -- beside the host: softworld.probe, and of stock Lua the core
@@ -31,93 +124,9 @@ function child.run(file, sink, name, list, root, host)
 
   local busted = require "busted.core"()
   require "busted"(busted)
-
-  local function full_name(element)
-    local names = {}
-    while element and element.descriptor and element.descriptor ~= "file" do
-      table.insert(names, 1, tostring(element.name or element.descriptor))
-      element = busted.context.parent(element)
-    end
-    return table.concat(names, " ")
-  end
-  local function line_of(trace)
-    return trace and trace.currentline and trace.currentline > 0 and trace.currentline or "?"
-  end
-  local function place(element) return file .. ":" .. line_of(element.trace) end
-
-  local function message_of(element, message, trace)
-    message = type(message) == "string" and message or "no message"
-    -- The line of the test itself, when the message names one of a helper or of other code.
-    local outermost
-    for at in (trace and trace.traceback or ""):gmatch("\n%s*(" .. file:gsub("%p", "%%%0") .. ":%d+): in ") do
-      outermost = at
-    end
-    if outermost and not message:find(outermost .. ":", 1, true) then
-      message = message .. "\n(called from " .. outermost .. ")"
-    end
-    return place(element), full_name(element), message
-  end
-
-  -- Selection happens when a test registers itself.
-  local first = { priority = 1 }
-  for _, descriptor in ipairs { "it", "pending" } do
-    busted.subscribe({ "register", descriptor }, function(test_name, _, trace)
-      local parents = full_name(busted.context.get())
-      local whole = (parents == "" and "" or parents .. " ") .. tostring(test_name or descriptor)
-      local wanted = not name or whole:find(name, 1, true) ~= nil
-      if list and wanted then record("test", file .. ":" .. line_of(trace), whole) end
-      return nil, wanted and not list
-    end, first)
-  end
-  if list then
-    for _, descriptor in ipairs { "setup", "teardown", "strict_setup", "strict_teardown",
-      "lazy_setup", "lazy_teardown", "before_each", "after_each" } do
-      busted.subscribe({ "register", descriptor }, function() return nil, false end, first)
-    end
-  end
-
-  local messages = {} -- of the running test
-  busted.subscribe({ "test", "start" }, function(element)
-    messages = {}
-    record("start", place(element), full_name(element))
-    return nil, true
-  end)
-  busted.subscribe({ "test", "end" }, function(element, _, status)
-    local seconds = ("%.6f"):format(element.duration or 0)
-    if status == "success" then
-      record("pass", place(element), full_name(element), seconds)
-    else
-      local why = table.concat(messages, "\n")
-      if status == "pending" then why = "pending: not run, so not passed. " .. why end
-      record("fail", place(element), full_name(element), why, seconds)
-    end
-    messages = {}
-    return nil, true
-  end)
-  local function problem(element, _, message, trace)
-    local where, whole, why = message_of(element, message, trace)
-    if element.descriptor == "it" then
-      messages[#messages + 1] = why -- recorded with the test's end
-    else
-      record("fail", where, whole, ("error in %s: %s"):format(element.descriptor or "?", why), 0)
-    end
-    return nil, true
-  end
-  for _, event in ipairs { "failure", "error", "pending" } do
-    busted.subscribe({ event }, problem)
-  end
-
-  local chunk, err = loadfile(file)
-  if chunk then
-    local function trace_of(_, info)
-      info.traceback = info.traceback:match "^(.-)\n%s*%[C%]" or info.traceback
-      return info
-    end
-    busted.executors.file(file, setmetatable({ getTrace = trace_of }, { __call = chunk }))
-    require "busted.execute"(busted)(1, {})
-  else
-    record("fail", file, "(loading)", err, 0)
-  end
+  choose(busted, file, record, name, list)
+  watch(busted, file, record)
+  execute(busted, file, record)
   record "end"
   -- Specs judge runs by their own means: those that failed unseen are nobody else's concern.
   local unread = package.loaded["softworld.unread"]

@@ -1,9 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Examples run as a user would run them, and what they print.
-local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec"
-local program = dofile(here .. "/host/program.lua")
+local program = require "spec.host.program"
 
-local examples = { program = program, here = here }
+local examples = { program = program }
 
 -- What an example prints, and all numbers in it in their order.
 function examples.run(name, ...)

@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The example of a laying: the numbers that it prints, and what it writes.
-local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec"
-local examples = dofile(here .. "/examples.lua")
+local examples = require "spec.examples"
 local core = require "softworld.core"
 require "softworld"
 

@@ -1,8 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Every example runs as a user would run it, and the numbers it prints are those of
 -- independent solutions.
-local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec"
-local examples = dofile(here .. "/examples.lua")
+local examples = require "spec.examples"
 require "softworld"
 
 local example, after, near, program = examples.run, examples.after, examples.near, examples.program
@@ -164,7 +163,7 @@ describe("example", function()
     local names = io.popen "ls examples/*.lua"
     local mine = ""
     for _, name in ipairs{ "examples", "examples_laying", "examples_study", "model/example" } do
-      mine = mine .. program.read(("%s/%s_spec.lua"):format(here, name))
+      mine = mine .. program.read(("%s/spec/%s_spec.lua"):format(program.root, name))
     end
     for name in names:lines() do
       assert.truthy(mine:find(name:match "([^/]+)%.lua$", 1, true), name .. " has no spec")

@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Examples of tuning, studies, fits and checks: the numbers that they print.
-local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec"
-local examples = dofile(here .. "/examples.lua")
+local examples = require "spec.examples"
 require "softworld"
 
 local example, after, near, program = examples.run, examples.after, examples.near, examples.program

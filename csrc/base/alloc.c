@@ -49,6 +49,16 @@ static void *make(size_t count, size_t size, int zero) {
 void *sw_alloc(size_t count, size_t size) { return make(count, size, 1); }
 void *sw_alloc_bytes(size_t bytes) { return make(bytes, 1, 0); }
 
+sw_status sw_alloc_all(const sw_room *rooms) {
+  sw_status status = SW_OK;
+  for (; rooms->list; rooms++) {
+    void *p = sw_alloc(rooms->count, rooms->size);
+    memcpy(rooms->list, &p, sizeof p);
+    if (!p) status = SW_ENOMEM;
+  }
+  return status;
+}
+
 static const header *header_of(const void *p) {
   return (const header *)(const void *)((const char *)p - ALIGNMENT);
 }
@@ -60,6 +70,10 @@ void sw_free(void *p) {
   const header *h = header_of(p);
   live_bytes -= h->bytes;
   free(h->raw);
+}
+
+void sw_free_all(void *const *list, size_t count) {
+  for (size_t i = 0; i < count; i++) sw_free(list[i]);
 }
 
 /* Twice the capacity, until it is enough; 0: too much. */

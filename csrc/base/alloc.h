@@ -14,11 +14,25 @@
  * of 0 bytes gives a pointer that may be freed. Free with sw_free. */
 void *sw_alloc(size_t count, size_t size);
 
-/* The same of bytes that are not zero, for what is written at once. */
+/* Zeroed room for lists that are made together. SW_ENOMEM: some of them are NULL; the others stay
+ * their owner's. SW_TRY(SW_ALLOC_ALL(SW_ROOM(a->first, n + 1), SW_ROOM(a->next, n))); */
+typedef struct sw_room {
+  void *list; /* where the pointer is; NULL ends them */
+  size_t count, size;
+} sw_room;
+#define SW_ROOM(list, count) \
+  { &(list), count, sizeof *(list) }
+#define SW_ALLOC_ALL(...) sw_alloc_all((const sw_room[]){__VA_ARGS__, {NULL, 0, 0}})
+sw_status sw_alloc_all(const sw_room *rooms);
+
+/* As sw_alloc, of bytes that are not zero, for what is written at once. */
 void *sw_alloc_bytes(size_t bytes);
 
-/* NULL is allowed. */
+/* NULL is allowed. SW_FREE_ALL(a->first, a->next, a): all of them. */
 void sw_free(void *p);
+#define SW_FREE_ALL(...) \
+  sw_free_all((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
+void sw_free_all(void *const *list, size_t count);
 
 /* Of a local pointer, before its value: what it points to then is freed when its block ends,
  * however it ends. double *work SW_LOCAL = sw_alloc(n, sizeof *work); */

@@ -29,6 +29,17 @@ static inline sw_vec sw_v(double x, double y, double z) { return (sw_vec){x, y, 
 static inline sw_vec sw_load(const double *p) { return (sw_vec){p[0], p[1], p[2]}; }
 /* Vector i of a flat array. */
 static inline sw_vec sw_vec_at(const double *p, unsigned long i) { return sw_load(p + 3 * i); }
+/* Item i of three lists, one of each component. */
+static inline sw_vec sw_vec_across(double *const *c, unsigned long i) {
+  return sw_v(c[0][i], c[1][i], c[2][i]);
+}
+/* Of floats, and to them. */
+static inline sw_vec sw_vec_of(const float *p) {
+  return sw_v((double)p[0], (double)p[1], (double)p[2]);
+}
+static inline void sw_vec_to(float *p, sw_vec a) {
+  p[0] = (float)a.x, p[1] = (float)a.y, p[2] = (float)a.z;
+}
 static inline void sw_store(double *p, sw_vec a) { p[0] = a.x, p[1] = a.y, p[2] = a.z; }
 static inline void sw_accumulate(double *p, sw_vec a) { p[0] += a.x, p[1] += a.y, p[2] += a.z; }
 static inline sw_vec sw_add(sw_vec a, sw_vec b) { return sw_v(a.x + b.x, a.y + b.y, a.z + b.z); }
@@ -100,6 +111,10 @@ static inline sw_pose sw_pose_within(sw_pose a, sw_pose b) {
   return (sw_pose){sw_pose_point(a, b.p), sw_quat_unit(sw_quat_mul(a.q, b.q))};
 }
 static inline sw_vec sw_pose_local(sw_pose f, sw_vec a) { return sw_unrotate(f.q, sw_sub(a, f.p)); }
+/* Pose b, seen from a. */
+static inline sw_pose sw_pose_from(sw_pose a, sw_pose b) {
+  return (sw_pose){sw_pose_local(a, b.p), sw_quat_mul(sw_quat_conj(a.q), b.q)};
+}
 
 /* The shortest rotation that takes one unit vector to another. */
 static inline sw_quat sw_quat_between(sw_vec from, sw_vec to) {

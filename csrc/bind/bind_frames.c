@@ -7,8 +7,6 @@
 static const char *const channels[SW_FRAME_FORCE + 1] = {"tension",      "curvature", "contact",
                                                          "twist_moment", "stress",    NULL};
 
-static sw_vec vec_of(const float *p) { return sw_v((double)p[0], (double)p[1], (double)p[2]); }
-
 static void push_floats(lua_State *L, const float *x, size_t count, size_t stride) {
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; i < count; i++) {
@@ -19,8 +17,8 @@ static void push_floats(lua_State *L, const float *x, size_t count, size_t strid
 
 static void push_pose(lua_State *L, const float *p) {
   lua_createtable(L, 0, 4);
-  lsw_set_vector(L, "position", vec_of(p));
-  lsw_set_vector(L, "force", vec_of(p + SW_FRAME_POSE));
+  lsw_set_vector(L, "position", sw_vec_of(p));
+  lsw_set_vector(L, "force", sw_vec_of(p + SW_FRAME_POSE));
   lsw_push_quaternion(L, (sw_quat){(double)p[3], (double)p[4], (double)p[5], (double)p[6]});
   lua_setfield(L, -2, "rotation");
 }
@@ -177,13 +175,9 @@ static int last_frame(lua_State *L) {
 /* core.frame_now(scene) -> as scene:frame, of the scene as it is */
 static int mod_frame_now(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_error err = {""};
   lua_settop(L, 1);
   LSW_DO(L, sw_scene_readable, scene);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_frame_now(scene, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
+  LSW_DO_FORCES(L, sw_scene_frame_now, scene);
   lua_pushcfunction(L, last_frame);
   lua_pushvalue(L, 1);
   const int failed = lua_pcall(L, 1, 1, 0);
@@ -301,7 +295,7 @@ static int mod_frame_contact(lua_State *L) {
     most = fmax(most, (double)p[SW_FRAME_VALUES * n + SW_FRAME_CONTACT]);
   if (!(most > 0) || count < 2) return 0;
   push_floats(L, p + SW_FRAME_CONTACT, count, SW_FRAME_VALUES);
-  lua_pushnumber(L, sw_dist(vec_of(x), vec_of(x + 3)));
+  lua_pushnumber(L, sw_dist(sw_vec_of(x), sw_vec_of(x + 3)));
   return 2;
 }
 

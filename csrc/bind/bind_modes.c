@@ -24,7 +24,6 @@ static void push_note(lua_State *L, const sw_modes_result *r) {
 /* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =, note =,
  * shapes = } [Hz], [-], [1/s], words, [1/sqrt(kg)] */
 int lsw_wire_frequencies(lua_State *L) {
-  sw_error err = {""};
   sw_modes_args args;
   size_t nodes;
   lua_settop(L, 2);
@@ -36,10 +35,7 @@ int lsw_wire_frequencies(lua_State *L) {
   if (args.shapes) r.shapes = lua_newuserdatauv(L, modes * n * sizeof(double), 0);
   lua_getiuservalue(L, 1, 1); /* functions as forces need their scene at index 1 */
   lua_replace(L, 1);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_wire_modes(w.scene, w.id, &args, sw_interrupted, &r, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
+  LSW_DO_FORCES(L, sw_scene_wire_modes, w.scene, w.id, &args, sw_interrupted, &r);
   lsw_push_flat(L, r.frequencies, r.count);
   lsw_set_integer(L, "unstable", r.unstable);
   if (r.unstable) push_note(L, &r);

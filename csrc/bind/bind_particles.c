@@ -57,7 +57,8 @@ static int push_copy(lua_State *L, int velocities) {
   lsw_self p;
   const size_t n = 3 * info_of(L, &p).particles;
   double *x = lua_newuserdatauv(L, n * sizeof *x, 0);
-  LSW_DO(L, sw_scene_particles_copy, p.scene, p.id, velocities ? NULL : x, velocities ? x : NULL);
+  LSW_DO(L, sw_scene_wire_particle_copy, p.scene, p.id, velocities ? NULL : x, NULL,
+         velocities ? x : NULL);
   lsw_push_flat(L, x, n);
   return 1;
 }

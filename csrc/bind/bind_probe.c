@@ -54,7 +54,6 @@ static void push_result(lua_State *L, const sw_probe *at, const sw_probe_result 
 int lsw_scene_evaluate(lua_State *L) {
   const lsw_handle *owner = lsw_check(L, 1, &lsw_class_scene);
   sw_scene *scene = owner->object;
-  sw_error err = {""};
   size_t nodes;
   probe_args args;
   lua_settop(L, 3);
@@ -73,10 +72,7 @@ int lsw_scene_evaluate(lua_State *L) {
   lua_newtable(L);
   for (size_t i = 0; sw_force_all()[i]; i++) {
     const sw_force_class *cls = sw_force_all()[i];
-    lua_State *outer = lsw_begin_forces(L);
-    const sw_status status = sw_scene_probe(scene, wire, cls, &at, &r, &err);
-    lsw_end_forces(outer);
-    lsw_must(L, status, &err);
+    LSW_DO_FORCES(L, sw_scene_probe, scene, wire, cls, &at, &r);
     if (r.terms == 0) continue;
     push_result(L, &at, &r, n);
     lua_setfield(L, -2, cls->name);

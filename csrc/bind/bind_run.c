@@ -64,20 +64,15 @@ static sw_status look(sw_observer *o, sw_error *err) {
  * returns stop, and the next at and wall [s]. */
 int lsw_scene_advance(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_run_args args;
+  sw_run_args args = {0};
   sw_run_report r;
-  sw_error err = {""};
   lsw_arguments(L, 2, "scene:run", &sw_run_params, &args);
   const double until = lsw_number(L, 3, "scene:advance: until", "s");
   watcher w = {L, 4};
   sw_observer o = {.look = look, .user = &w};
   const int watched = lua_isfunction(L, 4);
   if (watched) o.at = luaL_checknumber(L, 5), o.wall = luaL_checknumber(L, 6);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status =
-      sw_scene_advance(scene, &args, until, sw_interrupted, watched ? &o : NULL, &r, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
+  LSW_DO_FORCES(L, sw_scene_advance, scene, &args, until, sw_interrupted, watched ? &o : NULL, &r);
   if (r.status == SW_EINTR || r.status == SW_ECALLBACK || r.status == SW_ENOMEM ||
       r.status == SW_EEMPTY)
     lsw_must(L, r.status, &r.reason);
@@ -100,14 +95,11 @@ int lsw_scene_advance(lua_State *L) {
 /* scene:settle{ tolerance =, max_iterations = } -> result */
 int lsw_scene_settle(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
-  sw_settle_args args;
+  sw_settle_args args = {.stays = 0}; /* not a row */
   sw_settle_report r;
   sw_error err = {""};
   lsw_arguments(L, 2, "scene:settle", &sw_settle_params, &args);
-  lua_State *outer = lsw_begin_forces(L);
-  const sw_status status = sw_scene_settle(scene, &args, sw_interrupted, &r, &err);
-  lsw_end_forces(outer);
-  lsw_must(L, status, &err);
+  LSW_DO_FORCES(L, sw_scene_settle, scene, &args, sw_interrupted, &r);
   if (sw_interrupted()) lsw_must(L, SW_EINTR, &err);
   lua_createtable(L, 0, 6);
   lsw_set_flag(L, "ok", r.ok);

@@ -99,7 +99,7 @@ static pressed read_pressed(lua_State *L, lsw_self w) {
   p.force = p.x + 3 * p.n, p.arc = p.force + 3 * p.n;
   p.normal = p.arc + p.n, p.area = p.normal + p.n;
   LSW_DO(L, sw_scene_wire_pressed, w.scene, w.id, p.force, p.normal, p.area, p.arc);
-  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, p.x, p.arc);
+  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, p.x, p.arc, NULL);
   return p;
 }
 

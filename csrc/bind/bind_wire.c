@@ -160,7 +160,7 @@ static int meth_particles(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &n);
   double *x = lua_newuserdatauv(L, 4 * n * sizeof *x, 0);
-  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, x, x + 3 * n);
+  LSW_DO(L, sw_scene_wire_particle_copy, w.scene, w.id, x, x + 3 * n, NULL);
   lsw_push_flat(L, x, 3 * n);
   lsw_push_flat(L, x + 3 * n, n);
   return 2;

@@ -112,6 +112,15 @@ int lsw_servers(void);
  * index 1 is the scene. The value goes back to lsw_end_forces. */
 lua_State *lsw_begin_forces(lua_State *L);
 void lsw_end_forces(lua_State *outer);
+/* As LSW_DO meanwhile. */
+#define LSW_DO_FORCES(L, function, ...)                        \
+  do {                                                         \
+    sw_error lsw_err_ = {""};                                  \
+    lua_State *lsw_outer_ = lsw_begin_forces(L);               \
+    const sw_status lsw_s_ = function(__VA_ARGS__, &lsw_err_); \
+    lsw_end_forces(lsw_outer_);                                \
+    lsw_must(L, lsw_s_, &lsw_err_);                            \
+  } while (0)
 /* Let go of functions that no force of the scene userdata at index needs. */
 void lsw_forget_forces(lua_State *L, int index, const sw_scene *scene);
 

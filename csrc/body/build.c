@@ -44,12 +44,7 @@ static void drop(sw_scene *s) {
 }
 
 void sw_scene_forget_contact(sw_scene *s) {
-  sw_free(s->kept.memory);
-  sw_free(s->kept.pairs);
-  sw_free(s->kept.grains);
-  sw_free(s->kept.s);
-  sw_free(s->kept.first);
-  sw_free(s->kept.now);
+  SW_FREE_ALL(s->kept.memory, s->kept.pairs, s->kept.grains, s->kept.s, s->kept.first, s->kept.now);
   memset(&s->kept, 0, sizeof s->kept);
 }
 
@@ -62,14 +57,11 @@ static sw_status keep_contact(sw_scene *s) {
   if (s->contact) memory = sw_contact_memory(s->contact, &s->kept.bytes);
   if (s->pairs) pairs = sw_mutual_memory(s->pairs, &s->kept.pair_bytes);
   if (s->grains) grains = sw_mutual_memory(s->grains, &s->kept.grain_bytes);
-  s->kept.grains = sw_alloc(s->kept.grain_bytes, 1);
-  s->kept.memory = sw_alloc(s->kept.bytes, 1);
-  s->kept.pairs = sw_alloc(s->kept.pair_bytes, 1);
-  s->kept.s = sw_alloc(s->system.nodes, sizeof *s->kept.s);
-  s->kept.first = sw_alloc(s->wire_count + 1, sizeof *s->kept.first);
-  s->kept.now = sw_alloc(s->wire_count, sizeof *s->kept.now);
-  if (!s->kept.memory || !s->kept.pairs || !s->kept.grains || !s->kept.s || !s->kept.first ||
-      !s->kept.now) {
+  const sw_status status =
+      SW_ALLOC_ALL({&s->kept.grains, s->kept.grain_bytes, 1}, {&s->kept.memory, s->kept.bytes, 1},
+                   {&s->kept.pairs, s->kept.pair_bytes, 1}, SW_ROOM(s->kept.s, s->system.nodes),
+                   SW_ROOM(s->kept.first, s->wire_count + 1), SW_ROOM(s->kept.now, s->wire_count));
+  if (status != SW_OK) {
     sw_scene_forget_contact(s);
     return SW_ENOMEM;
   }
@@ -267,10 +259,10 @@ static sw_status put_holds(sw_scene *s, sw_rail *rails) {
 }
 
 static sw_status add_holds(sw_scene *s, size_t alive) {
-  s->hold_slot = sw_alloc(alive, sizeof *s->hold_slot);
-  s->hold_loads = sw_alloc(alive, sizeof *s->hold_loads);
-  sw_rail *rails SW_LOCAL = sw_alloc(alive, sizeof *rails);
-  return s->hold_slot && s->hold_loads && rails ? put_holds(s, rails) : SW_ENOMEM;
+  sw_rail *rails SW_LOCAL = NULL;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(s->hold_slot, alive), SW_ROOM(s->hold_loads, alive),
+                      SW_ROOM(rails, alive)));
+  return put_holds(s, rails);
 }
 
 static sw_pose part_way(const sw_pose *from, const sw_pose *to, double share) {

@@ -144,9 +144,7 @@ static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a
   const sw_mesh *m = &w->mesh;
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
   h->count = last - first + 1;
-  h->s = sw_alloc(h->count, sizeof *h->s);
-  h->local = sw_alloc(3 * h->count, sizeof *h->local);
-  if (!h->s || !h->local) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(h->s, h->count), SW_ROOM(h->local, 3 * h->count)));
   sw_vec origin = sw_vec_at(m->x, first);
   for (size_t i = first; i < last; i++)
     if (m->s[i + 1] >= a->s && m->s[i] <= a->s)

@@ -78,10 +78,8 @@ static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a
   const sw_mesh *m = &w->mesh;
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
   const size_t room = web->first[last + 1] - web->first[first];
-  h->s = sw_alloc(room, sizeof *h->s);
-  h->local = sw_alloc(3 * room, sizeof *h->local);
-  h->particle = sw_alloc(room, sizeof *h->particle);
-  if (!h->s || !h->local || !h->particle) return SW_ENOMEM;
+  SW_TRY(
+      SW_ALLOC_ALL(SW_ROOM(h->s, room), SW_ROOM(h->local, 3 * room), SW_ROOM(h->particle, room)));
   size_t i = first < last ? first : first + 1 < m->n ? first : first - 1;
   while (i + 2 < m->n && m->s[i + 1] < a->s) i++;
   const double f = fmin(1.0, fmax(0.0, (a->s - m->s[i]) / (m->s[i + 1] - m->s[i])));

@@ -63,10 +63,7 @@ sw_status sw_lattice_room(sw_lattice *l, size_t particles, sw_error *err) {
 }
 
 void sw_lattice_free(sw_lattice *l) {
-  sw_free(l->at);
-  sw_free(l->share);
-  sw_free(l->link);
-  sw_free(l->solid);
+  SW_FREE_ALL(l->at, l->share, l->link, l->solid);
   *l = (sw_lattice){0};
 }
 

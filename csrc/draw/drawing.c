@@ -18,9 +18,7 @@ sw_status sw_drawing_new(sw_drawing **out) {
 
 void sw_drawing_free(sw_drawing *d) {
   if (!d) return;
-  sw_free(d->faces), sw_free(d->balls), sw_free(d->lines), sw_free(d->edges);
-  sw_free(d->pieces), sw_free(d->floors), sw_free(d->is_tube);
-  sw_free(d);
+  SW_FREE_ALL(d->faces, d->balls, d->lines, d->edges, d->pieces, d->floors, d->is_tube, d);
 }
 
 static int all_finite(const double *p, size_t count) {
@@ -67,11 +65,8 @@ static void free_mesh(mesh *m) {
 }
 
 static sw_status read_mesh(mesh *m, const double *points, sw_pose pose) {
-  m->place = sw_alloc(m->points, sizeof *m->place);
-  m->normal = sw_alloc(m->count, sizeof *m->normal);
-  m->first = sw_alloc(m->points + 1, sizeof *m->first);
-  m->around = sw_alloc(3 * m->count, sizeof *m->around);
-  if (!m->place || !m->normal || !m->first || !m->around) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(m->place, m->points), SW_ROOM(m->normal, m->count),
+                      SW_ROOM(m->first, m->points + 1), SW_ROOM(m->around, 3 * m->count)));
   for (size_t i = 0; i < m->points; i++) m->place[i] = sw_pose_point(pose, sw_vec_at(points, i));
   for (size_t f = 0; f < m->count; f++) {
     const uint32_t *c = m->corners + 3 * f;

@@ -53,13 +53,6 @@ struct sw_drawing {
   size_t face_room, ball_room, line_room, edge_room, piece_room, floor_room, object_room;
 };
 
-static inline sw_vec sw_vec_of(const float *p) {
-  return sw_v((double)p[0], (double)p[1], (double)p[2]);
-}
-static inline void sw_vec_to(float *p, sw_vec a) {
-  p[0] = (float)a.x, p[1] = (float)a.y, p[2] = (float)a.z;
-}
-
 /* 1: a line shows from there; those where faces meet flatly do as outlines only. */
 static inline int sw_line_shows(const sw_line *l, sw_vec eye) {
   const sw_vec a = sw_vec_of(l->n[0]), b = sw_vec_of(l->n[1]), to = sw_sub(eye, sw_vec_of(l->p[0]));

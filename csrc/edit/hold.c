@@ -77,8 +77,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   sw_hold_args own = *given;
   const sw_hold_args *args = &own;
   const sw_hold_acts *acts = cls->hold;
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (!sw_scene_find_wire(s, wire, err)) return SW_EDEAD;
   own.s += sw_scene_wire_in(s, wire.slot)->mesh.s[0];
   SW_TRY(check_place(s, cls, wire.slot, args, err));
@@ -93,10 +92,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   SW_TRY(sw_scene_unbuild(s));
   sw_hold h = {.alive = 1, .cls = cls, .wire = wire.slot};
   h.args = *args, h.scale = sw_scene_wire_in(s, wire.slot)->mesh.scale;
-  if (args->name[0])
-    memcpy(h.name, args->name, sizeof h.name);
-  else
-    snprintf(h.name, sizeof h.name, "%s%zu", cls->name, sw_scene_hold_slots(s) + 1);
+  sw_scene_give_name(h.name, args->name, cls->name, sw_scene_hold_slots(s));
   take_directions(&sw_scene_wire_in(s, wire.slot)->mesh, &h, args);
   sw_status status = take_places(s, &h, args);
   if (status == SW_OK && acts->begin) {
@@ -155,34 +151,40 @@ static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_
   return sw_scene_check_clear(s, h->wire, h, what, s1, s2, err);
 }
 
+/* A hold as it is, to take hold anew. */
+static sw_hold without_places(const sw_hold *h) {
+  sw_hold new = *h;
+  new.s = new.local = NULL, new.particle = NULL, new.count = 0;
+  return new;
+}
+
+static void drop_places(sw_hold *h) { SW_FREE_ALL(h->s, h->local, h->particle); }
+
+/* It has taken hold, and goes on as this one, turned with the wire's twist so. */
+static sw_status become(sw_scene *s, sw_hold *h, sw_hold *new, sw_quat turn) {
+  new->drive = h->drive, new->last_pose = h->last_pose, new->turn = turn;
+  new->alive = 1, new->shape = sw_scene_number(s);
+  drop_places(h);
+  *h = *new;
+  return SW_OK;
+}
+
 sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
   sw_hold_args a = h->args;
-  sw_hold new = *h;
   a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
-  new.s = new.local = NULL, new.particle = NULL, new.count = 0;
+  sw_hold new = without_places(h);
   h->alive = 0; /* its own places are not in its way */
   take_directions(&w->mesh, &new, &a);
   for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
   sw_status status = check_again(s, h, &a, err);
   if (status == SW_OK) status = take_places(s, &new, &a);
   h->alive = 1;
-  if (status != SW_OK) {
-    sw_free(new.s);
-    sw_free(new.local);
-    sw_free(new.particle);
-    return status;
-  }
+  if (status != SW_OK) return drop_places(&new), status;
   seen_from(&new, pose);
   if (h->cls->hold->direction) /* what it holds it holds as before, however edges lie */
     memcpy(new.director, h->director, sizeof new.director);
-  new.alive = 1, new.drive = h->drive, new.last_pose = h->last_pose, new.turn = pose.q;
-  new.shape = sw_scene_number(s);
-  sw_free(h->s);
-  sw_free(h->local);
-  sw_free(h->particle);
-  *h = new;
-  return SW_OK;
+  return become(s, h, &new, pose.q);
 }
 
 /* --- another mesh ------------------------------------------------------------------ */
@@ -191,9 +193,7 @@ sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to) {
   double *s = sw_alloc(from->count, sizeof *s), *local = sw_alloc(3 * from->count, sizeof *local);
   uint32_t *particle = from->particle ? sw_alloc(from->count, sizeof *particle) : NULL;
   if (!s || !local || (from->particle && !particle)) {
-    sw_free(s);
-    sw_free(local);
-    sw_free(particle);
+    SW_FREE_ALL(s, local, particle);
     return SW_ENOMEM;
   }
   if (particle) memcpy(particle, from->particle, from->count * sizeof *particle);
@@ -211,22 +211,12 @@ sw_status sw_scene_copy_shape(const sw_hold *from, sw_hold *to) {
 sw_status sw_scene_retake_hold(sw_scene *s, sw_hold *h) {
   sw_mesh *m = &sw_scene_wire_in(s, h->wire)->mesh;
   sw_hold_args a = h->args;
-  sw_hold new = *h;
+  sw_hold new = without_places(h);
   a.s = fmin(a.s * m->scale / h->scale, m->s[m->n - 1]);
-  new.s = new.local = NULL;
   take_directions(m, &new, &a);
   sw_status status = take_places(s, &new, &a);
-  if (status != SW_OK) {
-    sw_free(new.s);
-    sw_free(new.local);
-    return status;
-  }
-  new.drive = h->drive, new.last_pose = h->last_pose, new.turn = h->turn;
-  new.alive = 1, new.shape = sw_scene_number(s);
-  sw_free(h->s);
-  sw_free(h->local);
-  *h = new;
-  return SW_OK;
+  if (status != SW_OK) return drop_places(&new), status;
+  return become(s, h, &new, h->turn);
 }
 
 sw_status sw_scene_release_hold(sw_scene *s, sw_handle hold, sw_error *err) {

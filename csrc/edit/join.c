@@ -4,8 +4,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "body/build.h"
@@ -123,8 +121,7 @@ static sw_status place_ends(sw_scene *s, sw_joint *j) {
 
 sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join_end *ends,
                             size_t count, sw_handle *out, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (count < 2 || count > SW_JOIN_ENDS)
     return sw_fail(err, SW_EINVAL, "scene:join: ends lists %zu wires; it must be from 2 to %d",
                    count, SW_JOIN_ENDS);
@@ -151,10 +148,7 @@ sw_status sw_scene_add_join(sw_scene *s, const sw_join_args *args, const sw_join
                       .asked = sw_mesh_snap(m, m->s[0] + ends[k].s),
                       .scale = m->scale};
   }
-  if (args->name[0])
-    memcpy(j.name, args->name, sizeof j.name);
-  else
-    snprintf(j.name, sizeof j.name, "join%zu", sw_scene_join_slots(s) + 1);
+  sw_scene_give_name(j.name, args->name, "join", sw_scene_join_slots(s));
   sw_status status = place_ends(s, &j);
   if (status == SW_OK) status = sw_scene_add(s, SW_OF_JOIN, &j, out);
   if (status != SW_OK) return sw_fail(err, status, "scene:join: out of memory");

@@ -71,9 +71,7 @@ typedef struct sw_particles_info {
 } sw_particles_info;
 sw_status sw_scene_particles_info(sw_scene *scene, sw_handle object, sw_particles_info *out,
                                   sw_error *err);
-/* (particles x 3) each, may be NULL [m], [m/s]. */
-sw_status sw_scene_particles_copy(sw_scene *scene, sw_handle object, double *positions,
-                                  double *velocities, sw_error *err);
+/* Place and velocity of one of them [m], [m/s]; of all: sw_scene_wire_particle_copy. */
 sw_status sw_scene_particle(sw_scene *scene, sw_handle object, size_t particle, sw_vec *position,
                             sw_vec *velocity, sw_error *err);
 /* (particles x 3); held ones keep theirs [m/s]. */

@@ -232,9 +232,7 @@ static sw_status check(maker *m, const sw_particles_args *args) {
 static sw_status fill_links(const maker *m) {
   sw_web *w = m->web;
   if (m->yields) {
-    w->yield = sw_alloc(w->links, sizeof *w->yield);
-    w->hardening = sw_alloc(w->links, sizeof *w->hardening);
-    if (!w->yield || !w->hardening) return SW_ENOMEM;
+    SW_TRY(SW_ALLOC_ALL(SW_ROOM(w->yield, w->links), SW_ROOM(w->hardening, w->links)));
   }
   for (size_t i = 0; i < w->links; i++) {
     const sw_particles_link *l = &m->parts->link[i];
@@ -326,11 +324,8 @@ static sw_status make_body(maker *m, sw_scene_wire *w) {
   sw_strand *s = &w->strand;
   SW_TRY(make_web(m));
   s->web = sw_web_retain(m->web);
-  s->x = sw_alloc(3 * n, sizeof *s->x);
-  s->v = sw_alloc(3 * n, sizeof *s->v);
-  s->a = sw_alloc(3 * n, sizeof *s->a);
-  s->axial = sw_alloc(m->web->links, sizeof *s->axial);
-  if (!s->x || !s->v || !s->a || !s->axial) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(s->x, 3 * n), SW_ROOM(s->v, 3 * n), SW_ROOM(s->a, 3 * n),
+                      SW_ROOM(s->axial, m->web->links)));
   memcpy(s->x, m->parts->positions, 3 * n * sizeof *s->x);
   for (size_t e = 0; e < m->web->links; e++) {
     const sw_web_link *l = &m->web->link[e];

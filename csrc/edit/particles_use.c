@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Objects of particles: reading, changing and holding them. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,18 +35,6 @@ sw_status sw_scene_particles_info(sw_scene *s, sw_handle h, sw_particles_info *o
                              .elements = web->solids,
                              .radius = w->beam.radius};
   for (size_t i = 0; i < web->particles; i++) out->mass += web->mass[i];
-  return SW_OK;
-}
-
-sw_status sw_scene_particles_copy(sw_scene *s, sw_handle h, double *positions, double *velocities,
-                                  sw_error *err) {
-  sw_system *system = sw_scene_system(s);
-  sw_scene_wire *w;
-  SW_TRY(open_particles(s, h, &w, err));
-  const sw_body *b = &system->bodies[h.slot];
-  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
-  if (positions) memcpy(positions, system->x + at, size);
-  if (velocities) memcpy(velocities, system->v + at, size);
   return SW_OK;
 }
 
@@ -153,10 +140,8 @@ static int by_number(const void *a, const void *b) {
 static sw_status take(const sw_scene_wire *w, sw_hold *h, const uint32_t *particles, size_t count,
                       sw_vec at) {
   const sw_strand *p = &w->strand;
-  h->s = sw_alloc(count, sizeof *h->s);
-  h->local = sw_alloc(3 * count, sizeof *h->local);
-  h->particle = sw_alloc(count, sizeof *h->particle);
-  if (!h->s || !h->local || !h->particle) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(h->s, count), SW_ROOM(h->local, 3 * count),
+                      SW_ROOM(h->particle, count)));
   memcpy(h->particle, particles, count * sizeof *particles);
   qsort(h->particle, count, sizeof *h->particle, by_number); /* one order, whatever was given */
   sw_vec middle = sw_v(0, 0, 0);
@@ -177,8 +162,7 @@ static sw_status take(const sw_scene_wire *w, sw_hold *h, const uint32_t *partic
 sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *name,
                                   const uint32_t *particles, size_t count, sw_vec at,
                                   sw_handle *out, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   SW_FIND(const sw_scene_wire, w, find(s, object, err));
   SW_TRY(check_hold(s, w, object.slot, particles, count, err));
   sw_hold h = {.alive = 1,
@@ -186,9 +170,7 @@ sw_status sw_scene_hold_particles(sw_scene *s, sw_handle object, const char *nam
                .wire = object.slot,
                .args = {.direction = {NAN, NAN, NAN}},
                .scale = 1};
-  char usual[SW_NAME_SIZE];
-  snprintf(usual, sizeof usual, "clamp%zu", sw_scene_hold_slots(s) + 1);
-  snprintf(h.name, sizeof h.name, "%s", name[0] ? name : usual);
+  sw_scene_give_name(h.name, name, "clamp", sw_scene_hold_slots(s));
   sw_status status = sw_scene_unbuild(s);
   if (status == SW_OK) status = take(w, &h, particles, count, at);
   if (status == SW_OK) status = sw_scene_add(s, SW_OF_HOLD, &h, out);

@@ -190,8 +190,7 @@ static sw_status check_fed(const sw_scene *s, sw_error *err) {
 }
 
 sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (count != sw_scene_wire_slots(s))
     return sw_fail(err, SW_EINVAL, "scene '%s': %zu wires, but %zu numbers of segments",
                    sw_scene_name(s), sw_scene_wire_slots(s), count);
@@ -251,8 +250,7 @@ static sw_status change_beam(sw_scene *s, size_t wire, const sw_redrawing *as, s
 }
 
 sw_status sw_scene_redraw(sw_scene *s, sw_handle h, const sw_redrawing *as, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
   sw_scene_wire *w = sw_scene_wire_in(s, h.slot);
   if (strcmp(w->cls->name, "rod") != 0)

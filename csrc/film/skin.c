@@ -16,10 +16,6 @@ typedef struct tailor {
   sw_vec across; /* of the first section, carried on from frame to frame */
 } tailor;
 
-static sw_vec vec_of(const float *p) { return sw_v((double)p[0], (double)p[1], (double)p[2]); }
-
-static void put(float *to, sw_vec a) { to[0] = (float)a.x, to[1] = (float)a.y, to[2] = (float)a.z; }
-
 /* The points of a frame, or of the nearest one that has them; step: numbers from one to the next.
  */
 static const float *points_of(const tailor *t, size_t k, size_t *count, size_t *step) {
@@ -45,7 +41,7 @@ static sw_vec point_at(const tailor *t, const float *p, size_t count, size_t ste
   const double x =
       t->sections > 1 ? (double)i * (double)(there - 1) / (double)(t->sections - 1) : 0;
   const size_t low = (size_t)x, high = low + 1 < there ? low + 1 : low;
-  return sw_lerp(vec_of(p + step * (each * low + k)), vec_of(p + step * (each * high + k)),
+  return sw_lerp(sw_vec_of(p + step * (each * low + k)), sw_vec_of(p + step * (each * high + k)),
                  x - (double)low);
 }
 
@@ -57,7 +53,7 @@ static void round_section(tailor *t, sw_vec p, sw_vec along, sw_vec *across, flo
   for (size_t k = 0; k < t->around; k++) {
     const double a = 2 * M_PI * (double)k / (double)t->around;
     const sw_vec out = sw_add(sw_scale(*across, cos(a)), sw_scale(side, sin(a)));
-    put(at + 3 * k, sw_madd(p, out, t->radius)), put(n + 3 * k, out);
+    sw_vec_to(at + 3 * k, sw_madd(p, out, t->radius)), sw_vec_to(n + 3 * k, out);
   }
 }
 
@@ -80,14 +76,16 @@ static void meshed(const tailor *t, const float *p, size_t count, size_t step, f
                    float *n) {
   const size_t w = t->around;
   for (size_t i = 0; i < t->sections; i++)
-    for (size_t k = 0; k < w; k++) put(at + 3 * (w * i + k), point_at(t, p, count, step, i, k));
+    for (size_t k = 0; k < w; k++)
+      sw_vec_to(at + 3 * (w * i + k), point_at(t, p, count, step, i, k));
   for (size_t i = 0; i < t->sections; i++)
     for (size_t k = 0; k < w; k++) {
       const size_t last = i + 1 < t->sections ? i + 1 : i, first = i ? i - 1 : i;
-      const sw_vec on = sw_sub(vec_of(at + 3 * (w * last + k)), vec_of(at + 3 * (w * first + k)));
-      const sw_vec round = sw_sub(vec_of(at + 3 * (w * i + (k + 1) % w)),
-                                  vec_of(at + 3 * (w * i + (k + w - 1) % w)));
-      put(n + 3 * (w * i + k), sw_unit_or(sw_cross(round, on), sw_v(0, 0, 1)));
+      const sw_vec on =
+          sw_sub(sw_vec_of(at + 3 * (w * last + k)), sw_vec_of(at + 3 * (w * first + k)));
+      const sw_vec round = sw_sub(sw_vec_of(at + 3 * (w * i + (k + 1) % w)),
+                                  sw_vec_of(at + 3 * (w * i + (k + w - 1) % w)));
+      sw_vec_to(n + 3 * (w * i + k), sw_unit_or(sw_cross(round, on), sw_v(0, 0, 1)));
     }
 }
 
@@ -98,13 +96,13 @@ static void ends(const tailor *t, float *at, float *n) {
     const size_t ring = e ? body - w : 0, inner = e ? ring - w : w, own = body + e * (w + 1);
     sw_vec middle = sw_v(0, 0, 0), within = sw_v(0, 0, 0);
     for (size_t k = 0; k < w; k++) {
-      middle = sw_madd(middle, vec_of(at + 3 * (ring + k)), 1 / (double)w);
-      within = sw_madd(within, vec_of(at + 3 * (inner + k)), 1 / (double)w);
+      middle = sw_madd(middle, sw_vec_of(at + 3 * (ring + k)), 1 / (double)w);
+      within = sw_madd(within, sw_vec_of(at + 3 * (inner + k)), 1 / (double)w);
     }
     const sw_vec out = sw_unit_or(sw_sub(middle, within), sw_v(0, 0, 1));
     memcpy(at + 3 * own, at + 3 * ring, 3 * w * sizeof *at);
-    put(at + 3 * (own + w), middle);
-    for (size_t k = 0; k <= w; k++) put(n + 3 * (own + k), out);
+    sw_vec_to(at + 3 * (own + w), middle);
+    for (size_t k = 0; k <= w; k++) sw_vec_to(n + 3 * (own + k), out);
   }
 }
 
@@ -133,7 +131,8 @@ static void fill(tailor *t, size_t k, const sw_skin *skin, float *at) {
   const float *p = points_of(t, k, &count, &step);
   float *n = at + 3 * skin->corners;
   if (t->loose) {
-    for (size_t i = 0; i < t->sections; i++) put(at + 3 * i, point_at(t, p, count, step, i, 0));
+    for (size_t i = 0; i < t->sections; i++)
+      sw_vec_to(at + 3 * i, point_at(t, p, count, step, i, 0));
     return;
   }
   if (t->meshed)

@@ -119,7 +119,7 @@ static void add_next(size_t n, const double *restrict c, const double *restrict 
  * tangent fixed. side -1: the edge arrives, its tangent counts reversed. */
 static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *field) {
   const size_t e = h->edge;
-  const double *d0 = field->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  const double *d0 = field->hold_directors + 3 * sw_clamp_place(h);
   const double t[3] = {field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]};
   double u = 0, s, w, p[3];
   for (int k = 0; k < 3; k++) u += 0.25 * (t[k] - d0[k]) * (t[k] - d0[k]);
@@ -151,7 +151,7 @@ static double softening(const sw_clamp_hinge *h, double EI) {
 static void soften_clamp(const sw_clamp_hinge *h, double EI, sw_field *field) {
   const size_t e = h->edge;
   const double k = softening(h, EI), rl = field->reciprocal[e];
-  const sw_vec t = sw_v(field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]);
+  const sw_vec t = sw_field_tangent(field, e);
   const sw_clamp_bend b = sw_clamp_bend_of(h, field->hold_directors, field->hold_normals, t);
   const double f = b.angle, gt = -k * f * sw_dot(b.slope, t);
   const sw_vec slope = sw_madd(b.slope, t, -sw_dot(b.slope, t)), g = sw_scale(slope, -k * f);
@@ -263,9 +263,8 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 /* k phi about t x d: turns the edge towards the director. */
 static sw_vec clamp_moment(const void *args, const sw_field *field, const sw_clamp_hinge *h) {
   const size_t e = h->edge;
-  const sw_vec d =
-      sw_load(field->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
-  const sw_vec t = sw_v(field->tangent[0][e], field->tangent[1][e], field->tangent[2][e]);
+  const sw_vec d = sw_vec_at(field->hold_directors, sw_clamp_place(h));
+  const sw_vec t = sw_field_tangent(field, e);
   double s, w;
   sw_angle_factors(0.25 * sw_norm2(sw_sub(t, d)), &s, &w);
   const double EI = ((const sw_bend_args *)args)->EI;

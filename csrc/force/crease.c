@@ -112,12 +112,6 @@ static void curve(const bent *b, block H[PARTS][PARTS]) {
     }
 }
 
-static void add_own(sw_field *f, size_t node, const double *H) {
-  double *to = f->blocks + f->own_slot[node];
-  for (size_t i = 0; i < 3; i++)
-    for (size_t j = 0; j < 3; j++) to[i * f->block_stride + j] += H[3 * i + j];
-}
-
 static void add_stiffness(const sw_web_crease *crease, const bent *b, size_t number, sw_field *f) {
   const uint32_t node[PARTS] = {crease->a, crease->c, crease->d};
   const size_t *slot = f->crease_slot + SW_FIELD_CREASE_PAIRS * number;
@@ -131,10 +125,10 @@ static void add_stiffness(const sw_web_crease *crease, const bent *b, size_t num
           with_b[i][j] -= H[m][n][i][j];
           own[i][j] += H[m][n][i][j];
         }
-    add_own(f, node[m], &H[m][m][0][0]);
+    sw_field_add_own(f, node[m], &H[m][m][0][0]);
     sw_field_add_block(f, node[m], crease->b, slot[m], &with_b[0][0], 3);
   }
-  add_own(f, crease->b, &own[0][0]);
+  sw_field_add_own(f, crease->b, &own[0][0]);
   sw_field_add_block(f, crease->a, crease->c, slot[3], &H[A][C][0][0], 3);
   sw_field_add_block(f, crease->a, crease->d, slot[4], &H[A][EDGE][0][0], 3);
   sw_field_add_block(f, crease->c, crease->d, slot[5], &H[C][EDGE][0][0], 3);

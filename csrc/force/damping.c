@@ -34,18 +34,8 @@ static void mass_term(double alpha, sw_field *f) {
   }
 }
 
-static sw_vec edge_tangent(const sw_field *f, size_t e) {
-  return sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
-}
-
 static sw_vec edge_rate(const sw_field *f, size_t e) {
   return sw_sub(sw_load(f->v + 3 * e + 3), sw_load(f->v + 3 * e));
-}
-
-static void add_gradient(sw_field *f, size_t e, sw_vec g) {
-  f->gradient[0][e] += g.x;
-  f->gradient[1][e] += g.y;
-  f->gradient[2][e] += g.z;
 }
 
 /* own[e] += a (t t') + b (I - t t') */
@@ -60,7 +50,7 @@ static double strain_rate(const sw_field *f, size_t e) {
   const double rest = f->plan->rest[e];
   if (f->strain_rate) return f->strain_rate[e];
   if (f->strain_past) return (f->length[e] / rest - 1.0 - f->strain_past[e]) * f->velocity_rate;
-  return sw_dot(edge_tangent(f, e), edge_rate(f, e)) / rest;
+  return sw_dot(sw_field_tangent(f, e), edge_rate(f, e)) / rest;
 }
 
 /* By how much the dashpot's force changes the axial force that the stiffness across the edge may
@@ -74,7 +64,8 @@ static void axial_term(double beta, sw_field *f) {
   for (size_t e = 0; e < f->plan->edges; e++) {
     if (f->want & (SW_WANT_FORCE | SW_WANT_POWER)) {
       const double rate = strain_rate(f, e);
-      if (f->want & SW_WANT_FORCE) add_gradient(f, e, sw_scale(edge_tangent(f, e), c * rate));
+      if (f->want & SW_WANT_FORCE)
+        sw_field_add_gradient(f, e, sw_scale(sw_field_tangent(f, e), c * rate));
       f->power += f->want & SW_WANT_POWER ? c * rate * rate * f->plan->rest[e] : 0.0;
     }
     if (!(f->want & SW_WANT_STIFFNESS)) continue;

@@ -4,20 +4,10 @@
 #include "base/simd.h"
 #include "state/clamp.h"
 
-static sw_vec tangent_of(const sw_field *f, size_t e) {
-  return sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
-}
-
 /* Rotation of an edge without its spin: t x v / l [rad/s]. */
 static sw_vec rotation_of(const sw_field *f, size_t e) {
   const sw_vec v = sw_sub(sw_load(f->v + 3 * e + 3), sw_load(f->v + 3 * e));
-  return sw_scale(sw_cross(tangent_of(f, e), v), f->reciprocal[e]);
-}
-
-static void add_gradient(sw_field *f, size_t e, sw_vec g) {
-  f->gradient[0][e] += g.x;
-  f->gradient[1][e] += g.y;
-  f->gradient[2][e] += g.z;
+  return sw_scale(sw_cross(sw_field_tangent(f, e), v), f->reciprocal[e]);
 }
 
 /* own[e] += k (I - t t') */
@@ -75,8 +65,9 @@ static void move_hinge(double k, sw_field *f, size_t i, sw_vec before, sw_vec af
   const sw_vec rate = sw_sub(after, before), m = sw_scale(rate, k);
   if (f->want & SW_WANT_POWER) f->power += k * sw_norm2(rate);
   if (!(f->want & SW_WANT_FORCE)) return;
-  add_gradient(f, i - 1, sw_scale(sw_cross(tangent_of(f, i - 1), m), f->reciprocal[i - 1]));
-  add_gradient(f, i, sw_scale(sw_cross(m, tangent_of(f, i)), f->reciprocal[i]));
+  sw_field_add_gradient(f, i - 1,
+                        sw_scale(sw_cross(sw_field_tangent(f, i - 1), m), f->reciprocal[i - 1]));
+  sw_field_add_gradient(f, i, sw_scale(sw_cross(m, sw_field_tangent(f, i)), f->reciprocal[i]));
 }
 
 void sw_dashpot_hinges(double eta, sw_field *f) {
@@ -104,7 +95,8 @@ void sw_dashpot_hinges(double eta, sw_field *f) {
 /* How fast the edge falls behind the hold, about axes across the edge [rad/s]. */
 static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
   const size_t c = (size_t)(h - f->plan->clamps);
-  const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h)), t = tangent_of(f, h->edge);
+  const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h)),
+               t = sw_field_tangent(f, h->edge);
   const sw_vec turn = sw_vec_at(f->hold_turns, (size_t)h->hold);
   const double spin = sw_dot(turn, d); /* does not count, see dashpot.h */
   if (f->clamp_past || f->clamp_rate) {
@@ -126,7 +118,7 @@ void sw_dashpot_clamp(double eta, sw_field *f, const sw_clamp_hinge *h) {
   if (f->want & SW_WANT_POWER) f->power += k * sw_norm2(clamp_rate(f, h));
   if (f->want & SW_WANT_FORCE) {
     const sw_vec m = sw_scale(clamp_rate(f, h), k);
-    add_gradient(f, h->edge, sw_scale(sw_cross(tangent_of(f, h->edge), m), r));
+    sw_field_add_gradient(f, h->edge, sw_scale(sw_cross(sw_field_tangent(f, h->edge), m), r));
   }
   if (f->want & SW_WANT_STIFFNESS) add_own(f, h->edge, k * f->velocity_rate * r * r);
 }

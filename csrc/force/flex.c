@@ -49,7 +49,7 @@ static double energy(const sw_plan *p, double EI, const double *x) {
 
 static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *f) {
   const size_t e = h->edge;
-  const double *d0 = f->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  const double *d0 = f->hold_directors + 3 * sw_clamp_place(h);
   const double k0 = EI / h->length, r = 1.0 / f->plan->rest[e];
   static const int diagonal[3] = {0, 3, 5};
   for (size_t k = 0; k < 3; k++) {
@@ -88,7 +88,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
 /* e/l x k d: the couple of the linear spring between director and edge. */
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *h) {
   const size_t e = h->edge;
-  const sw_vec d = sw_load(f->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0)));
+  const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h));
   const sw_vec edge = sw_sub(sw_load(f->x + 3 * e + 3), sw_load(f->x + 3 * e));
   const double k = ((const sw_bend_args *)args)->EI / h->length / f->plan->rest[e];
   return sw_scale(sw_cross(edge, d), k);

@@ -77,12 +77,6 @@ static void mixed_part(const bent *b, double H[9]) {
     }
 }
 
-static void add_own(sw_field *f, size_t node, const double H[9]) {
-  double *to = f->blocks + f->own_slot[node];
-  for (size_t i = 0; i < 3; i++)
-    for (size_t j = 0; j < 3; j++) to[i * f->block_stride + j] += H[3 * i + j];
-}
-
 static void add_stiffness(const sw_web_fold *fold, const bent *b, size_t number, sw_field *f) {
   const size_t *slot = f->fold_slot + 3 * number;
   double H1[9], H2[9], M[9], bb[9], ab[9], ac[9], bc[9];
@@ -97,9 +91,9 @@ static void add_stiffness(const sw_web_fold *fold, const bent *b, size_t number,
       ac[k] = -M[k];
       bc[k] = M[k] - H2[k];
     }
-  add_own(f, fold->a, H1);
-  add_own(f, fold->b, bb);
-  add_own(f, fold->c, H2);
+  sw_field_add_own(f, fold->a, H1);
+  sw_field_add_own(f, fold->b, bb);
+  sw_field_add_own(f, fold->c, H2);
   sw_field_add_block(f, fold->a, fold->b, slot[0], ab, 3);
   sw_field_add_block(f, fold->a, fold->c, slot[1], ac, 3);
   sw_field_add_block(f, fold->b, fold->c, slot[2], bc, 3);

@@ -110,7 +110,7 @@ FLAT void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hinge
   frame *held = leaves ? &h->a : &h->b, *edge = leaves ? &h->b : &h->a;
   spread(&held->t, sw_vec_at(f->hold_directors, place));
   spread(&held->m1, sw_vec_at(f->hold_normals, place));
-  spread(&edge->t, sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]));
+  spread(&edge->t, sw_field_tangent(f, e));
   spread(&edge->m1, sw_v(f->normals[0][e], f->normals[1][e], f->normals[2][e]));
   h->ra = all(leaves ? 1.0 : f->reciprocal[e]);
   h->rb = all(leaves ? f->reciprocal[e] : 1.0);

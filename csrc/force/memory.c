@@ -26,32 +26,23 @@ static sw_slip_law law_of(const sw_memory_law *law, double length) {
                        law->limit};
 }
 
-static sw_vec tangent_of(const sw_field *f, size_t e) {
-  return sw_v(f->tangent[0][e], f->tangent[1][e], f->tangent[2][e]);
-}
-
 /* The hinge of a node; at the wire's ends both tangents are the only edge's. */
 static sw_slip_hinge node_hinge(const sw_field *f, size_t i) {
   const size_t before = i > 0 ? i - 1 : 0, after = i < f->plan->edges ? i : i - 1;
-  return (sw_slip_hinge){{tangent_of(f, before), tangent_of(f, after)},
+  return (sw_slip_hinge){{sw_field_tangent(f, before), sw_field_tangent(f, after)},
                          {f->reciprocal[before], f->reciprocal[after]}};
 }
 
 static sw_slip_hinge clamp_hinge(const sw_field *f, const sw_clamp_hinge *c) {
-  const sw_vec d = sw_load(f->hold_directors + 3 * (2 * (size_t)c->hold + (c->side > 0 ? 1 : 0)));
-  const sw_vec t = tangent_of(f, c->edge);
+  const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(c));
+  const sw_vec t = sw_field_tangent(f, c->edge);
   const double r = f->reciprocal[c->edge];
   if (c->side > 0) return (sw_slip_hinge){{d, t}, {0, r}};
   return (sw_slip_hinge){{t, d}, {r, 0}};
 }
 
 static void add_edge(sw_field *f, size_t e, const sw_slip_answer *a, int side) {
-  const sw_vec g = a->gradient[side];
-  if (f->want & SW_WANT_FORCE) {
-    f->gradient[0][e] += g.x;
-    f->gradient[1][e] += g.y;
-    f->gradient[2][e] += g.z;
-  }
+  if (f->want & SW_WANT_FORCE) sw_field_add_gradient(f, e, a->gradient[side]);
   if (f->want & SW_WANT_STIFFNESS)
     for (int k = 0; k < 6; k++) f->own[k][e] += a->own[side][k];
 }
@@ -117,7 +108,7 @@ sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *f,
   const sw_slip_hinge h = clamp_hinge(f, c);
   sw_slip_answer a;
   sw_slip_eval(&one, &m, &h, SW_WANT_FORCE, 1.0, &a);
-  const sw_vec edge = sw_scale(tangent_of(f, c->edge), f->length[c->edge]);
+  const sw_vec edge = sw_scale(sw_field_tangent(f, c->edge), f->length[c->edge]);
   return sw_cross(a.gradient[c->side > 0], edge);
 }
 
@@ -177,7 +168,7 @@ void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *f
     double lo, hi;
     stretch_of(p, i, &lo, &hi);
     const sw_vec b = i < p->nodes ? sw_add(node_hinge(f, i).t[0], node_hinge(f, i).t[1])
-                                  : tangent_of(f, p->clamps[i - p->nodes].edge);
+                                  : sw_field_tangent(f, p->clamps[i - p->nodes].edge);
     const sw_slip_memory m = collect(old, from, lo, hi, sw_unit_or(b, sw_v(1, 0, 0)));
     store(history, i, &m);
   }

@@ -23,12 +23,7 @@ static const sw_param rows[] = {
      "arc length of the tied place"},
     {"to", SW_PARAM_VECTOR, "m", 0, -HUGE_VAL, HUGE_VAL, SW_PARAM_REQUIRED, NULL,
      offsetof(tether_args, to), "the point"},
-    {"slack", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(tether_args, slack),
-     "distance up to which it does not pull"},
-    {"stiffness", SW_PARAM_NUMBER, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(tether_args, stiffness), "when it is taut"},
-    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(tether_args, strength), "pull at which it breaks (default: never)"},
+    SW_TIE_ROWS(tether_args),
 };
 
 enum { DISSIPATED, FATE, HISTORY = FATE + SW_TIE_FATE };

@@ -41,7 +41,7 @@ static void tangent(const sw_field *f, size_t e, double t[3]) {
 }
 
 static const double *director(const sw_field *f, const sw_clamp_hinge *h) {
-  return f->hold_directors + 3 * (2 * (size_t)h->hold + (h->side > 0 ? 1 : 0));
+  return f->hold_directors + 3 * sw_clamp_place(h);
 }
 
 /* A clamp's part of the slope on its edge, and of the block second derivative. */

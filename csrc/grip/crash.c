@@ -43,16 +43,12 @@ static void look_at_end(void *user, sw_vec a, sw_vec b, double skin) {
   if (a.x == b.x && a.y == b.y && a.z == b.z) look_at_point(user, a, skin);
 }
 
-static sw_pose pose_in(sw_pose part, sw_pose other) {
-  return (sw_pose){sw_pose_local(other, part.p), sw_quat_mul(sw_quat_conj(other.q), part.q)};
-}
-
 /* How far a part and an obstacle overlap [m]. */
 static double overlap_of(const sw_shape *part, sw_pose at, const sw_shape *other, sw_pose there) {
-  overlap o = {.other = other, .pose = pose_in(at, there)};
+  overlap o = {.other = other, .pose = sw_pose_from(there, at)};
   sw_shape_bones(part, look_at_bone, &o);
   if (sw_shape_is(other, SW_SHAPE_LISTED)) return o.depth; /* too many to be asked one by one */
-  overlap back = {.other = part, .pose = pose_in(there, at)};
+  overlap back = {.other = part, .pose = sw_pose_from(at, there)};
   sw_shape_bones(other, look_at_end, &back);
   return fmax(o.depth, back.depth);
 }

@@ -20,11 +20,7 @@ void sw_frozen_release(sw_frozen *f) {
   sw_mesh_free(&f->mesh);
   sw_strand_free(&f->strand);
   sw_region_free(&f->stations);
-  sw_free(f->frame);
-  sw_free(f->rod);
-  sw_free(f->touch);
-  sw_free(f->memory);
-  sw_free(f);
+  SW_FREE_ALL(f->frame, f->rod, f->touch, f->memory, f);
 }
 
 /* --- on a tape ---------------------------------------------------------------------------- */

@@ -32,9 +32,7 @@ void sw_hold_forget(sw_hold_args *a) {
 
 void sw_hold_clear(sw_hold *h) {
   if (h->cls && h->cls->hold->clear) h->cls->hold->clear(h);
-  sw_free(h->s);
-  sw_free(h->local);
-  sw_free(h->particle);
+  SW_FREE_ALL(h->s, h->local, h->particle);
   sw_log_free(&h->log);
   sw_motion_release(h->drive.motion);
 }

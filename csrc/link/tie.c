@@ -6,14 +6,7 @@
 
 #include "link/joint.h"
 
-static const sw_param rows[] = {
-    {"slack", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_join_args, slack),
-     "distance up to which it does not pull"},
-    {"stiffness", SW_PARAM_NUMBER, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_join_args, stiffness), "when it is taut"},
-    {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_join_args, strength), "pull at which it breaks (default: never)"},
-};
+static const sw_param rows[] = {SW_TIE_ROWS(sw_join_args)};
 
 static sw_status add(sw_joint *j, const sw_link_wire *wires) {
   const sw_join_spring spring = {.i = sw_joint_node(&j->ends[0], &wires[0]),

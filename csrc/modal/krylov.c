@@ -23,21 +23,15 @@ sw_status sw_krylov_new(sw_krylov *k, const sw_system *system, size_t body, doub
                    .factor = factor,
                    .capacity = most,
                    .seed = 20};
-  k->projected = sw_alloc(most * most, sizeof *k->projected);
-  k->coefficients = sw_alloc(most, sizeof *k->coefficients);
-  k->work = sw_alloc(n, sizeof *k->work);
-  k->image = sw_alloc(n, sizeof *k->image);
-  k->vectors = sw_alloc(most, sizeof *k->vectors);
-  if (k->projected && k->coefficients && k->work && k->image && k->vectors) return SW_OK;
-  sw_krylov_free(k);
-  return SW_ENOMEM;
+  const sw_status status =
+      SW_ALLOC_ALL(SW_ROOM(k->projected, most * most), SW_ROOM(k->coefficients, most),
+                   SW_ROOM(k->work, n), SW_ROOM(k->image, n), SW_ROOM(k->vectors, most));
+  if (status != SW_OK) sw_krylov_free(k);
+  return status;
 }
 
 void sw_krylov_free(sw_krylov *k) {
-  sw_free(k->projected);
-  sw_free(k->coefficients);
-  sw_free(k->work);
-  sw_free(k->image);
+  SW_FREE_ALL(k->projected, k->coefficients, k->work, k->image);
   for (size_t j = 0; k->vectors && j < k->count; j++) sw_free(k->vectors[j]);
   sw_free(k->vectors);
   *k = (sw_krylov){0};

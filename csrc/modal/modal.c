@@ -273,9 +273,7 @@ static sw_status polish(const job *p, sw_modes *out) {
   else
     out_of_memory(p);
   for (size_t r = 0; x && r < q; r++) sw_free(x[r]);
-  sw_free(x);
-  sw_free(dense);
-  sw_free(w);
+  SW_FREE_ALL(x, dense, w);
   return status;
 }
 
@@ -315,11 +313,7 @@ sw_status sw_modal_solve(const sw_system *system, size_t body, size_t modes, dou
   p.other = sw_alloc(size, sizeof *p.other);
   const sw_status status = p.factor && p.other ? run(&p, modes, out) : out_of_memory(&p);
   sw_krylov_free(&p.krylov);
-  sw_free(p.values);
-  sw_free(p.vectors);
-  sw_free(p.scratch);
-  sw_free(p.factor);
-  sw_free(p.other);
+  SW_FREE_ALL(p.values, p.vectors, p.scratch, p.factor, p.other);
   if (status != SW_OK) sw_modes_free(out);
   return status;
 }

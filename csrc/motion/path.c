@@ -106,7 +106,5 @@ double sw_path_corner_length(const sw_segment *in, const sw_segment *out) {
 void sw_path_destroy(void *body) {
   sw_path *path = body;
   if (!path) return;
-  sw_free(path->segments);
-  sw_free(path->runs);
-  sw_free(path);
+  SW_FREE_ALL(path->segments, path->runs, path);
 }

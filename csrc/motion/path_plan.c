@@ -163,9 +163,8 @@ sw_status sw_path_plan(const sw_motion_law *law, const sw_motion_plan *plan, sw_
   motion->body = path; /* freed with the motion */
   path->profile = law->profile;
   path->segment_count = route->count - 1;
-  path->segments = sw_alloc(path->segment_count, sizeof *path->segments);
-  path->runs = sw_alloc(path->segment_count, sizeof *path->runs);
-  if (!path->segments || !path->runs) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(path->segments, path->segment_count),
+                      SW_ROOM(path->runs, path->segment_count)));
   add_segments(law, plan, route, path);
   if (!isnan(plan->duration)) {
     double factor = 1;

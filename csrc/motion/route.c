@@ -9,19 +9,13 @@ static const double same_place = 1e-9; /* [m] */
 static const double same_angle = 1e-9; /* [rad] */
 
 void sw_route_free(sw_route *route) {
-  sw_free(route->p);
-  sw_free(route->q);
-  sw_free(route->t);
-  sw_free(route->legs);
+  SW_FREE_ALL(route->p, route->q, route->t, route->legs);
   route->p = NULL, route->q = NULL, route->t = NULL, route->legs = NULL;
 }
 
 static sw_status allocate(sw_route *route) {
-  route->p = sw_alloc(route->count, sizeof *route->p);
-  route->q = sw_alloc(route->count, sizeof *route->q);
-  route->t = sw_alloc(route->count, sizeof *route->t);
-  route->legs = sw_alloc(route->count, sizeof *route->legs);
-  return route->p && route->q && route->t && route->legs ? SW_OK : SW_ENOMEM;
+  return SW_ALLOC_ALL(SW_ROOM(route->p, route->count), SW_ROOM(route->q, route->count),
+                      SW_ROOM(route->t, route->count), SW_ROOM(route->legs, route->count));
 }
 
 /* Does a displacement need a way-point before its first? */

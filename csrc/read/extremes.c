@@ -32,8 +32,6 @@ static double largest_curvature2(size_t n, const double *restrict hinge, const d
   return largest;
 }
 
-static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
-
 double sw_scene_hinge_chord(const sw_field *f, size_t i) {
   double d2 = 0;
   for (int k = 0; k < 3; k++) {
@@ -58,7 +56,7 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
     if (!(p->hinge[i] > 0)) continue;
     const double chord = sw_scene_hinge_chord(f, i);
     if (chord * chord < (1 - 1e-12) * bound2 * p->hinge[i] * p->hinge[i]) continue;
-    *out = (sw_extreme){.value = angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
+    *out = (sw_extreme){.value = sw_angle_of_chord(chord) / p->hinge[i], .s = p->s[i]};
     break;
   }
   SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {
@@ -130,7 +128,7 @@ static void strain_extreme(const sw_system *s, const sw_body *b, sw_extreme *out
     const double chord = sw_scene_hinge_chord(f, i), mean = 0.5 * (T[i] + T[i - 1]) / EA;
     const double per_length = p->hinge[i] > 0 ? radius / p->hinge[i] : 0.0;
     if (mean + per_length * chord < bound - 1e-12 * fabs(bound)) continue;
-    *out = (sw_extreme){.value = mean + per_length * angle_of_chord(chord), .s = p->s[i]};
+    *out = (sw_extreme){.value = mean + per_length * sw_angle_of_chord(chord), .s = p->s[i]};
     break;
   }
   SW_ITEMS(const sw_clamp_hinge, h, p->clamps, p->clamp_count) {

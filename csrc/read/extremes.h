@@ -24,6 +24,7 @@ int sw_scene_is_averaged(const sw_scene *scene);
 const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
 /* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
 sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
+static inline double sw_angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
 /* |t2 - t1| at inner node i of a line [-]; the curvature beside a clamp [1/m]. */
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
 double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,

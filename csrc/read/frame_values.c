@@ -14,12 +14,10 @@
 #include "state/plan.h"
 #include "system/axial.h"
 
-static double angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
-
-/* As angle_of_chord, within 5e-9 of it and without its cost where it is small. */
+/* As sw_angle_of_chord, within 5e-9 of it and without its cost where it is small. */
 static double quick_angle(double chord) {
   const double c2 = chord * chord;
-  return c2 < 1e-3 ? chord * (1 + c2 / 24) : angle_of_chord(chord);
+  return c2 < 1e-3 ? chord * (1 + c2 / 24) : sw_angle_of_chord(chord);
 }
 
 /* The strain of the outermost fibre, of axial force and the bend beyond that at rest. */

@@ -92,15 +92,11 @@ void sw_scene_frames_back_to(sw_scene *s, size_t count, size_t stride) {
   while (all->count > kept) sw_scene_drop_last_frame(s);
 }
 
-static void store_vec(float *out, sw_vec a) {
-  out[0] = (float)a.x, out[1] = (float)a.y, out[2] = (float)a.z;
-}
-
 static void store_body(float *out, sw_pose pose, sw_vec force) {
-  store_vec(out, pose.p);
+  sw_vec_to(out, pose.p);
   out[3] = (float)pose.q.w, out[4] = (float)pose.q.x;
   out[5] = (float)pose.q.y, out[6] = (float)pose.q.z;
-  store_vec(out + SW_FRAME_POSE, force);
+  sw_vec_to(out + SW_FRAME_POSE, force);
 }
 
 /* The middle line of a mesh and its surface. */
@@ -115,7 +111,7 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
   if (!pressed) return sw_fail(err, SW_ENOMEM, "out of memory for frames");
   sw_strand_pressed(s, b, pressed, NULL);
   *p++ = (float)web->rings;
-  for (size_t r = 0; r < web->rings; r++, p += 3) store_vec(p, sw_strand_middle(web, x, r));
+  for (size_t r = 0; r < web->rings; r++, p += 3) sw_vec_to(p, sw_strand_middle(web, x, r));
   *p++ = SW_FRAME_VALUES;
   sw_scene_node_values(s, (size_t)(b - system->bodies), web->rings, p);
   p += SW_FRAME_VALUES * web->rings;
@@ -124,7 +120,7 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
     sw_strand_outline(web, x, r, outline);
     sw_outline_widen(outline, around, sw_strand_facing(web, x, r), web->skin - web->proud, wide);
     for (size_t k = 0; k < around; k++, p += SW_FRAME_SURFACE) {
-      store_vec(p, sw_vec_at(wide, k));
+      sw_vec_to(p, sw_vec_at(wide, k));
       p[3] = (float)pressed[web->first[r] + (sw_web_is_ring(web, r) ? web->around[k] : 0)];
     }
   }

@@ -37,14 +37,15 @@ sw_status sw_scene_wire_particles(sw_scene *s, sw_handle h, size_t *particles, s
 }
 
 sw_status sw_scene_wire_particle_copy(sw_scene *s, sw_handle h, double *positions, double *arc,
-                                      sw_error *err) {
+                                      double *velocities, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   sw_scene_wire *w;
   SW_TRY(sw_scene_open_body(s, h, &w, err));
   const sw_body *b = &system->bodies[h.slot];
-  const size_t n = b->plan->nodes;
-  memcpy(positions, system->x + 3 * b->first_node, 3 * n * sizeof(double));
-  for (size_t i = 0; i < n; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
+  const size_t at = 3 * b->first_node, size = 3 * b->plan->nodes * sizeof(double);
+  if (positions) memcpy(positions, system->x + at, size);
+  if (velocities) memcpy(velocities, system->v + at, size);
+  for (size_t i = 0; arc && i < b->plan->nodes; i++) arc[i] = b->plan->s[i] - b->plan->s[0];
   return SW_OK;
 }
 
@@ -140,12 +141,6 @@ static void add_energy(sw_energy *out, const char *kind, double value) {
   out->value[out->count++] = value;
 }
 
-/* Explicit methods have lumped masses. */
-static int lumped(const sw_scene *s) {
-  sw_course *c = sw_scene_course(s);
-  return c->has_stepper && !(c->method->flags & SW_INTEGRATOR_IMPLICIT);
-}
-
 /* Of the forces on one body. */
 static void add_terms(sw_scene *s, size_t body, sw_energy *out) {
   sw_system *system = sw_scene_system(s);
@@ -163,7 +158,7 @@ static void collect_energy(sw_scene *s, sw_energy *out) {
   sw_crowd *crowd = sw_scene_crowd(s);
   sw_system *system = sw_scene_system(s);
   out->count = 0;
-  add_energy(out, "kinetic", sw_system_kinetic(system, lumped(s)));
+  add_energy(out, "kinetic", sw_system_kinetic(system, sw_course_lumps(sw_scene_course(s))));
   for (size_t b = 0; b < system->body_count; b++) add_terms(s, b, out);
   out->dissipated = sw_system_dissipated(system, &out->has_dissipated);
   if (sw_scene_has_contact(s)) add_energy(out, "contact", sw_scene_contact_energy(s));
@@ -186,7 +181,7 @@ sw_status sw_scene_body_energy(sw_scene *s, sw_handle h, sw_energy *out, sw_erro
   SW_TRY(sw_scene_still(s, err));
   SW_TRY(sw_scene_open_body(s, h, &w, err));
   *out = (sw_energy){0};
-  add_energy(out, "kinetic", sw_body_kinetic(system, h.slot, lumped(s)));
+  add_energy(out, "kinetic", sw_body_kinetic(system, h.slot, sw_course_lumps(sw_scene_course(s))));
   add_terms(s, h.slot, out);
   for (size_t k = 0; k < system->bodies[h.slot].term_count; k++) {
     const double *history = system->bodies[h.slot].terms[k].history;

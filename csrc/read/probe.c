@@ -45,8 +45,7 @@ static void aim(sw_scene *s, sw_body *b, const sw_probe *at) {
 sw_status sw_scene_probe(sw_scene *s, sw_handle wire, const sw_force_class *cls, const sw_probe *at,
                          sw_probe_result *out, sw_error *err) {
   sw_system *system = sw_scene_system(s);
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (!sw_scene_find_body(s, wire, err)) return SW_EDEAD;
   SW_TRY(sw_scene_build(s, err));
   SW_TRY(sw_system_place_holds(system, sw_scene_time(s), NULL, NULL, NULL, err));

@@ -17,8 +17,8 @@ sw_status sw_scene_wire_copy(sw_scene *scene, sw_handle wire, double *positions,
 /* All particles of a wire that is a mesh, ring by ring; of any other its nodes. */
 sw_status sw_scene_wire_particles(sw_scene *scene, sw_handle wire, size_t *particles,
                                   sw_error *err);
-sw_status sw_scene_wire_particle_copy(sw_scene *scene, sw_handle wire, double *positions, double *s,
-                                      sw_error *err);
+sw_status sw_scene_wire_particle_copy(sw_scene *scene, sw_handle body, double *positions, double *s,
+                                      double *velocities, sw_error *err);
 /* Give every node a velocity: linear field v + omega x (x - about). */
 sw_status sw_scene_wire_set_velocity(sw_scene *scene, sw_handle wire, sw_vec v, sw_vec omega,
                                      sw_vec about, sw_error *err);

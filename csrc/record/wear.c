@@ -6,9 +6,7 @@
 #include "base/alloc.h"
 
 void sw_wear_free(sw_wear *w) {
-  sw_free(w->places);
-  sw_free(w->cycles);
-  sw_free(w->across);
+  SW_FREE_ALL(w->places, w->cycles, w->across);
   sw_window_free(&w->pressed);
   *w = (sw_wear){0};
 }

@@ -4,9 +4,7 @@
 #include "base/alloc.h"
 
 void sw_zones_forget(sw_zone_watch *w) {
-  sw_free(w->past);
-  sw_free(w->gaps);
-  sw_free(w->x);
+  SW_FREE_ALL(w->past, w->gaps, w->x);
   *w = (sw_zone_watch){0};
 }
 

@@ -39,9 +39,7 @@ static int pressed_rings(const sw_scene *s, const sw_tool *t, const sw_body *b, 
 
 static sw_status keep_stations(const sw_web *web, const sw_mesh *mesh, sw_stations *out) {
   out->n = web->rings;
-  out->s = sw_alloc(web->rings, sizeof *out->s);
-  out->ring = sw_alloc(web->rings, sizeof *out->ring);
-  if (!out->s || !out->ring) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(out->s, web->rings), SW_ROOM(out->ring, web->rings)));
   for (size_t r = 0; r < web->rings; r++) {
     out->s[r] = mesh->s[r] - mesh->s[0];
     out->ring[r] = (unsigned char)sw_web_is_ring(web, r);
@@ -74,9 +72,7 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   SW_TRY(keep_memory(s, b, f));
   SW_TRY(sw_frozen_keep_touches(s, t, f, err));
   SW_TRY(sw_line_read(s, wire, f->stations.n, f->stations.s, line, err));
-  f->frame = sw_alloc(6 * f->stations.n, sizeof *f->frame);
-  f->rod = sw_alloc(3 * f->stations.n, sizeof *f->rod);
-  if (!f->frame || !f->rod) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(f->frame, 6 * f->stations.n), SW_ROOM(f->rod, 3 * f->stations.n)));
   memcpy(f->frame, line->frame, 6 * f->stations.n * sizeof *f->frame);
   return sw_frozen_condense(s, t, f, ends, err);
 }
@@ -185,8 +181,7 @@ sw_status sw_scene_tool_freeze(sw_scene *s, sw_handle tool, sw_handle wire, sw_b
   sw_line line = {0};
   sw_grip_end ends[2];
   *out = (sw_freeze_report){0};
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   SW_TRY(check_freeze(s, t, wire, err));
   SW_TRY(sw_scene_build(s, err));

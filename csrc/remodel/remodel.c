@@ -200,8 +200,7 @@ sw_status sw_scene_remodel(sw_scene *s, sw_handle h, const sw_wire_args *args,
                            const sw_wire_mesh_args *mesh, const double *region,
                            sw_remodel_report *out, sw_error *err) {
   *out = (sw_remodel_report){0};
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
   const sw_wire_class *cls = sw_wire_all()[args->model];
   SW_TRY(check(s, h.slot, cls, err));

@@ -142,8 +142,7 @@ sw_status sw_scene_tool_thaw(sw_scene *s, sw_handle tool, sw_balance *balance,
                              sw_freeze_report *out, sw_error *err) {
   sw_line line = {0};
   *out = (sw_freeze_report){0};
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   SW_FIND(const sw_tool, t, sw_scene_find_tool(s, tool, err));
   sw_frozen *f = t->frozen;
   if (!f) return sw_fail(err, SW_EINVAL, "gripper '%s' does not hold its wire rigidly", t->name);

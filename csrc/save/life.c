@@ -66,17 +66,8 @@ void sw_scene_free(sw_scene *s) {
   sw_events_clear(&s->events);
   sw_watches_clear(&s->watches);
   sw_ledger_free(&s->books);
-  sw_free(s->hold_slot);
-  sw_free(s->hold_loads);
-  sw_free(s->wires);
-  sw_free(s->gone);
-  sw_free(s->holds);
-  sw_free(s->obstacles);
-  sw_free(s->tools);
-  sw_free(s->forces);
-  sw_free(s->zones.list);
-  sw_free(s->joins);
-  sw_free(s);
+  SW_FREE_ALL(s->hold_slot, s->hold_loads, s->wires, s->gone, s->holds, s->obstacles, s->tools,
+              s->forces, s->zones.list, s->joins, s);
 }
 
 sw_status sw_scene_set_gravity(sw_scene *s, sw_vec gravity, sw_error *err) {

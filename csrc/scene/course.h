@@ -28,6 +28,10 @@ typedef struct sw_course {
   double covered; /* steps that these make together [-] */
 } sw_course;
 
+/* 1: its method is explicit and has lumped masses. */
+static inline int sw_course_lumps(const sw_course *course) {
+  return course->has_stepper && !(course->method->flags & SW_INTEGRATOR_IMPLICIT);
+}
 /* The scene was changed, or its state jumped. */
 static inline void sw_course_jump(sw_course *course) { course->next = SW_ANEW; }
 /* It came to rest. */

@@ -51,6 +51,11 @@ sw_status sw_scene_editable(const sw_scene *s, sw_error *err) {
   return SW_OK;
 }
 
+sw_status sw_scene_ready(const sw_scene *s, sw_error *err) {
+  SW_TRY(sw_scene_editable(s, err));
+  return sw_scene_readable(s, err);
+}
+
 sw_scene_wire *sw_scene_find_body(const sw_scene *s, sw_handle h, sw_error *err) {
   if (h.slot < s->wire_count && s->wires[h.slot].generation == h.generation)
     return &s->wires[h.slot];
@@ -77,38 +82,21 @@ static void *missing(const sw_scene *s, const char *word, sw_error *err) {
   return NULL;
 }
 
-/* The object of the handle in a list, released or not. */
-#define KNOWN(list, count, h) \
-  ((h).slot < (count) && (list)[(h).slot].generation == (h).generation ? &(list)[(h).slot] : NULL)
-
-sw_hold *sw_scene_find_hold(const sw_scene *s, sw_handle h, sw_error *err) {
-  sw_hold *o = KNOWN(s->holds, s->hold_count, h);
-  return o ? o : missing(s, "clamp", err);
-}
-
-sw_joint *sw_scene_find_join(const sw_scene *s, sw_handle h, sw_error *err) {
-  sw_joint *o = KNOWN(s->joins, s->join_count, h);
-  return o ? o : missing(s, "join", err);
-}
-
-sw_scene_force *sw_scene_find_force(const sw_scene *s, sw_handle h, sw_error *err) {
-  sw_scene_force *o = KNOWN(s->forces, s->force_count, h);
-  return o ? o : missing(s, "force", err);
-}
-
-sw_scene_obstacle *sw_scene_any_obstacle(const sw_scene *s, sw_handle h, sw_error *err) {
-  sw_scene_obstacle *o = KNOWN(s->obstacles, s->obstacle_count, h);
-  return o ? o : missing(s, "obstacle", err);
-}
+/* Finds the object of a handle, released or not. */
+#define FIND(type, name, list, count, word)                                            \
+  type *sw_scene_##name(const sw_scene *s, sw_handle h, sw_error *err) {               \
+    const int known = h.slot < s->count && s->list[h.slot].generation == h.generation; \
+    return known ? &s->list[h.slot] : missing(s, word, err);                           \
+  }
+FIND(sw_hold, find_hold, holds, hold_count, "clamp")
+FIND(sw_joint, find_join, joins, join_count, "join")
+FIND(sw_scene_force, find_force, forces, force_count, "force")
+FIND(sw_scene_obstacle, any_obstacle, obstacles, obstacle_count, "obstacle")
+FIND(sw_tool, any_tool, tools, tool_count, "gripper")
 
 sw_scene_obstacle *sw_scene_find_obstacle(const sw_scene *s, sw_handle h, sw_error *err) {
   sw_scene_obstacle *o = sw_scene_any_obstacle(s, h, err);
   return o && !o->alive ? missing(s, "obstacle", err) : o;
-}
-
-sw_tool *sw_scene_any_tool(const sw_scene *s, sw_handle h, sw_error *err) {
-  sw_tool *o = KNOWN(s->tools, s->tool_count, h);
-  return o ? o : missing(s, "gripper", err);
 }
 
 sw_tool *sw_scene_find_tool(const sw_scene *s, sw_handle h, sw_error *err) {

@@ -60,6 +60,8 @@ const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 /* SW_EBUSY from inside a step, a user's function or an observer: the scene must not be changed
  * now. */
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
+/* That, and SW_EDIVERGED where its state means nothing: for changes that go on from it. */
+sw_status sw_scene_ready(const sw_scene *scene, sw_error *err);
 /* SW_EBUSY from inside a step or a function of time, where its fields are the solver's. */
 sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 

@@ -83,9 +83,8 @@ sw_shape *sw_shape_retain(sw_shape *shape) {
 void sw_shape_release(sw_shape *shape) {
   if (!shape || --shape->references > 0) return;
   if (shape->class->destroy) shape->class->destroy(shape);
-  sw_free((void *)(uintptr_t)shape->source.points);
-  sw_free((void *)(uintptr_t)shape->source.bytes);
-  sw_free(shape);
+  SW_FREE_ALL((void *)(uintptr_t)shape->source.points, (void *)(uintptr_t)shape->source.bytes,
+              shape);
 }
 
 sw_bounds sw_shape_bounds(const sw_shape *shape) { return shape->bounds; }

@@ -156,10 +156,8 @@ static void finish_corner(sw_trimesh *mesh, int v) {
 /* Everything once the sides are listed; *twisted counts edges of opposed faces. */
 static sw_status fill(sw_trimesh *mesh, const half_edge *halves, size_t *twisted) {
   const size_t edges = count_edges(halves, 3 * mesh->triangle_count);
-  mesh->edges = sw_alloc(edges, sizeof *mesh->edges);
-  mesh->corner_edges = sw_alloc(2 * edges, sizeof *mesh->corner_edges);
-  mesh->corners = sw_alloc(mesh->vertex_count, sizeof *mesh->corners);
-  if (!mesh->edges || !mesh->corner_edges || !mesh->corners) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(mesh->edges, edges), SW_ROOM(mesh->corner_edges, 2 * edges),
+                      SW_ROOM(mesh->corners, mesh->vertex_count)));
   *twisted = make_edges(mesh, halves);
   add_corner_normals(mesh);
   list_corner_edges(mesh);

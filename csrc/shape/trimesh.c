@@ -127,14 +127,13 @@ static sw_status clean(sw_trimesh *mesh, const char *object, const double *verti
   while (slots < 2 * vertex_count) slots *= 2;
   const double near = weld_part * mesh->size + 1e-300; /* above 0 even for a single point */
   welder w = {cells * near, near, mesh->bounds.min, NULL, NULL, slots - 1, NULL, 0};
-  int *number = sw_alloc(vertex_count, sizeof *number);
-  w.head = sw_alloc(slots, sizeof *w.head);
-  w.next = sw_alloc(vertex_count, sizeof *w.next);
-  w.kept = mesh->vertices = sw_alloc(3 * vertex_count, sizeof *mesh->vertices);
-  mesh->indices = sw_alloc(3 * triangle_count, sizeof *mesh->indices);
-  mesh->normals = sw_alloc(3 * triangle_count, sizeof *mesh->normals);
-  sw_status status = SW_ENOMEM;
-  if (number && w.head && w.next && w.kept && mesh->indices && mesh->normals)
+  int *number;
+  sw_status status = SW_ALLOC_ALL(
+      SW_ROOM(number, vertex_count), SW_ROOM(w.head, slots), SW_ROOM(w.next, vertex_count),
+      SW_ROOM(mesh->vertices, 3 * vertex_count), SW_ROOM(mesh->indices, 3 * triangle_count),
+      SW_ROOM(mesh->normals, 3 * triangle_count));
+  w.kept = mesh->vertices;
+  if (status == SW_OK)
     status = weld_all(mesh, &w, vertices, vertex_count, indices, triangle_count, number);
   sw_free(number), sw_free(w.head), sw_free(w.next);
   return status;
@@ -169,9 +168,8 @@ sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *v
 }
 
 void sw_trimesh_free(sw_trimesh *mesh) {
-  sw_free(mesh->vertices), sw_free(mesh->indices), sw_free(mesh->sides), sw_free(mesh->normals);
-  sw_free(mesh->edges), sw_free(mesh->corners), sw_free(mesh->corner_edges);
-  sw_free(mesh->nodes);
+  SW_FREE_ALL(mesh->vertices, mesh->indices, mesh->sides, mesh->normals, mesh->edges, mesh->corners,
+              mesh->corner_edges, mesh->nodes);
   memset(mesh, 0, sizeof *mesh);
 }
 

@@ -13,11 +13,7 @@ enum { BLOCK = 9 };
 void sw_blocks_sparse_free(sw_blocks_sparse *s) {
   if (!s) return;
   sw_tree_free(s->tree);
-  sw_free(s->first);
-  sw_free(s->column);
-  sw_free(s->under);
-  sw_free(s->values);
-  sw_free(s);
+  SW_FREE_ALL(s->first, s->column, s->under, s->values, s);
 }
 
 /* Blocks of the lower half by a sort into columns and then, of these, into rows: both lists

@@ -42,15 +42,7 @@ struct sw_tree {
 
 void sw_tree_free(sw_tree *t) {
   if (!t) return;
-  sw_free(t->number);
-  sw_free(t->piece);
-  sw_free(t->row);
-  sw_free(t->entry);
-  sw_free(t->factor);
-  sw_free(t->scaled);
-  sw_free(t->left);
-  sw_free(t->x);
-  sw_free(t);
+  SW_FREE_ALL(t->number, t->piece, t->row, t->entry, t->factor, t->scaled, t->left, t->x, t);
 }
 
 /* --- analysis ------------------------------------------------------------------- */
@@ -132,22 +124,17 @@ static sw_status build(sw_tree *t, const sw_cholmod_plan *plan) {
   const size_t n = t->nodes;
   sizes size = {0, 0, 0, 0};
   t->pieces = plan->fronts;
-  t->number = sw_alloc(4 * n + 1, sizeof *t->number);
-  t->piece = sw_alloc(t->pieces, sizeof *t->piece);
-  t->row = sw_alloc(plan->start[t->pieces], sizeof *t->row);
-  t->entry = sw_alloc(t->first[n], sizeof *t->entry);
-  if (!t->number || !t->piece || !t->row || !t->entry) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(t->number, 4 * n + 1), SW_ROOM(t->piece, t->pieces),
+                      SW_ROOM(t->row, plan->start[t->pieces]), SW_ROOM(t->entry, t->first[n])));
   t->node = t->number + n, t->place = t->node + n, t->entries = t->place + n;
   find_pieces(t, plan);
   find_entries(t);
   memset(t->place, 0, n * sizeof *t->place);
   lay_out(t, &size);
   /* tiles may be read beyond the last row */
-  t->factor = sw_alloc(size.factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT, sizeof *t->factor);
-  t->scaled = sw_alloc(size.scaled + SW_FRONT_TILE, sizeof *t->scaled);
-  t->left = sw_alloc(size.left, sizeof *t->left);
-  t->x = sw_alloc(3 * n + SW_FRONT_TILE + size.before, sizeof *t->x);
-  if (!t->factor || !t->scaled || !t->left || !t->x) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(t->factor, size.factor + SW_FRONT_TILE + 3 * n * SW_FRONT_KEPT),
+                      SW_ROOM(t->scaled, size.scaled + SW_FRONT_TILE), SW_ROOM(t->left, size.left),
+                      SW_ROOM(t->x, 3 * n + SW_FRONT_TILE + size.before)));
   t->kept = t->factor + size.factor + SW_FRONT_TILE;
   t->before = t->x + 3 * n + SW_FRONT_TILE;
   return SW_OK;

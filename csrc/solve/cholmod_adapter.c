@@ -42,10 +42,7 @@ static uint32_t *copy(const void *from, size_t count) {
 }
 
 void sw_cholmod_free_plan(sw_cholmod_plan *plan) {
-  sw_free(plan->order);
-  sw_free(plan->pivot);
-  sw_free(plan->start);
-  sw_free(plan->row);
+  SW_FREE_ALL(plan->order, plan->pivot, plan->start, plan->row);
 }
 
 sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t *column,

@@ -9,9 +9,7 @@
 
 sw_status sw_sparse_neighbours(size_t n, const sw_sparse_pair *pairs, size_t count, int32_t **first,
                                int32_t **next) {
-  *first = sw_alloc(n + 2, sizeof **first);
-  *next = sw_alloc(2 * count + 1, sizeof **next);
-  if (!*first || !*next) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(*first, n + 2), SW_ROOM(*next, 2 * count + 1)));
   int32_t *at = *first + 1; /* becomes first: filled one place further on */
   for (size_t k = 0; k < count; k++) at[pairs[k].i + 1]++, at[pairs[k].j + 1]++;
   for (size_t i = 1; i < n; i++) at[i] += at[i - 1];
@@ -111,8 +109,6 @@ sw_status sw_sparse_order_along(size_t n, const sw_sparse_pair *pairs, size_t co
     if (!w.seen[node]) end = spread(&w, find_end(&w, node, end), end, &last);
   turn_round(order, end);
   if (status == SW_OK) *work = find_work(&w);
-  sw_free(w.first);
-  sw_free(w.next);
-  sw_free(w.seen);
+  SW_FREE_ALL(w.first, w.next, w.seen);
   return status;
 }

@@ -15,23 +15,15 @@ static inline const quad *look(const double *p) { return (const quad *)(const vo
 
 void sw_rings_free(sw_rings *r) {
   if (!r) return;
-  sw_free(r->values);
-  sw_free(r->factor);
-  sw_free(r->kept);
-  sw_free(r->scaled);
-  sw_free(r->x);
-  sw_free(r);
+  SW_FREE_ALL(r->values, r->factor, r->kept, r->scaled, r->x, r);
 }
 
 static sw_status allocate(sw_rings *r) {
   const size_t one = r->n * r->stride;
   if (r->rings > SIZE_MAX / 16 / one) return SW_ENOMEM;
-  r->values = sw_alloc(r->rings * one, sizeof *r->values);
-  r->factor = sw_alloc(r->rings * one, sizeof *r->factor);
-  r->kept = sw_alloc(r->rings * r->n * SW_FRONT_KEPT, sizeof *r->kept);
-  r->scaled = sw_alloc(3 * one, sizeof *r->scaled);
-  r->x = sw_alloc(2 * r->rings * r->padded, sizeof *r->x);
-  if (!r->values || !r->factor || !r->kept || !r->scaled || !r->x) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(r->values, r->rings * one), SW_ROOM(r->factor, r->rings * one),
+                      SW_ROOM(r->kept, r->rings * r->n * SW_FRONT_KEPT),
+                      SW_ROOM(r->scaled, 3 * one), SW_ROOM(r->x, 2 * r->rings * r->padded)));
   r->masked = r->scaled + 2 * one;
   r->y = r->x + r->rings * r->padded;
   return SW_OK;

@@ -14,13 +14,7 @@ static const size_t DENSE = 12;
 void sw_sparse_free(sw_sparse *s) {
   if (!s) return;
   sw_blocks_free(s->fronts);
-  sw_free(s->place);
-  sw_free(s->start);
-  sw_free(s->row);
-  sw_free(s->slot);
-  sw_free(s->target);
-  sw_free(s->x);
-  sw_free(s);
+  SW_FREE_ALL(s->place, s->start, s->row, s->slot, s->target, s->x, s);
 }
 
 size_t sw_sparse_fill(const sw_sparse *s) { return s->fill; }
@@ -103,11 +97,8 @@ static sw_status find_targets(sw_sparse *s) {
 static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
                               analysis *a) {
   const size_t n = s->n;
-  a->order = sw_alloc(n, sizeof *a->order);
-  a->seen = sw_alloc(3 * (n + 1), sizeof *a->seen);
-  s->place = sw_alloc(n, sizeof *s->place);
-  s->start = sw_alloc(n + 1, sizeof *s->start);
-  if (!a->order || !a->seen || !s->place || !s->start) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(a->order, n), SW_ROOM(a->seen, 3 * (n + 1)), SW_ROOM(s->place, n),
+                      SW_ROOM(s->start, n + 1)));
   a->child = a->seen + n + 1, a->sibling = a->child + n + 1;
   SW_TRY(sw_sparse_neighbours(n, pairs, count, &a->first, &a->next));
   SW_TRY(sw_sparse_order(n, a->first, a->next, a->order));
@@ -124,10 +115,7 @@ static sw_status find_pattern(sw_sparse *s, const sw_sparse_pair *pairs, size_t 
 static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
   analysis a = {0};
   const sw_status status = find_pattern(s, pairs, count, &a);
-  sw_free(a.first);
-  sw_free(a.next);
-  sw_free(a.order);
-  sw_free(a.seen);
+  SW_FREE_ALL(a.first, a.next, a.order, a.seen);
   return status;
 }
 

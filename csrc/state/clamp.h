@@ -18,10 +18,6 @@ typedef struct sw_clamp_bend {
   double w, v;  /* see angle.h */
 } sw_clamp_bend;
 
-static inline size_t sw_clamp_place(const sw_clamp_hinge *h) {
-  return 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
-}
-
 /* directors, normals: of all holds, as they are now. */
 static inline sw_clamp_bend sw_clamp_bend_of(const sw_clamp_hinge *h, const double *directors,
                                              const double *normals, sw_vec t) {

@@ -157,7 +157,21 @@ static inline void sw_field_add_block(sw_field *f, size_t a, size_t b, size_t sl
 
 /* Direction of an edge [-]. */
 static inline sw_vec sw_field_tangent(const sw_field *field, size_t edge) {
-  return sw_v(field->tangent[0][edge], field->tangent[1][edge], field->tangent[2][edge]);
+  return sw_vec_across(field->tangent, edge);
+}
+
+/* Adds stiffness to a particle's own, nine numbers row by row [N/m]. */
+static inline void sw_field_add_own(sw_field *field, size_t particle, const double *H) {
+  double *to = field->blocks + field->own_slot[particle];
+  for (size_t i = 0; i < 3; i++)
+    for (size_t j = 0; j < 3; j++) to[i * field->block_stride + j] += H[3 * i + j];
+}
+
+/* Adds d energy / d edge vector [N]. */
+static inline void sw_field_add_gradient(sw_field *field, size_t edge, sw_vec g) {
+  field->gradient[0][edge] += g.x;
+  field->gradient[1][edge] += g.y;
+  field->gradient[2][edge] += g.z;
 }
 
 #endif

@@ -15,18 +15,8 @@ sw_plan *sw_plan_retain(sw_plan *plan) {
 void sw_plan_release(sw_plan *plan) {
   if (!plan || --plan->references > 0) return;
   sw_web_release(plan->web);
-  sw_free(plan->s);
-  sw_free(plan->rest);
-  sw_free(plan->lumped);
-  sw_free(plan->mass_own);
-  sw_free(plan->mass_next);
-  sw_free(plan->hinge);
-  sw_free(plan->held);
-  sw_free(plan->clamps);
-  sw_free(plan->spans);
-  sw_free(plan->rest_bend);
-  sw_free(plan->rest_twist);
-  sw_free(plan);
+  SW_FREE_ALL(plan->s, plan->rest, plan->lumped, plan->mass_own, plan->mass_next, plan->hinge,
+              plan->held, plan->clamps, plan->spans, plan->rest_bend, plan->rest_twist, plan);
 }
 
 /* Hinge lengths near a clamp whose first edge has length b * l, the second l:
@@ -167,17 +157,10 @@ static sw_plan *new_plan(const sw_beam *beam, size_t n, size_t edges, size_t hol
   sw_plan *p = sw_alloc(1, sizeof *p);
   if (!p) return NULL;
   *p = (sw_plan){.references = 1, .nodes = n, .edges = edges, .beam = *beam};
-  p->s = sw_alloc(n, sizeof *p->s);
-  p->rest = sw_alloc(n, sizeof *p->rest);
-  p->lumped = sw_alloc(n, sizeof *p->lumped);
-  p->mass_own = sw_alloc(n, sizeof *p->mass_own);
-  p->mass_next = sw_alloc(n, sizeof *p->mass_next);
-  p->hinge = sw_alloc(n, sizeof *p->hinge);
-  p->held = sw_alloc(n, sizeof *p->held);
-  p->clamps = sw_alloc(2 * holds + 1, sizeof *p->clamps);
-  p->spans = sw_alloc(holds + 1, sizeof *p->spans);
-  if (p->s && p->rest && p->lumped && p->mass_own && p->mass_next && p->hinge && p->held &&
-      p->clamps && p->spans)
+  if (SW_ALLOC_ALL(SW_ROOM(p->s, n), SW_ROOM(p->rest, n), SW_ROOM(p->lumped, n),
+                   SW_ROOM(p->mass_own, n), SW_ROOM(p->mass_next, n), SW_ROOM(p->hinge, n),
+                   SW_ROOM(p->held, n), SW_ROOM(p->clamps, 2 * holds + 1),
+                   SW_ROOM(p->spans, holds + 1)) == SW_OK)
     return p;
   sw_plan_release(p);
   return NULL;

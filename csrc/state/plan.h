@@ -52,6 +52,10 @@ typedef struct sw_clamp_hinge {
   double softer; /* more of it about the axis of the hold's give [m] */
   double twist;  /* what it adds to the length of its span [m] */
 } sw_clamp_hinge;
+/* Whose directors are those of the hinge, among all holds' [-]. */
+static inline size_t sw_clamp_place(const sw_clamp_hinge *h) {
+  return 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
+}
 
 /* A stretch of wire between two holds that both keep it from turning about its
  * axis: the only place where a straight wire of equal bending stiffness can be

@@ -6,11 +6,20 @@
 
 #include <math.h>
 
+#include "base/param.h"
 #include "base/vec.h"
 
 /* Stiffness of a nylon tie round a few millimetres. At half or twice of it a tie that bears 80 N
  * gives way by 1.6 or 0.4 mm [N/m]. */
 #define SW_TIE_STIFFNESS 1e5
+
+/* Rows of what says what a tie is like. */
+#define SW_TIE_ROWS(args)                                                                      \
+  SW_NUMBER_ROW(args, slack, "m", 0, 0, HUGE_VAL, 0, "distance up to which it does not pull"), \
+      SW_NUMBER_ROW(args, stiffness, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, \
+                    "when it is taut"),                                                        \
+      SW_NUMBER_ROW(args, strength, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN,                 \
+                    "pull at which it breaks (default: never)")
 
 /* A step in which a tie breaks is to end with it pulled by no more than this above its strength. At
  * twice of it the break is told as up to 2 % later, at half steps are cut once more [-]. */

@@ -12,21 +12,15 @@ sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids
   if (!w) return SW_ENOMEM;
   *w = (sw_web){
       .references = 1, .particles = particles, .links = links, .folds = folds, .solids = solids};
-  w->link = sw_alloc(links, sizeof *w->link);
-  w->fold = sw_alloc(folds, sizeof *w->fold);
-  w->solid = sw_alloc(solids, sizeof *w->solid);
-  w->mass = sw_alloc(particles, sizeof *w->mass);
-  w->s = sw_alloc(particles, sizeof *w->s);
-  w->behind = sw_alloc(particles, sizeof *w->behind);
-  w->outer = sw_alloc(particles, sizeof *w->outer);
-  w->side_first = sw_alloc(particles + 1, sizeof *w->side_first);
-  if (!w->link || !w->fold || !w->solid || !w->mass || !w->s || !w->behind || !w->outer ||
-      !w->side_first) {
+  const sw_status status = SW_ALLOC_ALL(
+      SW_ROOM(w->link, links), SW_ROOM(w->fold, folds), SW_ROOM(w->solid, solids),
+      SW_ROOM(w->mass, particles), SW_ROOM(w->s, particles), SW_ROOM(w->behind, particles),
+      SW_ROOM(w->outer, particles), SW_ROOM(w->side_first, particles + 1));
+  if (status != SW_OK)
     sw_web_release(w);
-    return SW_ENOMEM;
-  }
-  *out = w;
-  return SW_OK;
+  else
+    *out = w;
+  return status;
 }
 
 sw_web *sw_web_retain(sw_web *web) {
@@ -36,13 +30,9 @@ sw_web *sw_web_retain(sw_web *web) {
 
 void sw_web_release(sw_web *w) {
   if (!w || --w->references > 0) return;
-  void *const blocks[] = {w->link,        w->first,     w->fold,   w->solid, w->shapes,
-                          w->ring_links,  w->mass,      w->s,      w->share, w->section,
-                          w->ring_solids, w->outer,     w->around, w->side,  w->side_first,
-                          w->yield,       w->hardening, w->along,  w->slide, w->face,
-                          w->crease,      w->behind};
-  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
-  sw_free(w);
+  SW_FREE_ALL(w->link, w->first, w->fold, w->solid, w->shapes, w->ring_links, w->mass, w->s,
+              w->share, w->section, w->ring_solids, w->outer, w->around, w->side, w->side_first,
+              w->yield, w->hardening, w->along, w->slide, w->face, w->crease, w->behind, w);
 }
 
 /* Edges of the surface: around each ring, and along the wire to the next one. */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "body/touching.h"
+#include "scene/course.h"
 #include "scene/events.h"
 #include "scene/ledger.h"
 #include "scene/parts.h"
@@ -84,7 +85,7 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   if (b->known) return SW_OK;
   sw_energies e;
   weigh(s);
-  sw_system_energies(system, sw_ledger_lumped(s), &e);
+  sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), &e);
   b->has_powers = sw_system_has_powers(system);
   if (b->has_powers) SW_TRY(sw_system_powers(system, sw_scene_time(s), &b->powers, err));
   const double contact = sw_ledger_contact(s), now = e.kinetic + sw_ledger_potential(&e, contact);
@@ -290,7 +291,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
       "steps made %.3g J from nowhere, %.3g %% of the %.3g J in play, most of it at t = %.6g s%s; "
       "take smaller steps%s",
       l->gained, 100.0 * share, l->play, l->most_time, pressed,
-      sw_ledger_lumped(s) ? ", or an implicit integrator such as tr-bdf2" : "");
+      sw_course_lumps(sw_scene_course(s)) ? ", or an implicit integrator such as tr-bdf2" : "");
   sw_scene_diverge(s, why);
   return SW_EDIVERGED;
 }

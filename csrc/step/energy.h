@@ -42,8 +42,6 @@ sw_status sw_ledger_note_workers(sw_scene *scene, int logged);
  * damped dies out within the step. */
 double sw_ledger_over_step(double before, double after, double h);
 
-/* 1: the run's method is explicit and has lumped masses. */
-int sw_ledger_lumped(const sw_scene *scene);
 /* Stored between bodies, obstacles and ties [J]. */
 double sw_ledger_contact(sw_scene *scene);
 static inline double sw_ledger_potential(const sw_energies *e, double contact) {

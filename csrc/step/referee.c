@@ -36,11 +36,6 @@ static const double IN_FLIGHT = 0.01;
 /* And then to this share in each whole step: asked for nothing at all, steps would collapse [-]. */
 static const double EACH_IN_FLIGHT = 2e-4;
 
-int sw_ledger_lumped(const sw_scene *s) {
-  sw_course *c = sw_scene_course(s);
-  return c->has_stepper && !(c->method->flags & SW_INTEGRATOR_IMPLICIT);
-}
-
 /* Stored between bodies and obstacles. */
 double sw_ledger_contact(sw_scene *s) {
   sw_crowd *crowd = sw_scene_crowd(s);
@@ -89,7 +84,7 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
   }
   if (impacts) /* these changed the velocities at the step's start */
     step->impact = sw_scene_books(s)->now.kinetic + step->obstacles -
-                   sw_system_kinetic(sw_scene_system(s), sw_ledger_lumped(s));
+                   sw_system_kinetic(sw_scene_system(s), sw_course_lumps(sw_scene_course(s)));
 }
 
 /* Where the scene was changed, what moves may have begun to do so at once. Its forces within the
@@ -135,12 +130,12 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   sw_glance glance;
   sw_status status = SW_OK;
   *step = (sw_step_energy){.steady = 1, .changed = changed};
-  if (sw_ledger_lumped(s)) SW_TRY(look_at_end(s, t1, err));
+  if (sw_course_lumps(sw_scene_course(s))) SW_TRY(look_at_end(s, t1, err));
   if (sw_scene_has_contact(s)) judge_touches(s, h, step);
   double most = step->obstacles;
   sw_system_look_at(system, &glance, c->stepper.trial_x, c->stepper.trial_v,
                     c->stepper.strain_rate);
-  sw_system_energies(system, sw_ledger_lumped(s), &step->to);
+  sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), &step->to);
   step->contact = sw_ledger_contact(s);
   step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
   most += sw_ledger_work(s, t1, changed);
@@ -157,7 +152,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
 }
 
 int sw_ledger_referees(const sw_scene *s) {
-  return !sw_ledger_lumped(s) && !(sw_scene_course(s)->method->flags & SW_INTEGRATOR_NO_CONTACT);
+  return !sw_course_lumps(sw_scene_course(s)) &&
+         !(sw_scene_course(s)->method->flags & SW_INTEGRATOR_NO_CONTACT);
 }
 
 /* What a full step may make besides: less once steps have made more [J]. */

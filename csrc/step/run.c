@@ -101,8 +101,7 @@ sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
 
 /* The scene is built and can be run like this. */
 static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_error *err) {
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   SW_TRY(sw_run_check(s, args, err));
   SW_TRY(sw_run_check_clock(s, args, until, err));
   SW_TRY(sw_scene_build(s, err));

@@ -46,8 +46,7 @@ sw_status sw_scene_settle(sw_scene *s, const sw_settle_args *args, int (*interru
                           sw_settle_report *report, sw_error *err) {
   sw_error why = {""};
   *report = (sw_settle_report){0};
-  SW_TRY(sw_scene_editable(s, err));
-  SW_TRY(sw_scene_readable(s, err));
+  SW_TRY(sw_scene_ready(s, err));
   if (!sw_scene_wire_slots(s))
     return sw_fail(err, SW_EINVAL, "scene '%s': there is no wire", sw_scene_name(s));
   SW_TRY(sw_scene_build(s, err));

@@ -85,9 +85,7 @@ static sw_status search_on(poser *p, sw_error *err) {
 
 static sw_status prepare(poser *p) {
   const size_t n = sw_scene_tool_slots(p->s);
-  p->before = sw_alloc(n, sizeof *p->before);
-  p->speed = sw_alloc(n, sizeof *p->speed);
-  if (!p->before || !p->speed) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(p->before, n), SW_ROOM(p->speed, n)));
   p->next = sw_scene_course(p->s)->next;
   for (size_t k = 0; k < n; k++) p->before[k] = sw_scene_tool_in(p->s, k)->jaw;
   return sw_live_take(p->s, &p->start);

@@ -175,10 +175,8 @@ static sw_status new_particles(sw_strand_maker *m) {
   if (!m->first) return SW_ENOMEM;
   for (size_t r = 0; r < n; r++)
     m->first[r + 1] = m->first[r] + (sw_strand_is_ring(m, r) ? m->lattice->particles : 1);
-  s->x = sw_alloc(3 * m->first[n], sizeof *s->x);
-  s->v = sw_alloc(3 * m->first[n], sizeof *s->v);
-  s->a = sw_alloc(3 * m->first[n], sizeof *s->a);
-  if (!s->x || !s->v || !s->a) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(s->x, 3 * m->first[n]), SW_ROOM(s->v, 3 * m->first[n]),
+                      SW_ROOM(s->a, 3 * m->first[n])));
   place_particles(m);
   return SW_OK;
 }
@@ -285,11 +283,7 @@ void sw_strand_calibrated_release(void *calibrated) {
 void sw_strand_free(sw_strand *s) {
   sw_web_release(s->web);
   sw_strand_calibrated_release(s->calibrated);
-  sw_free(s->x);
-  sw_free(s->v);
-  sw_free(s->a);
-  sw_free(s->axial);
-  sw_free(s->rate);
+  SW_FREE_ALL(s->x, s->v, s->a, s->axial, s->rate);
   memset(s, 0, sizeof *s);
 }
 

@@ -271,22 +271,14 @@ static sw_status make_room(sw_strand_maker *m) {
   m->strand->web = w;
   w->rings = rings, w->per_ring = n;
   w->banded = !m->ring && w->folds == 0;
-  w->first = sw_alloc(rings + 1, sizeof *w->first);
-  w->along = sw_alloc(w->particles, sizeof *w->along);
-  w->share = sw_alloc(n, sizeof *w->share);
-  w->section = sw_alloc(2 * n, sizeof *w->section);
   w->around = m->around, w->around_count = m->around_count;
-  w->ring_links = sw_alloc(rings + 1, sizeof *w->ring_links);
-  w->ring_solids = sw_alloc(rings + 1, sizeof *w->ring_solids);
-  w->slide = sw_alloc(m->slides, sizeof *w->slide);
-  w->slides = m->slides;
-  w->crease = sw_alloc(m->creases, sizeof *w->crease);
-  w->creases = m->creases;
+  w->slides = m->slides, w->creases = m->creases;
   w->friction = m->plan->lattice.composite.friction;
-  m->strand->axial = sw_alloc(m->links, sizeof *m->strand->axial);
-  const int made =
-      w->first && w->along && w->share && w->section && w->ring_links && w->ring_solids;
-  return made && w->slide && w->crease && m->strand->axial ? SW_OK : SW_ENOMEM;
+  return SW_ALLOC_ALL(SW_ROOM(w->first, rings + 1), SW_ROOM(w->along, w->particles),
+                      SW_ROOM(w->share, n), SW_ROOM(w->section, 2 * n),
+                      SW_ROOM(w->ring_links, rings + 1), SW_ROOM(w->ring_solids, rings + 1),
+                      SW_ROOM(w->slide, m->slides), SW_ROOM(w->crease, m->creases),
+                      SW_ROOM(m->strand->axial, m->links));
 }
 
 static void fill_sections(sw_strand_maker *m) {

@@ -69,6 +69,12 @@ typedef struct sw_body {
   double pushed;      /* largest push for which buckling was checked [N] */
 } sw_body;
 
+/* Axial force of an edge or spring over its strain [N]. */
+static inline double sw_body_axial(const sw_body *b, size_t e) {
+  if (!b->plan->web) return b->EA;
+  return b->plan->web->link[e].k * b->plan->web->link[e].rest;
+}
+
 /* Add a term to its body's field. */
 static inline sw_status sw_term_eval(const sw_term *term, sw_field *field, sw_error *err) {
   field->history = term->history;

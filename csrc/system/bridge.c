@@ -13,17 +13,8 @@ void sw_bridges_free(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   if (!l) return;
   sw_sparse_free(l->matrix);
-  sw_free(l->list);
-  sw_free(l->pairs);
-  sw_free(l->known);
-  sw_free(l->planned);
-  sw_free(l->taken);
-  sw_free(l->table);
-  sw_free(l->number);
-  sw_free(l->first);
-  sw_free(l->x);
-  sw_free(l->spans);
-  sw_free(l);
+  SW_FREE_ALL(l->list, l->pairs, l->known, l->planned, l->taken, l->table, l->number, l->first,
+              l->x, l->spans, l);
   s->bridges = NULL;
 }
 

@@ -16,9 +16,7 @@
 
 void sw_joins_free(sw_system *s) {
   if (!s->joins) return;
-  sw_free(s->joins->springs);
-  sw_free(s->joins->hubs);
-  sw_free(s->joins);
+  SW_FREE_ALL(s->joins->springs, s->joins->hubs, s->joins);
   s->joins = NULL;
 }
 

@@ -18,12 +18,6 @@ sw_status sw_system_add_even(sw_system *s) {
   return SW_OK;
 }
 
-/* Axial force of an edge or spring over its strain [N]. */
-static double stiffness_of(const sw_body *b, size_t e) {
-  if (!b->plan->web) return b->EA;
-  return b->plan->web->link[e].k * b->plan->web->link[e].rest;
-}
-
 void sw_system_sum_pull(const sw_system *s, const double *tension, const double *rate,
                         double *out) {
   if (s->edges) memcpy(out, tension, s->edges * sizeof *out);
@@ -31,7 +25,7 @@ void sw_system_sum_pull(const sw_system *s, const double *tension, const double 
     const sw_body *b = &s->bodies[i];
     if (!(b->axial_time > 0)) continue;
     for (size_t e = 0; e < sw_plan_axial(b->plan); e++)
-      out[b->first_edge + e] += b->axial_time * stiffness_of(b, e) * rate[b->first_edge + e];
+      out[b->first_edge + e] += b->axial_time * sw_body_axial(b, e) * rate[b->first_edge + e];
   }
 }
 

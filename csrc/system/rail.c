@@ -16,9 +16,8 @@ size_t sw_rail_freedom(const sw_system *s, size_t k) { return 3 * s->nodes + s->
 
 sw_status sw_system_set_rails(sw_system *s, const sw_rail *rails, size_t count) {
   if (!count) return SW_OK;
-  s->rails = sw_alloc(count, sizeof *s->rails);
-  s->rail_room = sw_alloc(count * (4 * s->nodes + count + 1) + 4 * s->nodes, sizeof *s->rail_room);
-  if (!s->rails || !s->rail_room) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(s->rails, count),
+                      SW_ROOM(s->rail_room, count * (4 * s->nodes + count + 1) + 4 * s->nodes)));
   memcpy(s->rails, rails, count * sizeof *rails);
   for (size_t k = 0; k < count; k++) {
     const size_t at = sw_rail_freedom(s, k);

@@ -36,8 +36,6 @@ static int is_free(const sw_body *b, size_t i, long beside) {
   return j >= 0 && j < (long)b->plan->nodes && b->plan->held[j] == SW_FREE;
 }
 
-static sw_vec part(double *const *c, size_t at) { return sw_v(c[0][at], c[1][at], c[2][at]); }
-
 /* The slope of the twist of a body's span at node i, or zero. */
 static sw_vec slope_of(const sw_body *b, const sw_span *span, size_t i) {
   if (i <= span->first || i > span->last) return sw_v(0, 0, 0); /* clamps are at its ends */
@@ -51,13 +49,13 @@ static void add_spin_rights(const sw_body *b, size_t i, sw_vec d, double *spins)
     const size_t e = side ? i : i - 1;
     const sw_vec way = side ? d : sw_neg(d); /* minus what the edge is changed by */
     if ((!side && i == 0) || e >= edges) continue;
-    spins[e] += sw_dot(part(f->spin_edge, e), way);
-    if (e > 0) spins[e - 1] += sw_dot(part(f->spin_edge + 3, e), way);
-    if (e + 1 < edges) spins[e + 1] += sw_dot(part(f->spin_edge + 6, e + 1), way);
+    spins[e] += sw_dot(sw_vec_across(f->spin_edge, e), way);
+    if (e > 0) spins[e - 1] += sw_dot(sw_vec_across(f->spin_edge + 3, e), way);
+    if (e + 1 < edges) spins[e + 1] += sw_dot(sw_vec_across(f->spin_edge + 6, e + 1), way);
   }
   if (!b->roll_block) return;
-  if (i > 0) spins[i - 1] -= sw_dot(part(f->spin_node, i), d);
-  if (i < edges) spins[i] -= sw_dot(part(f->spin_node + 3, i), d);
+  if (i > 0) spins[i - 1] -= sw_dot(sw_vec_across(f->spin_node, i), d);
+  if (i < edges) spins[i] -= sw_dot(sw_vec_across(f->spin_node + 3, i), d);
 }
 
 /* Right-hand sides of all nodes (nodes x 3) and spins (nodes) when a rail's node shifts by d. */
@@ -125,14 +123,16 @@ static sw_vec reaction_of(const sw_system *s, const sw_rail *r, const double *no
     const size_t e = side ? i : i - 1;
     const double sign = side ? -1.0 : 1.0;
     if ((!side && i == 0) || e >= edges) continue;
-    f = sw_madd(f, part(b->field.spin_edge, e), sign * spins[stride * e]);
-    if (e > 0) f = sw_madd(f, part(b->field.spin_edge + 3, e), sign * spins[stride * (e - 1)]);
+    f = sw_madd(f, sw_vec_across(b->field.spin_edge, e), sign * spins[stride * e]);
+    if (e > 0)
+      f = sw_madd(f, sw_vec_across(b->field.spin_edge + 3, e), sign * spins[stride * (e - 1)]);
     if (e + 1 < edges)
-      f = sw_madd(f, part(b->field.spin_edge + 6, e + 1), sign * spins[stride * (e + 1)]);
+      f = sw_madd(f, sw_vec_across(b->field.spin_edge + 6, e + 1), sign * spins[stride * (e + 1)]);
   }
-  if (b->roll_block && i > 0) f = sw_madd(f, part(b->field.spin_node, i), spins[stride * (i - 1)]);
+  if (b->roll_block && i > 0)
+    f = sw_madd(f, sw_vec_across(b->field.spin_node, i), spins[stride * (i - 1)]);
   if (b->roll_block && i < edges)
-    f = sw_madd(f, part(b->field.spin_node + 3, i), spins[stride * i]);
+    f = sw_madd(f, sw_vec_across(b->field.spin_node + 3, i), spins[stride * i]);
   for (size_t k = 0; s->bridges && k < s->bridges->count; k++) {
     const sw_bridge *l = &s->bridges->list[k];
     if (l->i == h->node) f = sw_add(f, sw_rail_times(l->k, sw_load(nodes + 3 * l->j)));

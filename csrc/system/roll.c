@@ -94,9 +94,7 @@ static long add_areas(size_t m, const double *restrict fx, const double *restric
 /* The area where it is not small. */
 static double large_area(double *const from[3], double *const before[3], double *const now[3],
                          size_t e) {
-  const sw_vec a = sw_v(from[0][e], from[1][e], from[2][e]);
-  const sw_vec b = sw_v(before[0][e], before[1][e], before[2][e]);
-  const sw_vec c = sw_v(now[0][e], now[1][e], now[2][e]);
+  const sw_vec a = sw_vec_across(from, e), b = sw_vec_across(before, e), c = sw_vec_across(now, e);
   const double volume = sw_dot(a, sw_cross(b, c));
   const double sum = 1.0 + sw_dot(a, b) + sw_dot(b, c) + sw_dot(c, a);
   const double half = volume / sum;

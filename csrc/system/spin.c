@@ -47,7 +47,6 @@ static sw_vec direction(const double *x, size_t e) {
   return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
 }
 
-static sw_vec get(double *const *a, size_t e) { return sw_v(a[0][e], a[1][e], a[2][e]); }
 static void set(double *const *a, size_t e, sw_vec v) {
   a[0][e] = v.x, a[1][e] = v.y, a[2][e] = v.z;
 }
@@ -81,14 +80,15 @@ static sw_vec state_normal(const sw_system *s, const sw_body *b, size_t e) {
 }
 
 double sw_spin_turned(const sw_system *s, const sw_body *b, size_t e) {
-  const sw_vec before = direction(s->x + 3 * b->first_node, e), t = get(b->spin_tangent, e);
+  const sw_vec before = direction(s->x + 3 * b->first_node, e),
+               t = sw_vec_across(b->spin_tangent, e);
   const sw_vec n = sw_carry_unit(state_normal(s, b, e), before, t);
-  const sw_vec now = get(b->spin_normal, e);
+  const sw_vec now = sw_vec_across(b->spin_normal, e);
   return atan2(sw_dot(sw_cross(n, now), t), sw_dot(n, now));
 }
 
 static sw_edge_frame edge_frame(const sw_body *b, size_t e) {
-  return (sw_edge_frame){get(b->spin_tangent, e), get(b->spin_normal, e)};
+  return (sw_edge_frame){sw_vec_across(b->spin_tangent, e), sw_vec_across(b->spin_normal, e)};
 }
 
 /* sw_hinge_twist between all edges, with its usual case only. Counts the others. */
@@ -152,7 +152,7 @@ static void turn_held_edges(const sw_system *s, sw_body *b) {
     const sw_quat before = {q[0], q[1], q[2], q[3]};
     const sw_vec n =
         sw_rotate(s->hold_states[h->hold].pose.q, sw_unrotate(before, state_normal(s, b, e)));
-    const sw_vec t = get(b->spin_tangent, e);
+    const sw_vec t = sw_vec_across(b->spin_tangent, e);
     set(b->spin_normal, e, sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t)));
     if (b->roll_block)
       b->roll_turn[e] += remainder(sw_spin_turned(s, b, e) - b->roll_turn[e], 6.283185307179586477);
@@ -203,7 +203,7 @@ static void carry_on(sw_body *b, double *const t[3]) {
   sw_roll_carry(b, t);
   if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
     for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
-      set(n, e, square_up(get(n, e), get(t, e)));
+      set(n, e, square_up(sw_vec_across(n, e), sw_vec_across(t, e)));
   for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
 }
 
@@ -277,7 +277,7 @@ void sw_spin_turn_by(sw_body *b, const double *turns, size_t stride, double shar
   for (size_t e = 0; e < b->plan->edges; e++) {
     const double angle = share * turns[stride * e];
     if (angle == 0) continue;
-    const sw_vec n = get(b->spin_normal, e), t = get(b->spin_tangent, e);
+    const sw_vec n = sw_vec_across(b->spin_normal, e), t = sw_vec_across(b->spin_tangent, e);
     const double a2 = angle * angle;
     const int small = a2 < 1e-4; /* series to rounding */
     const double c = small ? 1.0 - a2 * (0.5 - a2 * (1.0 / 24 - a2 / 720)) : cos(angle);

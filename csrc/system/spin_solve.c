@@ -113,15 +113,13 @@ double sw_spin_largest(const sw_body *b) {
   return sqrt(largest_turn2(b->plan->edges, b->spin_delta));
 }
 
-static sw_vec part(double *const *c, size_t at) { return sw_v(c[0][at], c[1][at], c[2][at]); }
-
 /* Change of the gradient of edge e by the spins of the last solve. */
 static sw_vec spin_push(const sw_body *b, size_t e) {
   const sw_field *f = &b->field;
   const double *d = b->spin_delta + 4 * e;
-  sw_vec sum = sw_scale(part(f->spin_edge, e), d[3]);
-  if (e > 0) sum = sw_madd(sum, part(f->spin_edge + 3, e), *(d - 1));
-  if (e + 1 < b->plan->edges) sum = sw_madd(sum, part(f->spin_edge + 6, e + 1), d[7]);
+  sw_vec sum = sw_scale(sw_vec_across(f->spin_edge, e), d[3]);
+  if (e > 0) sum = sw_madd(sum, sw_vec_across(f->spin_edge + 3, e), *(d - 1));
+  if (e + 1 < b->plan->edges) sum = sw_madd(sum, sw_vec_across(f->spin_edge + 6, e + 1), d[7]);
   return sum;
 }
 
@@ -131,6 +129,6 @@ void sw_spin_react(sw_held_node *h, const sw_body *b) {
   if (i < b->plan->edges) h->reaction = sw_sub(h->reaction, spin_push(b, i));
   if (!b->roll_block) return;
   const double *d = b->spin_delta + 4 * i;
-  if (i > 0) h->reaction = sw_madd(h->reaction, part(b->field.spin_node, i), *(d - 1));
-  h->reaction = sw_madd(h->reaction, part(b->field.spin_node + 3, i), d[3]);
+  if (i > 0) h->reaction = sw_madd(h->reaction, sw_vec_across(b->field.spin_node, i), *(d - 1));
+  h->reaction = sw_madd(h->reaction, sw_vec_across(b->field.spin_node + 3, i), d[3]);
 }

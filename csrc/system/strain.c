@@ -36,12 +36,6 @@ sw_status sw_system_add_strains(sw_system *s) {
   return SW_OK;
 }
 
-/* Axial force of an edge or spring over its strain [N]. */
-static double stiffness_of(const sw_body *b, size_t e) {
-  if (!b->plan->web) return b->EA;
-  return b->plan->web->link[e].k * b->plan->web->link[e].rest;
-}
-
 void sw_system_add_up_pull(sw_system *s) {
   if (s->pull) sw_system_sum_pull(s, s->tension, s->strain_rate, s->pull);
 }
@@ -198,7 +192,7 @@ void sw_system_strain_from_state(sw_system *s) {
     const sw_body *b = &s->bodies[i];
     if (!(b->axial_time > 0)) continue;
     for (size_t e = 0; e < sw_plan_axial(b->plan); e++) {
-      const double T = s->tension[b->first_edge + e], k = stiffness_of(b, e);
+      const double T = s->tension[b->first_edge + e], k = sw_body_axial(b, e);
       const int slack = !b->plan->web && !(T > 0) && !(b->EA_push > 0);
       const double between = slack || k == 0 ? strain_between(b, s->x + 3 * b->first_node, e) : 0;
       s->strain[b->first_edge + e] = slack ? fmin(between, 0.0) : k != 0 ? T / k : between;
@@ -253,7 +247,7 @@ void sw_strain_advance(sw_system *s, const sw_body *b) {
     return;
   }
   for (size_t e = 0; e < b->plan->web->links; e++) {
-    const double k = stiffness_of(b, e);
+    const double k = sw_body_axial(b, e);
     strain[e] = k != 0 ? s->tension_new[b->first_edge + e] / k : 0.0;
   }
 }

@@ -22,25 +22,15 @@
 void sw_system_free(sw_system *system) {
   for (size_t b = 0; system->bodies && b < system->body_count; b++) {
     sw_plan_release(system->bodies[b].plan);
-    sw_free(system->bodies[b].field_block);
-    sw_free(system->bodies[b].terms);
-    sw_free(system->bodies[b].twist_block);
-    sw_free(system->bodies[b].spin_block);
-    sw_free(system->bodies[b].roll_block);
+    SW_FREE_ALL(system->bodies[b].field_block, system->bodies[b].terms,
+                system->bodies[b].twist_block, system->bodies[b].spin_block,
+                system->bodies[b].roll_block);
     sw_web_discard(&system->bodies[b]);
   }
   sw_bridges_free(system);
   sw_joins_free(system);
-  sw_free(system->bodies);
-  sw_free(system->held);
-  sw_free(system->rails);
-  sw_free(system->rail_room);
-  sw_free(system->directors);
-  sw_free(system->hold_states);
-  sw_free(system->loads);
-  sw_free(system->state);
-  sw_free(system->pull_block);
-  sw_free(system->work);
+  SW_FREE_ALL(system->bodies, system->held, system->rails, system->rail_room, system->directors,
+              system->hold_states, system->loads, system->state, system->pull_block, system->work);
   memset(system, 0, sizeof *system);
 }
 
@@ -74,10 +64,6 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
     for (size_t i = 0; i < s->bodies[b].plan->nodes; i++)
       held += s->bodies[b].plan->held[i] != SW_FREE;
   s->hold_count = hold_count;
-  s->held = sw_alloc(held, sizeof *s->held);
-  s->directors = sw_alloc(27 * hold_count, sizeof(double));
-  s->hold_states = sw_alloc(hold_count, sizeof *s->hold_states);
-  s->loads = sw_alloc(hold_count, sizeof *s->loads);
   s->state_size = 3 * s->freedoms + s->edges + s->span_count + 4 * hold_count;
   const size_t frames = s->state_size;
   for (size_t b = 0; b < s->body_count; b++) {
@@ -86,18 +72,18 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   }
   if (s->span_count || s->state_size > frames)
     s->follow_size = s->state_size - 3 * s->freedoms - s->edges;
-  s->state = sw_alloc(s->state_size, sizeof(double));
   const size_t kept = sw_factors_room(s);
-  double *w = sw_alloc(3 * s->freedoms + kept + s->edges + s->follow_size, sizeof(double));
-  s->work = w;
-  if (!s->held || !s->directors || !s->hold_states || !s->loads || !s->state || !w)
-    return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(
+      SW_ROOM(s->held, held), SW_ROOM(s->directors, 27 * hold_count),
+      SW_ROOM(s->hold_states, hold_count), SW_ROOM(s->loads, hold_count),
+      SW_ROOM(s->state, s->state_size),
+      {&s->work, 3 * s->freedoms + kept + s->edges + s->follow_size, sizeof *s->yhat}));
   s->directors_now = s->directors + 6 * hold_count;
   s->normals = s->directors + 12 * hold_count;
   s->normals_now = s->directors + 18 * hold_count;
   s->turns = s->directors + 24 * hold_count;
   sw_system_lay_out(s);
-  s->yhat = w;
+  s->yhat = s->work;
   s->delta = s->yhat + s->freedoms;
   s->velocity = s->delta + s->freedoms;
   s->factor_at = s->velocity + s->freedoms;

@@ -118,8 +118,6 @@ static long small_areas(size_t first, size_t last, const double *restrict ox,
   return large;
 }
 
-static sw_vec column(double *const t[3], size_t e) { return sw_v(t[0][e], t[1][e], t[2][e]); }
-
 /* Change of a span's twist from the state to positions x (of the body). Works in
  * twist_rank and twist_solved, which sw_twist_gather fills anew. */
 static double span_change(const sw_system *s, const sw_body *b, const sw_span *span,
@@ -133,12 +131,13 @@ static double span_change(const sw_system *s, const sw_body *b, const sw_span *s
   const clamp_change left = change_of(s, &b->plan->clamps[span->left]);
   const clamp_change right = change_of(s, &b->plan->clamps[span->right]);
   double sum = right.turn - left.turn;
-  sum += hinge_change(left.before, column(old, first), left.now, column(now, first));
+  sum += hinge_change(left.before, sw_vec_across(old, first), left.now, sw_vec_across(now, first));
   for (size_t i = first + 1; i <= last; i++)
-    sum +=
-        large ? hinge_change(column(old, i - 1), column(old, i), column(now, i - 1), column(now, i))
-              : -area[i];
-  return sum + hinge_change(column(old, last), right.before, column(now, last), right.now);
+    sum += large ? hinge_change(sw_vec_across(old, i - 1), sw_vec_across(old, i),
+                                sw_vec_across(now, i - 1), sw_vec_across(now, i))
+                 : -area[i];
+  return sum +
+         hinge_change(sw_vec_across(old, last), right.before, sw_vec_across(now, last), right.now);
 }
 
 void sw_twist_measure(sw_system *s, sw_body *b) {
@@ -210,8 +209,7 @@ void sw_twist_gain(sw_body *b, const double *delta) {
 }
 
 static sw_vec slope_at(const sw_body *b, size_t e) {
-  double *const *slope = b->field.twist_slope;
-  return sw_v(slope[0][e], slope[1][e], slope[2][e]);
+  return sw_vec_across(b->field.twist_slope, e);
 }
 
 void sw_twist_react(sw_held_node *h, const sw_body *b) {

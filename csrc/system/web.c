@@ -121,9 +121,7 @@ sw_status sw_web_prepare(sw_body *b) {
   SW_TRY(new_blocks(w, NULL, 0, &b->blocks));
   const size_t slots = w->particles + w->links + 3 * w->folds + SW_FIELD_SOLID_PAIRS * w->solids +
                        SW_FIELD_SLIDE_PAIRS * w->slides + SW_FIELD_CREASE_PAIRS * w->creases;
-  b->web_slots = sw_alloc(slots, sizeof *b->web_slots);
-  b->web_fixed = sw_alloc(w->particles, sizeof *b->web_fixed);
-  if (!b->web_slots || !b->web_fixed) return SW_ENOMEM;
+  SW_TRY(SW_ALLOC_ALL(SW_ROOM(b->web_slots, slots), SW_ROOM(b->web_fixed, w->particles)));
   if (w->particles >= LARGE && !w->banded) {
     b->web_room = sw_alloc(15 * w->particles, sizeof *b->web_room);
     if (!b->web_room) return SW_ENOMEM;
@@ -156,10 +154,7 @@ sw_status sw_body_plan_pairs(sw_body *b, const uint32_t *pairs, size_t count) {
 
 void sw_web_discard(sw_body *b) {
   sw_blocks_free(b->blocks);
-  sw_free(b->web_slots);
-  sw_free(b->web_fixed);
-  sw_free(b->web_pairs);
-  sw_free(b->web_room);
+  SW_FREE_ALL(b->web_slots, b->web_fixed, b->web_pairs, b->web_room);
 }
 
 size_t sw_web_couples_room(const sw_body *b) {

@@ -49,10 +49,6 @@ static double depth_at(const sw_hold *h, const sw_shape *shape, sw_pose pose, do
   return depth;
 }
 
-static sw_pose pose_in(sw_pose hold, sw_pose other) {
-  return (sw_pose){sw_pose_local(other, hold.p), sw_quat_mul(sw_quat_conj(other.q), hold.q)};
-}
-
 /* 1: a place is farther than this from the bounds along one of their axes. */
 static int is_off(const sw_bounds *b, sw_vec p, double far) {
   return p.x < b->min.x - far || p.x > b->max.x + far || p.y < b->min.y - far ||
@@ -91,8 +87,8 @@ static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_err
     if (!o->alive || o->off || (o->drive.tool && o->drive.tool == h->drive.tool)) continue;
     SW_TRY(sw_drive_eval(s, &o->drive, sw_scene_time(s), &there, err));
     SW_TRY(sw_drive_eval(s, &o->drive, before, &was, err));
-    const double depth =
-        depth_on_way(h, o->shape, pose_in(from.pose, was.pose), pose_in(to.pose, there.pose), skin);
+    const double depth = depth_on_way(h, o->shape, sw_pose_from(was.pose, from.pose),
+                                      sw_pose_from(there.pose, to.pose), skin);
     if (depth > out->depth) out->depth = depth, out->obstacle = i;
   }
   return SW_OK;

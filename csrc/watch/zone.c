@@ -182,10 +182,8 @@ static sw_status fit(sw_scene *s, size_t w, int *same) {
   *same = watch->edges == pieces && watch->zones == sw_scene_zones_of(s)->count;
   if (*same) return SW_OK;
   sw_zone_watch new = {.zones = sw_scene_zones_of(s)->count, .edges = pieces};
-  new.past = sw_alloc(new.zones, sizeof *new.past);
-  new.gaps = sw_alloc(new.zones *pieces, sizeof *new.gaps);
-  new.x = sw_alloc(6 * pieces, sizeof *new.x);
-  if (!new.past || !new.gaps || !new.x) {
+  if (SW_ALLOC_ALL(SW_ROOM(new.past, new.zones), SW_ROOM(new.gaps, new.zones *pieces),
+                   SW_ROOM(new.x, 6 * pieces)) != SW_OK) {
     sw_zones_forget(&new);
     return SW_ENOMEM;
   }

@@ -29,6 +29,17 @@ local function names_of(known)
   return names
 end
 
+--- The keys of a table in order; by: see table.sort.
+function checks.sorted(set, by)
+  local keys = {}
+  for key in pairs(set) do keys[#keys + 1] = key end
+  table.sort(keys, by)
+  return keys
+end
+
+--- Whatever keys scripts may give, in the order of what messages show of them.
+function checks.by_text(a, b) return shown(a) < shown(b) end
+
 --- The words of a text as a set: { word = true, ... }.
 function checks.set(text)
   local set = {}
@@ -58,17 +69,22 @@ function checks.keys(what, args, known, level)
   end
 end
 
+--- What is told of a field that there is not: the nearest of these names, else `else_says`, else all of them.
+function checks.lacks(what, key, names, else_says)
+  local near = core.nearest(shown(key), names)
+  return ("%s has no '%s'; %s"):format(what, shown(key), near and ("did you mean '%s'?"):format(near)
+    or else_says or "it has: " .. table.concat(names, " "))
+end
+
 --- An __index for results that have these fields (a text of words): any other is an error that names
--- the nearest; may_lack: words that may be nil.
+-- the nearest; may_lack: words that may be nil. And a function that lists the fields, for completion.
 function checks.fields(what, fields, may_lack)
   local names, silent = {}, checks.set(may_lack or "")
   for word in fields:gmatch "%S+" do names[#names + 1] = word end
   return function(_, key)
     if silent[key] then return nil end
-    local near = core.nearest(shown(key), names)
-    error(("%s has no '%s'; %s"):format(what, shown(key), near and "did you mean '" .. near .. "'?"
-      or "it has: " .. table.concat(names, " ")), 2)
-  end
+    error(checks.lacks(what, key, names), 2)
+  end, function() return table.move(names, 1, #names, 1, {}) end
 end
 
 local LONGEST = 32 -- text in a message [characters]

@@ -91,9 +91,7 @@ local function unknown(self, key)
     for name in pairs(list) do names[#names + 1] = name end
   end
   table.sort(names)
-  local near = core.nearest(checks.shown(key), names)
-  error(("softworld has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "it has: " .. table.concat(names, " ")), 3)
+  error(checks.lacks("softworld", key, names), 3)
 end
 
 return setmetatable(sw, { __index = function(self, key)

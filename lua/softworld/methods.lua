@@ -25,10 +25,7 @@ function methods.found(kind, class, fields, unnamed)
     local value = readable[key] and rawget(sealed.fields(self), key)
     if value ~= nil and readable[key] then return value end
     if class[key] ~= nil then return class[key] end
-    local names = class.__names()
-    local near = core.nearest(checks.shown(key), names)
-    error(("a %s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
-      or "it has: " .. table.concat(names, " ")), 2)
+    error(checks.lacks("a " .. kind, key, class.__names()), 2)
   end
   function class.__newindex(_, key)
     error(("a %s has no '%s' to set; what it found can only be read"):format(kind, checks.shown(key)), 2)

@@ -85,12 +85,7 @@ end
 local sorted = {} -- kind -> its keys in order
 
 local function keys_of(kind)
-  if not sorted[kind] then
-    local keys = {}
-    for key in pairs(rules[kind]) do keys[#keys + 1] = key end
-    table.sort(keys)
-    sorted[kind] = keys
-  end
+  sorted[kind] = sorted[kind] or checks.sorted(rules[kind])
   return sorted[kind]
 end
 

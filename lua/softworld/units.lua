@@ -71,9 +71,7 @@ end
 
 local function unknown(prefix)
   return function(_, name)
-    local names, nearest, least = {}, nil, 3
-    for other in pairs(known) do names[#names + 1] = other end
-    table.sort(names)
+    local names, nearest, least = checks.sorted(known), nil, 3
     for _, other in ipairs(names) do
       local steps = distance(checks.shown(name), other)
       if other:sub(1, 1) ~= checks.shown(name):sub(1, 1) then steps = steps + 0.5 end

@@ -7,18 +7,12 @@ local window = require "softworld.run.window"
 local t = require "spec.physics.tools"
 local windowed = require "spec.physics.windowed"
 
-local steps = windowed.steps
+local steps, even = windowed.steps, windowed.even
 local W, G = 0.01, 9.81
 
 local function uneven(seed, count, least, most)
   local random, list = t.random(seed), {}
   for i = 1, count do list[i] = least + (most - least) * 0.5 * (1 + random()) end
-  return list
-end
-
-local function even(h, duration)
-  local list = {}
-  for i = 1, math.floor(duration / h + 0.5) do list[i] = h end
   return list
 end
 

@@ -6,14 +6,8 @@ local window = require "softworld.run.window"
 local t = require "spec.physics.tools"
 local windowed = require "spec.physics.windowed"
 
-local steps = windowed.steps
+local steps, even = windowed.steps, windowed.even
 local W, G = 0.01, 9.81
-
-local function even(h, duration)
-  local list = {}
-  for i = 1, math.floor(duration / h + 0.5) do list[i] = h end
-  return list
-end
 
 describe("peaks are printed with the raw ones", function()
   local function lifted(more)

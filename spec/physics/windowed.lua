@@ -12,4 +12,11 @@ local function steps(lengths, f)
   return list
 end
 
-return { steps = steps }
+-- Equal steps of h that fill the duration.
+local function even(h, duration)
+  local list = {}
+  for i = 1, math.floor(duration / h + 0.5) do list[i] = h end
+  return list
+end
+
+return { steps = steps, even = even }

@@ -3,19 +3,8 @@
 local sw = require "softworld"
 local leaving = require "spec.scene.leaving"
 
-local rod, at = leaving.rod, leaving.at
+local rod, three, at, refused = leaving.rod, leaving.three, leaving.at, leaving.refused
 local R = 0.0025
-
-local function three()
-  local scene = sw.scene{ name = "three" }
-  return scene, rod(scene, "a", 0), rod(scene, "b", 0.05), rod(scene, "c", 0.1)
-end
-
-local function refused(text, f)
-  local fine, why = pcall(f)
-  assert.is_false(fine, text)
-  assert(tostring(why):find(text, 1, true), why)
-end
 
 describe("scene:remove with grippers", function()
   local function table_with(approach, work, alone)

@@ -1,5 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Wires of which some are taken away, for specs of scene:remove.
+local assert = require "luassert"
+local sw = require "softworld"
+
 local R = 0.0025
 
 local function rod(scene, name, y, more)
@@ -7,6 +10,11 @@ local function rod(scene, name, y, more)
     segments = 20 }
   for key, value in pairs(more or {}) do p[key] = value end
   return scene:wire(p)
+end
+
+local function three()
+  local scene = sw.scene{ name = "three" }
+  return scene, rod(scene, "a", 0), rod(scene, "b", 0.05), rod(scene, "c", 0.1)
 end
 
 -- Do f between two steps, at the first state from time t on.
@@ -20,4 +28,10 @@ local function at(scene, t, f)
   end }
 end
 
-return { rod = rod, at = at }
+local function refused(text, f)
+  local fine, why = pcall(f)
+  assert.is_false(fine, text)
+  assert(tostring(why):find(text, 1, true), why)
+end
+
+return { rod = rod, three = three, at = at, refused = refused }

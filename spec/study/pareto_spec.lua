@@ -2,10 +2,7 @@
 -- Fronts of several results: those known in closed form, and any table's by looking at each pair.
 local sw = require "softworld"
 
-local function study(parameters, evaluate, constraints, workers)
-  return sw.study { name = "s", parameters = parameters, evaluate = evaluate, constraints = constraints,
-    workers = workers or 0 }
-end
+local study = require "spec.study.bowls".study
 
 -- E. Zitzler, K. Deb, L. Thiele 2000: x2 to xn = 0 is the front, g over f as below.
 local SHAPES = {}

@@ -2,27 +2,11 @@
 -- Every method of a search: known minima, failures, limits, bounds; the same bits for any number of workers.
 local sw = require "softworld"
 local search = require "softworld.study.search"
+local bowls = require "spec.study.bowls"
 
-local RANGES = { a = { -2, 2 }, b = { -2, 2, start = 1 } }
-
-local function study(parameters, evaluate, constraints, workers)
-  return sw.study { name = "s", parameters = parameters, evaluate = evaluate, constraints = constraints,
-    workers = workers or 0 }
-end
-
--- Smallest at (0.5, -0.25), and its axes cross those of the parameters.
-local function bowl(p)
-  local u, v = p.a - 0.5, p.b + 0.25
-  return { y = 2 + u ^ 2 + v ^ 2 + u * v }
-end
+local RANGES, study, bowl, search_by = bowls.RANGES, bowls.study, bowls.bowl, bowls.search_by
 
 local function off(found, a, b) return math.max(math.abs(found.best.a - a), math.abs(found.best.b - b)) end
-
-local function search_by(name, o)
-  o = o or {}
-  local evaluations = o.evaluations or 800
-  return o.study:minimise("y", { method = name, evaluations = evaluations, workers = o.workers })
-end
 
 for _, name in ipairs(search.names) do
   local method = search.of(name)

@@ -1,27 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Searches: what is told of a minimum, how they end, what they refuse.
-local sw = require "softworld"
 local core = require "softworld.core"
 local search = require "softworld.study.search"
+local bowls = require "spec.study.bowls"
 
-local RANGES = { a = { -2, 2 }, b = { -2, 2, start = 1 } }
-
-local function study(parameters, evaluate, constraints, workers)
-  return sw.study { name = "s", parameters = parameters, evaluate = evaluate, constraints = constraints,
-    workers = workers or 0 }
-end
-
--- Smallest at (0.5, -0.25), and its axes cross those of the parameters.
-local function bowl(p)
-  local u, v = p.a - 0.5, p.b + 0.25
-  return { y = 2 + u ^ 2 + v ^ 2 + u * v }
-end
-
-local function search_by(name, o)
-  o = o or {}
-  local evaluations = o.evaluations or 800
-  return o.study:minimise("y", { method = name, evaluations = evaluations, workers = o.workers })
-end
+local RANGES, study, bowl, search_by = bowls.RANGES, bowls.study, bowls.bowl, bowls.search_by
 
 describe("what is told of a minimum", function()
   it("has the error bar of the result, where evaluate returns one", function()

@@ -185,7 +185,8 @@ function Calibration:chart(args) return build.call(3, draw, self, args) end
 methods.guard_table("calibration", Calibration)
 
 local SHOWN = "EI GJ EA squeeze fit remarks cable name define save chart"
-local unknown = checks.fields("calibration", SHOWN, "EI GJ EA squeeze")
+local unknown
+unknown, Calibration.__names = checks.fields("calibration", SHOWN, "EI GJ EA squeeze")
 
 function Calibration:__index(key)
   local own = fields(self)
@@ -202,12 +203,6 @@ end
 
 function Calibration:__newindex(key)
   error(("the calibration of '%s' cannot be written to (%s)"):format(fields(self).name, checks.shown(key)), 2)
-end
-
-function Calibration.__names()
-  local list = {}
-  for name in SHOWN:gmatch "%S+" do list[#list + 1] = name end
-  return list
 end
 
 return calibrated

@@ -40,11 +40,6 @@ local exact = {
   },
 }
 
-local function distance(sample)
-  local p, row = sample.tip, sample.row
-  return ((p[1] - row[2]) ^ 2 + p[2] ^ 2 + (p[3] - row[3]) ^ 2) ^ 0.5
-end
-
 return function(options)
   local f = frame.new(options)
   local gamma = options.gamma or 10
@@ -55,37 +50,18 @@ return function(options)
   local wire = wires.straight(scene, f, p, { 0, 0, 0 }, { 1, 0, 0 })
   local clamp = scene:clamp(wire, { s = 0 })
   local c = { name = "release", scene = scene, wire = wire, clamp = clamp, frame = f,
-    parameters = p, exact = rows, samples = {}, duration = 1,
+    parameters = p, exact = rows, duration = 1,
     source = "geometrically exact Hermite elements, error about 5e-6 m" }
-  local stride = math.floor((options.every or 0.1) / 0.05 + 0.5)
-
-  function c.run(o)
-    local times = {}
-    for i = 1 + stride, #rows, stride do times[#times + 1] = rows[i][1] end
-    local k = 1
-    return wires.sampled(scene, times, o, function()
-      k = k + stride
-      c.samples[#c.samples + 1] =
-        { row = rows[k], tip = f.local_point(wire:position(wire.length)) }
-    end)
-  end
+  c.run = wires.compared(c, rows, options.every)
 
   function c.error()
     local sum, count = 0, 0
     for _, sample in ipairs(c.samples) do
       if math.abs(sample.row[1] * 10 - math.floor(sample.row[1] * 10 + 0.5)) < 1e-9 then
-        sum, count = sum + distance(sample) ^ 2, count + 1
+        sum, count = sum + wires.off(sample) ^ 2, count + 1
       end
     end
     return (sum / count) ^ 0.5
-  end
-
-  function c.largest(t)
-    local most = 0
-    for _, sample in ipairs(c.samples) do
-      if sample.row[1] <= t + 1e-9 then most = math.max(most, distance(sample)) end
-    end
-    return most
   end
   return c
 end

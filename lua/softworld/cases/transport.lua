@@ -38,11 +38,6 @@ local exact = {
     { 2, 0.7042697098, -0.4439854598 },
 }
 
-local function distance(sample)
-  local p, row = sample.tip, sample.row
-  return ((p[1] - row[2]) ^ 2 + p[2] ^ 2 + (p[3] - row[3]) ^ 2) ^ 0.5
-end
-
 return function(options)
   local f = frame.new(options)
   local area = math.pi * r * r
@@ -53,9 +48,9 @@ return function(options)
   local wire = wires.straight(scene, f, p, { 0, 0, 0 }, { 0, 0, -L })
   local clamp = scene:clamp(wire, { s = 0 })
   local c = { name = "transport", scene = scene, wire = wire, clamp = clamp, frame = f,
-    parameters = p, exact = exact, samples = {}, duration = 2, length = L,
+    parameters = p, exact = exact, duration = 2, length = L,
     source = "geometrically exact Hermite elements, error about 4e-6 m" }
-  local stride = math.floor((options.every or 0.1) / 0.05 + 0.5)
+  local run = wires.compared(c, exact, options.every)
 
   --- options of scene:run; settle = false leaves out the equilibrium before.
   function c.run(o)
@@ -64,21 +59,7 @@ return function(options)
     if not settled.ok then return settled end
     clamp:follow{ points = { f.point(0, 0, 0), f.point(0.5, 0, 0) }, times = { 0, 1 },
       law = "minimum-jerk" }
-    local times, k = {}, 1
-    for i = 1 + stride, #exact, stride do times[#times + 1] = exact[i][1] end
-    return wires.sampled(scene, times, o, function()
-      k = k + stride
-      c.samples[#c.samples + 1] =
-        { row = exact[k], tip = f.local_point(wire:position(wire.length)) }
-    end)
-  end
-
-  function c.largest(t)
-    local most = 0
-    for _, sample in ipairs(c.samples) do
-      if sample.row[1] <= t + 1e-9 then most = math.max(most, distance(sample)) end
-    end
-    return most
+    return run(o)
   end
 
   function c.error() return c.largest(2) / L end

@@ -75,4 +75,35 @@ function wire.sampled(scene, times, options, sample)
   return total
 end
 
+--- How far the tip of a sample is from its row, see wire.compared [m].
+function wire.off(sample)
+  local p, row = sample.tip, sample.row
+  return ((p[1] - row[2]) ^ 2 + p[2] ^ 2 + (p[3] - row[3]) ^ 2) ^ 0.5
+end
+
+--- Let a case compare its wire's tip with rows { t, x, z } 0.05 s apart, every so often (0.1 s): gives
+-- it samples and largest(t), and returns the run that fills them.
+function wire.compared(case, rows, every)
+  local stride = math.floor((every or 0.1) / 0.05 + 0.5)
+  case.samples = {}
+
+  function case.largest(t)
+    local most = 0
+    for _, sample in ipairs(case.samples) do
+      if sample.row[1] <= t + 1e-9 then most = math.max(most, wire.off(sample)) end
+    end
+    return most
+  end
+
+  return function(o)
+    local times, k = {}, 1
+    for i = 1 + stride, #rows, stride do times[#times + 1] = rows[i][1] end
+    return wire.sampled(case.scene, times, o, function()
+      k = k + stride
+      case.samples[#case.samples + 1] =
+        { row = rows[k], tip = case.frame.local_point(case.wire:position(case.wire.length)) }
+    end)
+  end
+end
+
 return wire

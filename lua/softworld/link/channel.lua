@@ -12,9 +12,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
-local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
-local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
 local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.norm
@@ -137,6 +135,10 @@ end
 
 local LID = 0.7 -- transparency in pictures, so that the wire is seen
 
+local function remove(parts)
+  for _, part in ipairs(parts) do part:remove() end
+end
+
 -- All of them or none.
 local function raise(self, parts, transparency)
   for _, part in ipairs(parts) do core.shape{ shape = "hull", points = part[2] } end -- before any stands
@@ -165,8 +167,8 @@ local function checked(scene, args)
   return args, what
 end
 
-local function make(scene, given)
-  remarks.on("channel", "scene:channel", given)
+--- scene:channel{ points = {{x, y, z}, ...}, width =, depth =, ... }: see help "channel".
+fixing.made(Channel, function(scene, given)
   local args, what = checked(scene, given)
   local self = { name = args.name, scene = scene, width = args.width, depth = args.depth,
     thickness = args.thickness, friction = args.friction, restitution = args.restitution }
@@ -175,24 +177,16 @@ local function make(scene, given)
   local parts, cover = trough(what, self), lid(what, self)
   self.parts = raise(self, parts)
   self.object = self.parts[1]
-  self = sealed.new(Channel, self)
   if args.lid then
     local ok, lids = pcall(raise, self, cover, LID)
     if not ok then
-      self:release()
+      remove(self.parts)
       error(lids, 0)
     end
     self.lids = lids
   end
-  fixing.keep(scene, self)
   return self
-end
-
---- scene:channel{ points = {{x, y, z}, ...}, width =, depth =, ... }: see help "channel".
-function core.class.scene.channel(scene, args)
-  build.check(scene, "scene:channel", 3)
-  return (build.call(3, make, scene, args))
-end
+end)
 
 local function stands(obstacle) return core.exists(obstacle) and obstacle.present end
 
@@ -210,7 +204,6 @@ end
 
 --- Force of all wires on the channel and its lid [N].
 function Channel:force()
-  fixing.check(self, Channel, "force")
   local sum = { 0, 0, 0 }
   for _, part in ipairs(all_parts(self)) do sum = add(sum, (part:force())) end
   return sum
@@ -221,11 +214,10 @@ local moment = rows.call("channel:moment", "{...}", "of all wires on it", {
 
 --- Moment of all wires on the channel about a point.
 function Channel:moment(args)
-  fixing.check(self, Channel, "moment")
   local at = moment:read(args == nil and {} or args).at or self.legs[1].from
   local sum = { 0, 0, 0 }
   for _, part in ipairs(all_parts(self)) do
-    sum = add(sum, build.call(3, part.moment, part, { at = at }))
+    sum = add(sum, part:moment{ at = at })
   end
   return sum
 end
@@ -260,8 +252,7 @@ end
 
 --- Share of the wire's length whose centre line lies in the channel, in steps of 1/200.
 function Channel:contains(wire)
-  fixing.check(self, Channel, "contains")
-  build.call(3, fixing.wire, self.scene, "channel:contains", "the argument", wire)
+  fixing.wire(self.scene, "channel:contains", "the argument", wire)
   return share(self, wire, self.depth)
 end
 
@@ -286,39 +277,33 @@ end
 
 --- Put the lid on. Refused while a wire stands out.
 function Channel:close()
-  fixing.check(self, Channel, "close")
   build.check(self.scene, "channel:close", 3)
   if is_closed(self) then return self end
-  build.call(3, check_lid, self)
-  local parts = build.call(3, lid, "channel", self)
+  check_lid(self)
+  local parts = lid("channel", self)
   local count = (self.count or 0) + 1
   for _, part in ipairs(parts) do
     if count > 1 then part[1] = ("%s (%d)"):format(part[1], count) end
   end
-  self.lids, self.count = build.call(3, raise, self, parts, LID), count
+  self.lids, self.count = raise(self, parts, LID), count
   return self
 end
 
 --- Take the lid off.
 function Channel:open()
-  fixing.check(self, Channel, "open")
   build.check(self.scene, "channel:open", 3)
-  for _, part in ipairs(is_closed(self) and self.lids or {}) do part:remove() end
+  remove(is_closed(self) and self.lids or {})
   return self
 end
 
 --- Take the channel away.
 function Channel:release()
-  fixing.check(self, Channel, "release")
   build.check(self.scene, "channel:release", 3)
-  for _, part in ipairs(all_parts(self)) do part:remove() end
+  remove(all_parts(self))
 end
 
 --- Rows of a run's summary.
 function Channel:report(add_row)
-  if type(add_row) ~= "function" then
-    error("channel:report: a function that adds a row is wanted, got " .. type(add_row), 2)
-  end
   for _, entry in ipairs(build.data(self.scene).wires) do
     if core.exists(entry.object) then
       local part = share(self, entry.object, self.depth)

@@ -14,9 +14,7 @@
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
-local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
-local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 local fixshape = require "softworld.link.fixshape"
 
@@ -119,32 +117,24 @@ local function make_damper(scene, args, time, force)
   error(damper, 0)
 end
 
-local function make(scene, given)
-  remarks.on("clip", "scene:clip", given)
+--- scene:clip{ at = {x, y, z}, width =, insertion =, retention =, ... }: see help "clip".
+fixing.made(Clip, function(scene, given)
   local args = checked(scene, given)
   local name, time = args.name, args.snap
   args.name, args.snap, args.kind = nil, nil, "clip"
   local force = scene:force(args)
   force:call_it(name)
-  local self = sealed.new(Clip, { name = name, scene = scene, object = force, at = args.at,
-    damper = make_damper(scene, args, time, force), direction = args.direction, axis = args.axis,
-    width = args.width, on = args.on, radius = args.radius, insertion = args.insertion,
-    retention = args.retention })
-  fixing.keep(scene, self)
-  return self
-end
-
---- scene:clip{ at = {x, y, z}, width =, insertion =, retention =, ... }: see help "clip".
-function core.class.scene.clip(scene, args)
-  build.check(scene, "scene:clip", 3)
-  return (build.call(3, make, scene, args))
-end
+  return { name = name, object = force, at = args.at, damper = make_damper(scene, args, time, force),
+    direction = args.direction, axis = args.axis, width = args.width, on = args.on, radius = args.radius,
+    insertion = args.insertion, retention = args.retention }
+end)
 
 function Clip.exists(self) return core.exists(self.object) and self.object.held end
 
 --- Read-outs of the clip, one row for each wire that it acts on: { { wire =, share =, u =, ... } }.
 local function readings(self)
   local list = {}
+  fixing.check(self)
   for _, entry in ipairs(build.data(self.scene).wires) do
     if core.exists(entry.object) and (self.on == nil or self.on == entry.object) then
       local r = self.object:read(entry.object)
@@ -162,7 +152,6 @@ end
 
 -- The reading of the one wire, or of all.
 local function chosen(self, wire, verb)
-  fixing.check(self, Clip, verb)
   if wire ~= nil then fixing.wire(self.scene, "clip:" .. verb, "the argument", wire) end
   local list = {}
   for _, r in ipairs(readings(self)) do
@@ -173,7 +162,7 @@ end
 
 --- Is a wire (or this one) in the seat?
 function Clip:seated(wire)
-  for _, r in ipairs(build.call(3, chosen, self, wire, "seated")) do
+  for _, r in ipairs(chosen(self, wire, "seated")) do
     if is_seated(r) then return true end
   end
   return false
@@ -182,7 +171,7 @@ end
 --- "empty", "inserting" (under the lips), "seated", or "broken" by the wire.
 function Clip:state(wire)
   local state = "empty"
-  for _, r in ipairs(build.call(3, chosen, self, wire, "state")) do
+  for _, r in ipairs(chosen(self, wire, "state")) do
     if r.broken > 0 then return "broken" end
     if is_seated(r) then return "seated" end
     if r.share >= THERE and r.u > 0 and r.u < r.way then state = "inserting" end
@@ -193,7 +182,7 @@ end
 --- Force on the wire, with friction [N].
 function Clip:force(wire)
   local sum = { 0, 0, 0 }
-  for _, r in ipairs(build.call(3, chosen, self, wire, "force")) do
+  for _, r in ipairs(chosen(self, wire, "force")) do
     sum = vec.add(sum, { r.force_x, r.force_y, r.force_z })
   end
   return sum
@@ -203,7 +192,7 @@ end
 -- hardly less means that it came out.
 function Clip:ratio(wire)
   local most = 0
-  for _, r in ipairs(build.call(3, chosen, self, wire, "ratio")) do
+  for _, r in ipairs(chosen(self, wire, "ratio")) do
     most = math.max(most, r.state == SEATED and r.peak or r.removals > 0 and r.out_peak or 0)
   end
   return most / self.retention
@@ -212,21 +201,20 @@ end
 --- Height of the wire over the seat towards the mouth, and the lips' height [m]; nil when no
 -- wire passes.
 function Clip:height(wire)
-  for _, r in ipairs(build.call(3, chosen, self, wire, "height")) do
+  for _, r in ipairs(chosen(self, wire, "height")) do
     if r.share >= THERE then return r.u, r.way end
   end
 end
 
 --- Take the clip away.
 function Clip:release()
-  fixing.check(self, Clip, "release")
-  build.call(3, self.object.release, self.object)
+  self.object:release()
   if self.damper then self.damper:release() end
 end
 
 local function latest(self, count, time)
   local best
-  for _, r in ipairs(chosen(self, nil, "inserted")) do
+  for _, r in ipairs(readings(self)) do
     if r[count] > 0 and (not best or r[time] > best[time]) then best = r end
   end
   return best
@@ -234,7 +222,7 @@ end
 
 --- The wire in the seat, or nil.
 function properties.wire(self)
-  for _, r in ipairs(chosen(self, nil, "wire")) do
+  for _, r in ipairs(readings(self)) do
     if is_seated(r) then return r.wire end
   end
 end
@@ -257,7 +245,7 @@ end
 -- of the first wire that was pressed through it, or nil.
 function properties.overloaded(self)
   local best
-  for _, r in ipairs(chosen(self, nil, "overloaded")) do
+  for _, r in ipairs(readings(self)) do
     if r.broken > 0 and (not best or r.broken_time < best.broken_time) then best = r end
   end
   return best and { time = best.broken_time, force = best.broken_force, by = BROKEN[best.broken],
@@ -267,7 +255,7 @@ end
 --- Of the last insertion, or of that under way [N]; 0 before.
 function properties.peak_insertion_force(self)
   local most = 0
-  for _, r in ipairs(chosen(self, nil, "peak_insertion_force")) do
+  for _, r in ipairs(readings(self)) do
     most = math.max(most, r.state == INSERTING and r.peak or r.in_peak)
   end
   return most
@@ -275,9 +263,6 @@ end
 
 --- Rows of a run's summary.
 function Clip:report(add)
-  if type(add) ~= "function" then
-    error("clip:report: a function that adds a row is wanted, got " .. type(add), 2)
-  end
   local into, out = self.inserted, self.pulled_out
   if into then
     add(("%s: largest force as '%s' went in"):format(self.name, into.wire.name), into.peak_force, "N",

@@ -1,11 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Shared by clips, ties and channels: checks of arguments, and the scene's list of such things, by which
--- runs tell of them and pictures show them.
+--- Shared by clips, ties and channels: how they are made and asked, checks of arguments, and the scene's list
+-- of such things, by which runs tell of them and pictures show them.
 -- @module softworld.link.fixing
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local keep = require "softworld.scene.keep"
+local remarks = require "softworld.remarks"
 local sealed = require "softworld.sealed"
 
 local fixing = {}
@@ -13,6 +14,7 @@ local fixing = {}
 --- The parameters of a new thing by its rows, and what messages call it. Errors have no place yet: call
 -- from build.call.
 function fixing.arguments(scene, call, kind, args)
+  remarks.on(kind, call.name, args)
   checks.keys(call.name, args, call.known, 0)
   local name = fixing.name(scene, call.name, args.name, kind)
   local what = ("%s '%s'"):format(kind, name)
@@ -40,11 +42,21 @@ function fixing.name(scene, what, given, kind)
   return name
 end
 
---- Note it in the scene's list. It has name, object (what it is in the core), exists(), and
--- report(add) for the summary.
-function fixing.keep(scene, it)
-  local list = build.data(scene).fixings
-  list[#list + 1] = { fixing = it, object = it.object, name = it.name }
+--- Let scene:clip and so on make them. make: given the scene and what the call takes, gives the fields, name
+-- and object (what it is in the core) among them. The scene's list has it from then on; it has exists(),
+-- and report(add) for the summary.
+function fixing.made(class, make)
+  local function new(scene, ...)
+    local fields, list = make(scene, ...), build.data(scene).fixings
+    fields.scene = scene
+    local it = sealed.new(class, fields)
+    list[#list + 1] = { fixing = it, object = fields.object, name = fields.name }
+    return it
+  end
+  core.class.scene[class.__name] = function(scene, ...)
+    build.check(scene, "scene:" .. class.__name)
+    return (build.call(3, new, scene, ...))
+  end
 end
 
 --- Those that there are.
@@ -64,10 +76,7 @@ local function reader(kind, class, properties, known)
     if properties[key] then return build.call(3, properties[key], self) end
     local value = class[key]
     if value ~= nil or known[key] then return value end
-    local names = class.__names()
-    local near = core.nearest(checks.shown(key), names)
-    error(("%s has no '%s'; %s"):format(kind, checks.shown(key), near and "did you mean '" .. near .. "'?"
-      or "it has: " .. table.concat(names, " ")), 2)
+    error(checks.lacks(kind, key, class.__names()), 2)
   end
 end
 
@@ -96,6 +105,27 @@ local function names_of(class, properties)
   return names
 end
 
+--- Raise unless its scene still knows it; errors have no place yet.
+function fixing.check(self)
+  if self:exists() then return end
+  error(("%s '%s' was released, or taken back when a snapshot was restored"):format(
+    getmetatable(self).__name, self.name), 0)
+end
+
+-- What is asked of one that may be gone, by runs.
+local always = { exists = true, solids = true, report = true }
+
+-- The method of a class, which is called of one that is there; its errors have a place.
+local function method(class, name, f)
+  return build.placed(function(self, add, ...)
+    if not always[name] then fixing.check(self) end
+    if name == "report" and type(add) ~= "function" then
+      error(("%s:report: a function that adds a row is wanted, got %s"):format(class.__name, type(add)), 0)
+    end
+    return f(self, add, ...)
+  end)
+end
+
 --- A class whose objects answer methods, then properties (functions of the object), and
 -- name the nearest word for a typo. `own` lists fields that may be nil.
 function fixing.class(kind, properties, own)
@@ -106,22 +136,10 @@ function fixing.class(kind, properties, own)
   function class.__names() return names_of(class, properties) end
   keep.class(kind, class)
   local meta = { __index = { solids = function() return {} end } } -- pictures show obstacles only
-  function meta.__newindex(_, name, value) -- errors of methods have a place
-    local method = type(value) == "function" and name:sub(1, 2) ~= "__"
-    rawset(class, name, method and build.placed(value) or value)
+  function meta.__newindex(_, name, value)
+    rawset(class, name, name:sub(1, 2) ~= "__" and method(class, name, value) or value)
   end
   return setmetatable(class, meta)
-end
-
---- Raise unless self is of the class and its scene still knows it.
-function fixing.check(self, class, verb)
-  if getmetatable(self) ~= class then
-    error(("%s:%s is a method: call it with a colon"):format(class.__name, verb), 3)
-  end
-  if not self:exists() then
-    error(("%s '%s' was released, or taken back when a snapshot was restored"):format(class.__name,
-      self.name), 3)
-  end
 end
 
 return fixing

@@ -10,11 +10,8 @@
 -- @module softworld.link.tie
 local checks = require "softworld.checks"
 local core = require "softworld.core"
-local build = require "softworld.scene.build"
 local fixing = require "softworld.link.fixing"
-local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
-local sealed = require "softworld.sealed"
 local vec = require "softworld.vec"
 
 local properties = {}
@@ -82,10 +79,10 @@ local function checked(scene, wire, args)
   return args
 end
 
-local function make(scene, wire, given)
-  remarks.on("tie", "scene:tie", given)
+--- scene:tie(wire, { s =, to = {x, y, z} or { wire, s = }, slack =, strength = }): see help "tie".
+fixing.made(Tie, function(scene, wire, given)
   local a = checked(scene, wire, given)
-  local self = { name = a.name, scene = scene, wire = wire, s = a.s, other = a.other }
+  local self = { name = a.name, wire = wire, s = a.s, other = a.other }
   if a.other then
     self.object = scene:join{ ends = { { wire, s = a.s }, { a.other, s = a.other_s } }, slack = a.slack,
       stiffness = a.stiffness, strength = a.strength, name = a.name }
@@ -93,68 +90,44 @@ local function make(scene, wire, given)
     self.object = scene:force{ kind = "tether", on = wire, s = a.s, to = a.to, slack = a.slack,
       stiffness = a.stiffness, strength = a.strength }
   end
-  self = sealed.new(Tie, self)
-  fixing.keep(scene, self)
   return self
-end
-
---- scene:tie(wire, { s =, to = {x, y, z} or { wire, s = }, slack =, strength = }): see help "tie".
-function core.class.scene.tie(scene, wire, args)
-  build.check(scene, "scene:tie", 3)
-  return (build.call(3, make, scene, wire, args))
-end
+end)
 
 function Tie:exists() return core.exists(self.object) and self.object.held end
 
 local function reading(self)
+  fixing.check(self)
   if self.other then return self.object:read() end
   return self.object:read(self.wire)
 end
 
 --- Pull of the tie [N]; 0 while it is slack, and once it is broken.
-function Tie:tension()
-  fixing.check(self, Tie, "tension")
-  return build.call(3, reading, self).tension
-end
+function Tie:tension() return reading(self).tension end
 
 --- How far the tied places are apart [m].
-function Tie:distance()
-  fixing.check(self, Tie, "distance")
-  return build.call(3, reading, self).distance
-end
+function Tie:distance() return reading(self).distance end
 
 --- Force on the wire that was tied (not on the other one) [N].
 function Tie:force()
-  fixing.check(self, Tie, "force")
-  if self.other then return build.call(3, self.object.force, self.object, 1) end
-  local r = build.call(3, reading, self)
+  if self.other then return self.object:force(1) end
+  local r = reading(self)
   return { r.force_x, r.force_y, r.force_z }
 end
 
 --- Cut it.
-function Tie:release()
-  fixing.check(self, Tie, "release")
-  build.call(3, self.object.release, self.object)
-end
+function Tie:release() self.object:release() end
 
 --- Largest pull so far [N].
-function properties.peak_force(self)
-  fixing.check(self, Tie, "peak_force")
-  return reading(self).peak
-end
+function properties.peak_force(self) return reading(self).peak end
 
 --- { time = [s], force = [N] } once it broke, or nil.
 function properties.broken(self)
-  fixing.check(self, Tie, "broken")
   local r = reading(self)
   return r.broken > 0 and { time = r.broken_time, force = r.broken_force } or nil
 end
 
 --- Rows of a run's summary.
 function Tie:report(add)
-  if type(add) ~= "function" then
-    error("tie:report: a function that adds a row is wanted, got " .. type(add), 2)
-  end
   local broken = self.broken
   if broken then
     add(self.name .. ": BROKE at", broken.force, "N", nil, broken.time)

@@ -3,6 +3,7 @@
 -- the same rows that check arguments.
 -- @module softworld.prompt.topics
 require "softworld" -- its objects tell their rows
+local checks = require "softworld.checks"
 local core = require "softworld.core"
 local manual = require "softworld.manual"
 local rows = require "softworld.rows"
@@ -66,13 +67,6 @@ end
 
 local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force", force = "force",
   shapes = "obstacle", shape = "obstacle", readouts = "readout" } -- integrators has a page
-
-local function sorted_names(set)
-  local list = {}
-  for name in pairs(set) do list[#list + 1] = name end
-  table.sort(list)
-  return list
-end
 
 local function named(list, name)
   for _, entry in ipairs(list) do
@@ -210,7 +204,7 @@ local function add_calls(topic, parts)
   local is_class = rows.classes[topic]
   if is_class then parts[#parts + 1] = class_part(topic) end
   if not is_class and (parts[1] or manual.has(topic) or plural[topic]) then return end
-  for _, class in ipairs(sorted_names(rows.classes)) do
+  for _, class in ipairs(checks.sorted(rows.classes)) do
     for _, call in ipairs(rows.classes[class]) do
       if call ~= made and call.name:match "[:.](.*)$" == topic and (not is_class or call.rows[1]) then
         parts[#parts + 1] = call_part(call)
@@ -221,7 +215,7 @@ end
 
 -- Classes of objects that are told of nowhere else.
 local function object_names()
-  local names = sorted_names(rows.classes)
+  local names = checks.sorted(rows.classes)
   for i = #names, 1, -1 do
     if registered().params[names[i]] or named(registered().holds, names[i]) then table.remove(names, i) end
   end
@@ -284,7 +278,7 @@ end
 --- Names of all members and tables of rows, in groups: a title and a list.
 function topics.reference()
   local r = registered()
-  return { { "make", sorted_names(r.params) }, { "models", names_of(r.models) },
+  return { { "make", checks.sorted(r.params) }, { "models", names_of(r.models) },
     { "holds", names_of(r.holds) }, { "obstacles", names_of(r.shapes) },
     { "forces", names_of(outer(r.forces)) }, { "integrators", names_of(r.integrators) },
     { "readouts", names_of(r.readouts) }, { "objects", object_names() } }
@@ -318,7 +312,7 @@ end
 
 --- Message for a name without a topic, with the nearest one that has.
 function topics.unknown(topic)
-  local names = sorted_names(manual.also)
+  local names = checks.sorted(manual.also)
   local function add(list) table.move(list, 1, #list, #names + 1, names) end
   for _, group in ipairs(manual.groups) do add(group[2]) end
   for _, group in ipairs(topics.reference()) do add(group[2]) end

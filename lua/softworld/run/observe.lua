@@ -219,9 +219,7 @@ function Observer:__index(key)
   if known[key] then return rawget(fields(self), key) end
   local value = Observer[key]
   if value ~= nil then return value end
-  local near = core.nearest(checks.shown(key), names)
-  error(("an observer has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "it has: " .. table.concat(names, " ")), 2)
+  error(checks.lacks("an observer", key, names), 2)
 end
 
 function Observer.__newindex(_, key)

@@ -3,6 +3,7 @@
 -- @module softworld.run.pictures
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
 local rows = require "softworld.rows"
 local runfiles = require "softworld.run.files"
 local scale = require "softworld.output.scale"
@@ -129,10 +130,7 @@ local function numbers_of(self, times, wanted)
       end
     end
   end
-  local list = {}
-  for k in pairs(set) do list[#list + 1] = k end
-  table.sort(list)
-  return list
+  return checks.sorted(set)
 end
 
 -- Times of the moments asked for; of a run that failed the last ones.

@@ -214,9 +214,8 @@ function Process:__index(key)
   if key == "time" then return self.scene.time end
   local value = Process[key]
   if value ~= nil or fields[key] then return value end
-  local near = core.nearest(checks.shown(key), Process.__names())
-  error(("a process has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "help 'process' at the prompt lists what it has"), 2)
+  error(checks.lacks("a process", key, Process.__names(),
+    "help 'process' at the prompt lists what it has"), 2)
 end
 
 function Process:__newindex(key, value)

@@ -171,9 +171,7 @@ function Run.__index(self, key)
     return failure.reason
   end
   if may_lack[key] then return trust.refuse(self, key) end
-  local near = core.nearest(checks.shown(key), Run.__names())
-  error(("run has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "help(run) at the prompt lists what it has"), 2)
+  error(checks.lacks("run", key, Run.__names(), "help(run) at the prompt lists what it has"), 2)
 end
 
 function Run:__newindex(key, value)

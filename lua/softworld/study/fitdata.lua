@@ -89,9 +89,7 @@ end
 
 --- The data as a list by name, { name =, unit =, values =, scale = {1 / sigma} }; count; is sigma given?
 function fitdata.read(own, given)
-  local list, names, count = {}, {}, 0
-  for name in pairs(given) do names[#names + 1] = name end
-  table.sort(names, function(a, b) return checks.shown(a) < checks.shown(b) end)
+  local list, names, count = {}, checks.sorted(given, checks.by_text), 0
   if #names == 0 then fail "study:fit: data is empty; name at least one, such as { droop = 0.12 }" end
   for i, name in ipairs(names) do
     list[i] = read_one(own, name, given[name])

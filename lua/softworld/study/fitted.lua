@@ -225,7 +225,8 @@ end
 local Fit = { __name = "fit" }
 local KNOWN = "parameters correlation unresolved remarks at_bound ok reason chi2 freedom chance scatter "
   .. "sigma computed residuals data best evaluations failed starts chart"
-local unknown = checks.fields("fit", KNOWN, "chance")
+local unknown
+unknown, Fit.__names = checks.fields("fit", KNOWN, "chance")
 
 -- Has it converged: is the step that is left nothing beside the error, or the tolerance?
 local function judge_end(fit, f, search, said)
@@ -311,10 +312,7 @@ local function chart(fit, args)
   local o = rows.all["fit:chart"]:read(args == nil and {} or args)
   local list, low, high = { path = o.path, title = "fit", xlabel = "computed", ylabel = "measured" },
     math.huge, -math.huge
-  local names = {}
-  for name in pairs(fit.data) do names[#names + 1] = name end
-  table.sort(names)
-  for _, name in ipairs(names) do
+  for _, name in ipairs(checks.sorted(fit.data)) do
     list[#list + 1] = { x = fit.computed[name], y = fit.data[name], name = name, style = "points" }
     for k, x in ipairs(fit.computed[name]) do
       low, high = math.min(low, x, fit.data[name][k]), math.max(high, x, fit.data[name][k])
@@ -333,12 +331,6 @@ function Fit.__index(_, key)
   local method = rawget(Fit, key)
   if method ~= nil and key == "chart" then return method end
   return unknown(nil, key)
-end
-
-function Fit.__names()
-  local list = {}
-  for name in KNOWN:gmatch "%S+" do list[#list + 1] = name end
-  return list
 end
 
 return fitted

@@ -3,6 +3,7 @@
 -- @module softworld.study.gather
 local core = require "softworld.core"
 local batch = require "softworld.study.batch"
+local checks = require "softworld.checks"
 local sends = require "softworld.study.sends"
 local slurm = require "softworld.study.slurm"
 
@@ -75,10 +76,7 @@ local function waits_for(run, states)
       end
     end
   end
-  local list = {}
-  for reason in pairs(reasons) do list[#list + 1] = reason end
-  table.sort(list)
-  local text = table.concat(list, "; ")
+  local text = table.concat(checks.sorted(reasons), "; ")
   if text ~= "" and run.told ~= text then
     say(run.own, "all tasks wait, for: %s", text)
     run.told = text

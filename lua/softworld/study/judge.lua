@@ -11,10 +11,8 @@ local function fail(text, ...) error(text:format(...), 0) end
 
 --- Constraints { name = { min =, max =, unit = } } as a list in the order of names.
 function judge.read(given, by_name)
-  local list, names = {}, {}
-  for name in pairs(given or {}) do names[#names + 1] = name end
-  table.sort(names, function(a, b) return checks.shown(a) < checks.shown(b) end)
-  for i, name in ipairs(names) do
+  local list = {}
+  for i, name in ipairs(checks.sorted(given or {}, checks.by_text)) do
     parameters.check_name("sw.study: constraint", name)
     local what, c = ("sw.study: constraint '%s'"):format(name), given[name]
     checks.keys(what, c, { min = true, max = true, unit = true }, 0)
@@ -105,19 +103,12 @@ function judge.pass(own, record)
   return judge.violation(own, record) <= 0
 end
 
-local function names_of(results)
-  local names = {}
-  for name in pairs(results) do names[#names + 1] = name end
-  table.sort(names)
-  return names
-end
-
 --- A result that is asked for has to be there: without it the evaluation has failed, and of the first one
 -- it is an error.
 function judge.has(record, name, who)
   local results = record.results
   if not results or results[name] then return end
-  local names = names_of(results)
+  local names = checks.sorted(results)
   if record.number == 1 then
     local near = core.nearest(name, names)
     fail("%s: evaluate returns no '%s'; %s", who, name, near and ("did you mean '%s'?"):format(near)
@@ -147,7 +138,7 @@ function judge.alike(records)
   local names, first
   for _, record in ipairs(sorted(records)) do
     if record.results then
-      local own = table.concat(names_of(record.results), " ")
+      local own = table.concat(checks.sorted(record.results), " ")
       names, first = names or own, first or record.number
       if own ~= names then
         record.results = nil

@@ -145,9 +145,7 @@ end
 
 --- The list of parameters that a script's table tells, by name.
 function parameters.read(given)
-  local list, names = {}, {}
-  for name in pairs(given) do names[#names + 1] = name end
-  table.sort(names, function(a, b) return checks.shown(a) < checks.shown(b) end)
+  local list, names = {}, checks.sorted(given, checks.by_text)
   for i, name in ipairs(names) do
     list[i] = read_one(name, given[name])
     list[i].name = name

@@ -105,10 +105,9 @@ function Spread.__tostring(s)
   if s.left_out > 0 then
     lines[2] = ("  %d ended by the machine are left out"):format(s.left_out)
   end
-  local names = {}
-  for name in pairs(s.matters) do names[#names + 1] = name end
-  table.sort(names)
-  for _, name in ipairs(names) do lines[#lines + 1] = "  " .. matters.text(name, s.matters[name]) end
+  for _, name in ipairs(checks.sorted(s.matters)) do
+    lines[#lines + 1] = "  " .. matters.text(name, s.matters[name])
+  end
   return table.concat(lines, "\n")
 end
 

@@ -285,7 +285,8 @@ methods.guard_table("study", Study)
 
 local SHOWN = "run cancel sweep minimise fit pareto front spread change advise table best again report csv "
   .. "json chart name file computed"
-local unknown = checks.fields("study", SHOWN, "file")
+local unknown
+unknown, Study.__names = checks.fields("study", SHOWN, "file")
 
 function Study:__index(key)
   local own = sealed.fields(self)
@@ -300,11 +301,5 @@ function Study:__newindex(key)
 end
 
 function Study.__tostring(self) return output.text(fields(self)) end
-
-function Study.__names()
-  local list = {}
-  for name in SHOWN:gmatch "%S+" do list[#list + 1] = name end
-  return list
-end
 
 return study

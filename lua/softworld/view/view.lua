@@ -263,9 +263,7 @@ function View:__index(key)
   if key == "pages" then return own.server and (own.server:pages()) or 0 end
   if key == "scene" then return own.scene end
   if key == "wait" or key == "close" then return View[key] end
-  local near = core.nearest(checks.shown(key), names)
-  error(("a view has no '%s'; %s"):format(checks.shown(key), near and "did you mean '" .. near .. "'?"
-    or "it has: " .. table.concat(names, " ")), 2)
+  error(checks.lacks("a view", key, names), 2)
 end
 
 function View.__newindex(_, key) error(("a view has no '%s' to set"):format(checks.shown(key)), 2) end
