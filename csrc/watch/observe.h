@@ -32,8 +32,8 @@ sw_status sw_scene_check_ties(const sw_scene *scene, const double *x, sw_error *
 typedef struct sw_snap {
   double pull, jolt;
 } sw_snap;
-/* 1: a tie goes taut or slack between the scene's places and those of the last trial's stages: one
- * that snaps taut may be slack again at its end. */
+/* 1: a tie goes taut between the scene's places and those of the last trial's stages: one that
+ * snaps taut may be slack again at its end. */
 int sw_scene_ties_snap(const sw_scene *scene, sw_snap *snap);
 /* After a step, before histories follow: ties that were pulled too hard break. */
 void sw_scene_watch_ties(sw_scene *scene);

@@ -76,7 +76,7 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
 /* A tie pulls so hard at the scene's places and in a trial, wires p at its ends [N]. */
 static int note_snap(const sw_scene *s, double before, double now, const sw_plan *const *p,
                      sw_snap *snap) {
-  if ((before > 0) == (now > 0)) return 0;
+  if (before > 0 || !(now > 0)) return 0;
   snap->pull = fmax(snap->pull, now);
   for (size_t k = 0; k < SW_JOIN_ENDS && p[k]; k++)
     if (!p[k]->web)
@@ -129,10 +129,11 @@ static void tell_of_terms(sw_scene *s, size_t body) {
     double bears;
     if (!term->cls->pull) continue;
     const double pull = pull_of(b, term, system->x, &bears);
-    if (bears > 0 && pull > bears)
-      sw_scene_tell(s, "tie", sw_scene_wire_in(s, body)->name, NAN, pull,
-                    "a tie of wire '%s' breaks at %.4g N; it bears %.4g N",
-                    sw_scene_wire_in(s, body)->name, pull, bears);
+    if (!(bears > 0 && pull > bears)) continue;
+    sw_course_jump(sw_scene_course(s)); /* its force is gone, the state's accelerations have it */
+    sw_scene_tell(s, "tie", sw_scene_wire_in(s, body)->name, NAN, pull,
+                  "a tie of wire '%s' breaks at %.4g N; it bears %.4g N",
+                  sw_scene_wire_in(s, body)->name, pull, bears);
   }
 }
 

@@ -40,7 +40,7 @@ describe("a cable that falls, its steps chosen by their error,", function()
   for what in pairs(fall) do
     for _, name in ipairs(scenes.cables) do
       it(("ends where fine steps have it: %s, %s"):format(name, what), function()
-        local fine = fallen(what, name, { dt = 2e-4 })
+        local fine = fallen(what, name, { dt = 1e-4 })
         -- the softest wire slides off a peg: what it is off when it leaves grows until it ends
         local softest = name == "identified white"
         for tolerance, allowed in pairs{ [1e-5] = softest and 12e-3 or 4e-3,
