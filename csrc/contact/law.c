@@ -340,6 +340,12 @@ sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer) {
   return out;
 }
 
+double sw_kept_hardened(const sw_kept *kept, double k, int mesh) {
+  const double depth = kept->depth, force = kept->normal_force, harder = k * depth - force;
+  if (!(harder > 0)) return 0;
+  return mesh ? 0.5 * depth * harder : force * depth * harder / (k * depth);
+}
+
 void sw_kept_as_felt(sw_kept *k) {
   if (k->normal_force > 0 && k->depth > 0) k->k = k->normal_force / k->depth;
 }

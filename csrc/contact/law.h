@@ -62,6 +62,10 @@ typedef struct sw_kept {
  * touch keeps its stiffness, because a change would be a kick; needless stiffness goes away slowly.
  */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer);
+/* Energy that a touch gets by a stiffness k that is higher than it was [J]: what its spring holds
+ * more at the same depth; of a line, which is light, it comes out to where the force is as before.
+ */
+double sw_kept_hardened(const sw_kept *kept, double k, int mesh);
 /* The other way round, with stiffness = force over depth: for a look at an accepted state. */
 void sw_kept_as_felt(sw_kept *kept);
 sw_press sw_press_felt(const sw_kept *kept);

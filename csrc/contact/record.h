@@ -50,7 +50,7 @@ typedef struct sw_touch {
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth that this step leaves alone [m] */
   double let_out;   /* unexplained part of the true depth that this step ends [m] */
-  double hardened;  /* energy stored at once by a higher stiffness, of a mesh [J] */
+  double hardened;  /* energy that comes by a higher stiffness [J] */
   double usual;     /* of a new touch here [N/m] */
   double stiffer;   /* its stiffness from the next iterate on, in full [N/m] */
   double share;     /* of that stiffness, near a place of the edge beside [-] */

@@ -385,9 +385,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (web && !web->per_ring) press->soft = fmin(SW_SOFTEST, (double)web->particles);
   forgive(c, s, k, m, y, t);
-  if (m && web)
-    t->hardened = 0.5 * m->kept.depth *
-                  fmax(0.0, t->share * t->stiffer * m->kept.depth - m->kept.normal_force);
+  if (m) t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, web != NULL);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   activate(c, s, k, m, last, press);
