@@ -21,7 +21,8 @@ static void transpose(const double *u, double *out) {
 static void hold_row(sw_held_node *h, double *rows, size_t n, size_t i, double *right) {
   const double *row = rows + SW_ROW_SIZE * i;
   memset(h->saved, 0, sizeof h->saved);
-  memcpy(h->own, row + SW_ROW_OWN, sizeof h->own);
+  memset(h->own, 0, sizeof h->own); /* rails see to their own */
+  if (!h->rail) memcpy(h->own, row + SW_ROW_OWN, sizeof h->own);
   if (i >= 2) transpose(rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND, h->saved);
   if (i >= 1) transpose(rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT, h->saved + 9);
   if (i + 1 < n) memcpy(h->saved + 18, row + SW_ROW_NEXT, 9 * sizeof *row);

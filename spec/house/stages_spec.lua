@@ -49,7 +49,7 @@ describe("the list of stages", function()
   end)
   it("goes from what comes first to what that leads to", function()
     local bind = tree.run("cat " .. tree.quote(tree.root) .. "/csrc/bind/*.c")
-    bind = bind:gsub("LSW_DO%(L, ([%w_]+), ", "%1(") -- the binding's way to call a function and raise
+    bind = bind:gsub("LSW_DO[%u_]*%(L, ([%w_]+), ", "%1(") -- the binding's ways to call a function and raise
     for k, row in ipairs(rows) do
       local led = row.rung or bind:find("%f[%w_]" .. row.name .. "%(") ~= nil
       for j = 1, k - 1 do
