@@ -28,6 +28,10 @@ static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec 
 /* A rigid motion with a smaller share of the largest inertia is left out: a straight wire's turn
  * about itself [-]. */
 static const double LEAST = 1e-10;
+/* And, where that would give the wire more energy than it has, the turn about itself of a line that
+ * is straight to within this share of its radius: a mesh that rolls would give its turn to nodes
+ * micrometres off that axis, as metres per second [-]. */
+static const double STRAIGHT = 0.1;
 
 /* A rigid motion of the free nodes: number k < 3 shifts, else turns about a point; a turn's speed
  * is the speed at a given distance. */
@@ -41,26 +45,44 @@ static void rigid(const sw_plan *p, const double *x, sw_vec about, double distan
   }
 }
 
+/* What the velocities v lack of the momentum wanted, as a rigid motion; field: work (3 x nodes). */
+static void lacks(const sw_plan *p, const double *x, const double *v, sw_vec about,
+                  const double wanted[6], double least, double *field, double *lack) {
+  double A[6][6], y[6], now[6], column[6];
+  momentum(p, x, v, about, now);
+  for (size_t k = 0; k < 6; k++) {
+    rigid(p, x, about, p->length, k, field);
+    momentum(p, x, field, about, column);
+    for (size_t i = 0; i < 6; i++) A[i][k] = column[i] / (i < 3 ? 1.0 : p->length);
+    y[k] = (wanted[k] - now[k]) / (k < 3 ? 1.0 : p->length);
+  }
+  if (!sw_dense_least(A[0], 6, y, least)) memset(y, 0, sizeof y);
+  memset(lack, 0, 3 * p->nodes * sizeof *lack);
+  for (size_t k = 0; k < 6; k++) {
+    rigid(p, x, about, p->length, k, field);
+    for (size_t i = 0; i < 3 * p->nodes; i++) lack[i] += y[k] * field[i];
+  }
+}
+
+static double kinetic(const sw_plan *p, const double *v) {
+  double sum = 0;
+  for (size_t i = 0; i < p->nodes; i++) sum += 0.5 * p->lumped[i] * sw_norm2(sw_vec_at(v, i));
+  return sum;
+}
+
 /* Give the built wire the momentum wanted. */
 sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double wanted[6]) {
   sw_system *system = sw_scene_system(s);
-  const sw_body *b = &system->bodies[wire];
-  const double *x = system->x + 3 * b->first_node, size = b->plan->length;
-  double *v = system->v + 3 * b->first_node, A[6][6], y[6], now[6], column[6];
-  double *field SW_LOCAL = sw_alloc(3 * b->plan->nodes, sizeof *field);
-  if (!field) return SW_ENOMEM;
-  momentum(b->plan, x, v, about, now);
-  for (size_t k = 0; k < 6; k++) {
-    rigid(b->plan, x, about, size, k, field);
-    momentum(b->plan, x, field, about, column);
-    for (size_t i = 0; i < 6; i++) A[i][k] = column[i] / (i < 3 ? 1.0 : size);
-    y[k] = (wanted[k] - now[k]) / (k < 3 ? 1.0 : size);
-  }
-  if (!sw_dense_least(A[0], 6, y, LEAST)) memset(y, 0, sizeof y);
-  for (size_t k = 0; k < 6; k++) {
-    rigid(b->plan, x, about, size, k, field);
-    for (size_t i = 0; i < 3 * b->plan->nodes; i++) v[i] += y[k] * field[i];
-  }
+  const sw_plan *p = system->bodies[wire].plan;
+  const size_t first = 3 * system->bodies[wire].first_node, n = 3 * p->nodes;
+  const double *x = system->x + first, slender = STRAIGHT * p->beam.radius / p->length;
+  double *v = system->v + first;
+  double *lack SW_LOCAL = sw_alloc(2 * n, sizeof *lack);
+  if (!lack) return SW_ENOMEM;
+  lacks(p, x, v, about, wanted, LEAST, lack + n, lack);
+  if (!p->web && kinetic(p, lack) > kinetic(p, v))
+    lacks(p, x, v, about, wanted, fmax(LEAST, slender * slender), lack + n, lack);
+  for (size_t i = 0; i < n; i++) v[i] += lack[i];
   return SW_OK;
 }
 

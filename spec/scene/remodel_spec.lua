@@ -31,6 +31,20 @@ local function apart(a, b)
 end
 
 describe("wire:remodel", function()
+  -- Nodes are 0.03 mm off the axis about which sections spin: as a rigid motion of the nodes that spin was
+  -- 2 J for 0.3 mJ. A wire that lay on a table after a mixed grip was thrown like that.
+  it("leaves the spin of a mesh that lies all but straight", function()
+    local scene = sw.scene{ gravity = { 0, 0, 0 } }
+    local wire = scene:wire{ model = "tube", E = 2e7, nu = 0.35, density = 1200, radius = 0.006,
+      path = { { 0, 0, 0 }, { L / 2, 0, 1e-4 }, { L, 0, 0 } } }
+    wire:set_velocity({ 0.1, 0, 0 }, { 20, 0, 0 }, { 0, 0, 0 })
+    local before = scene:energy().kinetic
+    local report = wire:remodel{ model = "rod", segments = 40 }
+    t.below(before, scene:energy().kinetic, "kinetic energy [J]")
+    t.near(0, apart(report.before.linear, report.after.linear), 1e-11, "momentum")
+    for s = 0, 10 do t.below(0.11, t.norm(wire:velocity(L * s / 10)), "speed [m/s]") end
+  end)
+
   for _, model in ipairs(meshes) do
     it("keeps shape, momentum and length from rod to " .. model .. " and back", function()
       local scene, wire = flying "rod"
