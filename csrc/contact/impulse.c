@@ -143,6 +143,10 @@ static const double HARDER = 1.5;
 /* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
 static const double GOES_ON = 0.5, HARD = 5.0; /* and this hard, of usual forces */
 
+double sw_contact_least_blow(double usual, double hardest, int followed) {
+  return followed ? fmax(HARD * usual, GOES_ON * hardest) : fmax(LIGHT * usual, HARDER * hardest);
+}
+
 /* A blow is followed in parts of this length at most, for which jolts are squares of their number,
  * see step/blow.c: the sections of a soft mesh throw it back within a millisecond, and the end of a
  * stiff wire that falls on a peg bounces as fast [s]. */
@@ -168,8 +172,7 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const sw_plan *p = s->bodies[t->body].plan;
     const sw_vec mean = sw_scale(sw_add(l->stage[c->last_stage].force, l->blows.force), 1.0 / c->h);
     const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
-    const double least = followed ? fmax(HARD * usual, GOES_ON * l->past.hardest)
-                                  : fmax(LIGHT * usual, HARDER * l->past.hardest);
+    const double least = sw_contact_least_blow(usual, l->past.hardest, followed);
     if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (size > p->beam.EA) continue;     /* driven into it by a hold: no blow of a wire has that */
     if (!followed && t->known) continue; /* what slips or sticks here strikes nothing */

@@ -56,21 +56,17 @@ static double parts_for(double jolt) {
   return exp2(ceil(log2(fmin(jolt * fmax(2.0, jolt), MOST_PARTS))));
 }
 
-/* A tie that snaps taut with less than so many usual forces strikes nothing; one that does is
- * followed when it is so many times as hard as any before; and goes on so, as blows on obstacles
- * do [-]. */
-static const double LIGHT = 1.1, HARDER = 1.5, HARD = 5.0, GOES_ON = 0.5;
-/* It is followed as if it were so many times the usual force, in 64 parts: a stiff tie throws the
- * wire back within a tenth of a millisecond [-]. */
+/* A tie that snaps taut is followed as if it were so many times the usual force, in 64 parts: a
+ * stiff tie throws the wire back within a tenth of a millisecond [-]. */
 static const double SNAP = 6.0;
 
 /* As sw_contact_jolt, of ties. */
 static double jolt_of_ties(sw_scene *s, int followed) {
   double *hardest = &sw_scene_course(s)->snap;
   sw_snap snap;
-  if (!sw_scene_ties_snap(s, &snap) || !(snap.jolt > (followed ? HARD : LIGHT)) ||
-      !(snap.pull > (followed ? GOES_ON : HARDER) * *hardest))
-    return 0;
+  if (!sw_scene_ties_snap(s, &snap) || !(snap.jolt > 0)) return 0;
+  const double usual = snap.pull / snap.jolt;
+  if (!(snap.pull > sw_contact_least_blow(usual, *hardest, followed))) return 0;
   if (!followed) *hardest = snap.pull;
   return fmax(snap.jolt, SNAP);
 }
