@@ -107,7 +107,7 @@ function autopressed.finest(build, moves)
   local fine, run = pcall(function()
     if not moves then scene:settle() end
     for _, w in ipairs(core.data(scene).wires) do fill(w.object) end
-    return scene:run { duration = SEEN * COARSE, dt = COARSE }
+    return scene:run { duration = SEEN * COARSE, dt = COARSE, parts = false }
   end)
   return fine and run.ok and run.cpu * duration / (SEEN * COARSE) or nil
 end
