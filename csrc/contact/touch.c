@@ -362,6 +362,8 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
   press->active = sw_press_lies(press); /* it may be all that bears the wire */
 }
 
+static const double SQUEEZED = 100.0; /* a line with so many usual forces cannot come out [-] */
+
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
@@ -385,7 +387,9 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (web && !web->per_ring) press->soft = fmin(SW_SOFTEST, (double)web->particles);
   forgive(c, s, k, m, y, t);
-  if (m) t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, web != NULL);
+  const double most = SQUEEZED * sw_contact_usual_force(s, s->bodies[k->body].plan);
+  if (m && (web || m->kept.normal_force < most))
+    t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, web != NULL);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   activate(c, s, k, m, last, press);
