@@ -97,7 +97,7 @@ void sw_contact_conclude(sw_contact *c) {
 
 double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
   const double weight = p->beam.mass * p->length * sw_norm(sw_load(s->gravity));
-  return weight > 0 ? weight : fmax(weight, p->beam.EI / (p->length * p->length));
+  return weight > 0 ? weight : p->beam.EI / (p->length * p->length);
 }
 
 double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {

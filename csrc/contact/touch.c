@@ -371,7 +371,7 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   const sw_memory *m = pressed_memory(c, s, k, at);
   const sw_touch *last = last_for(c, k, at);
   const sw_vec out = sw_rotate(c->now[k->obstacle].pose.q, near->normal);
-  const sw_web *web = s->bodies[k->body].plan->web;
+  const sw_plan *plan = s->bodies[k->body].plan;
   sw_touch *const t = new_touch(c);
   if (!t) return SW_ENOMEM;
   sw_press *press = &t->press;
@@ -385,11 +385,11 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
   press->by_place = goes_by_place(c, s, k);
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
-  if (web && !web->per_ring) press->soft = fmin(SW_SOFTEST, (double)web->particles);
+  if (plan->web && !plan->web->per_ring)
+    press->soft = fmin(SW_SOFTEST, (double)plan->web->particles);
   forgive(c, s, k, m, y, t);
-  const double most = SQUEEZED * sw_contact_usual_force(s, s->bodies[k->body].plan);
-  if (m && (web || m->kept.normal_force < most))
-    t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, web != NULL);
+  if (m && (plan->web || m->kept.normal_force < SQUEEZED * sw_contact_usual_force(s, plan)))
+    t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, plan->web != NULL);
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   activate(c, s, k, m, last, press);
