@@ -284,6 +284,18 @@ static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge
   return fmin(section * p->rest[edge] / k->samples, grips / (SAMPLES * PRESSED_IN));
 }
 
+/* A wire that is wound on something thick and round goes in by Q/k where it comes on and presses
+ * with Q, and out again further on. That stretches it, by EA Q/(k R), and friction keeps a part. So
+ * its touches are as stiff as EA/R: a tenth of that makes the tension 20 % of the brake's too high,
+ * four times as much 3 % less, at twice the cost (spec/contact/winding_spec) [N/m]. */
+static double round_stiffness(const sw_contact *c, const sw_body *b, const sw_candidate *k) {
+  const size_t i = k->node - b->first_node;
+  if (c->regime != SW_CONTACT_IMPLICIT || b->plan->web || !(c->round[k->obstacle] > 0)) return 0;
+  const double edge = b->plan->rest[i < b->plan->edges ? i : i - 1];
+  const double radius = c->round[k->obstacle] + b->plan->beam.radius;
+  return radius > SW_THICK * edge ? b->EA / radius : 0.0;
+}
+
 /* Stiffness of a wire's new touches, from its weight, its bending or the force of a pad. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
@@ -295,7 +307,7 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   for (size_t i = first; i < c->candidate_count; i++) {
     sw_candidate *k = &c->candidates[i];
     const double grips = c->obstacles[k->obstacle].grips;
-    k->usual = fmax(base, rate2 * k->mass);
+    k->usual = fmax(fmax(base, rate2 * k->mass), round_stiffness(c, &s->bodies[body], k));
     if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
     if (!(grips > 0)) continue;
     if (p->web && c->regime != SW_CONTACT_EXPLICIT)

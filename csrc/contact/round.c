@@ -13,9 +13,8 @@
 #include "contact/same.h"
 
 /* A wire meets a round obstacle, whose radius includes the wire's, by its curve: always if that
- * radius is below the first number of its edges; below the second one if it does not go round [-].
- */
-static const double THIN = 0.9, THICK = 4.0;
+ * radius is below so many edges; below SW_THICK if it does not go round [-]. */
+static const double THIN = 0.9;
 /* It goes round if curvature times radius is above this. Then its chords meet the obstacle until
  * they do not press any more: a capstan needs them. Chords lie outside of the curve, so the change
  * releases the wire and makes no energy [-]. */
@@ -106,7 +105,7 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   const double edge = fmin(p->rest[low], p->rest[high]);
   const int thin = radius < THIN * edge;
   k->round = 0;
-  if (!(c->round[k->obstacle] > 0) || !(radius < THICK * edge)) return;
+  if (!(c->round[k->obstacle] > 0) || !(radius < SW_THICK * edge)) return;
   const double round = radius * bend_beside(s, b, k->node, k->segment);
   const double least = thin ? LOOSE : 0.0;
   const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND;

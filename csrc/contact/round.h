@@ -7,6 +7,9 @@
 
 #include "contact/curve.h"
 
+/* Obstacles whose radius, with the wire's, is more edges than this are met by chords [-]. */
+#define SW_THICK 4.0
+
 /* The obstacles that a body goes round at the step's start. */
 void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body);
 /* At the step's start: is the candidate's obstacle round and thin for the wire, and how firmly do

@@ -290,32 +290,13 @@ static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *p
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
-/* Where a node is held inside of an obstacle no force takes the wire out of it: what that leaves of
- * depth on the segment beside it. One held beyond an edge is below the faces that end there, but in
- * none [m]. */
-static double imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
-                      const sw_touch *t, const double *y) {
-  const sw_body *b = &s->bodies[k->body];
-  const int first = b->plan->held[k->node - b->first_node] != SW_FREE;
-  const int last = b->plan->held[k->other - b->first_node] != SW_FREE;
-  sw_closest near;
-  if (!k->segment || first == last) return 0;
-  const sw_vec held = sw_vec_at(y, first ? k->node : k->other);
-  const sw_pose pose = c->now[k->obstacle].pose;
-  if (!sw_shape_point(c->obstacles[k->obstacle].shape, sw_pose_local(pose, held), k->skin, &near))
-    return 0;
-  const double plane = sw_dot(t->press.normal, sw_sub(held, t->point));
-  const double at = fmin(fmax(t->at, 0.0), 1.0), deep = k->skin - fmax(near.gap, plane);
-  return (first ? 1.0 - at : at) * fmax(0.0, deep);
-}
-
 /* How much of its depth a touch leaves alone in this step. */
 static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                     const sw_memory *m, const double *y, sw_touch *t) {
   const sw_web *web = s->bodies[k->body].plan->web;
   const int slowly = (web && web->per_ring) || c->fresh;
   if (c->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return; /* force follows depth */
-  const double always = imposed(c, s, k, t, y);
+  const double always = sw_contact_imposed(c, s, k, t, y);
   t->forgiven = always;
   if (c->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = sw_contact_depth_before(c, s, t) - always;

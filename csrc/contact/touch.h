@@ -173,6 +173,11 @@ size_t sw_contact_wrong(const sw_contact *c);
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
 
+/* Where a node is held inside of an obstacle no force takes the wire out of it: what that leaves of
+ * depth on the segment beside it. One held beyond an edge is below the faces that end there, but in
+ * none [m]. */
+double sw_contact_imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
+                          const sw_touch *t, const double *y);
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 

@@ -1,24 +1,25 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable wound on a drum against a brake. Friction keeps in the wound part the tension that it came with:
--- the brake's and what bends the cable, EI/(2 R^2) (energy per length that goes in where it comes on).
+-- A cable wound on a drum against a brake. Along a free wire tension + EI curvature^2/2 is the same
+-- everywhere (elastica): here it is the brake's force T. On the drum the curvature is 1/R, so the wire
+-- comes on with T - EI/(2 R^2), and friction keeps that.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
-local R, BRAKE, TURNS, TIME, LENGTH = 0.05, 4, 1.5, 3, 0.8 -- [m], [N], [-], [s], [m]
+local R, TURNS, TIME, LENGTH = 0.05, 1.5, 3, 0.8 -- [m], [-], [s], [m]
 
 -- The drum turns and goes sideways by 2.5 wire radii a turn; the wire is clamped on its top.
-local function wound(edges, dt)
-  local other = sw.scene{}:wire{ cable = "GXL 1.5", from = { 0, 1, 0 }, to = { 1, 1, 0 }, segments = 2 }
+local function wound(cable, brake, edges, dt)
+  local other = sw.scene{}:wire{ cable = cable, from = { 0, 1, 0 }, to = { 1, 1, 0 }, segments = 2 }
   local r = other.radius
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local top, turned = R + r, 2 * math.pi * TURNS
-  local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, top }, to = { LENGTH, 0, top },
+  local wire = scene:wire{ cable = cable, from = { 0, 0, top }, to = { LENGTH, 0, top },
     segments = edges }
   local drum = scene:obstacle{ shape = "cylinder", radius = R, length = 0.2, friction = 0.25,
     rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
   scene:force{ kind = "damping", on = wire, mass = 2, stiffness = 1e-3 }
-  scene:feed(wire, { s = 0.15, force = BRAKE })
+  scene:feed(wire, { s = 0.15, force = brake })
   local along = 2.5 * r * TURNS
   scene:clamp(wire, { s = 0 }):follow(function(time)
     local u = math.min(time / TIME, 1)
@@ -32,23 +33,51 @@ local function wound(edges, dt)
   return wire, top
 end
 
+-- Mean tension of the wound part [N].
+local function kept(wire)
+  local sum = 0
+  for k = 0, 20 do sum = sum + wire:tension(0.1 + 0.01 * k) end
+  return sum / 21
+end
+
 describe("a cable wound on a drum", function()
-  -- Edges of 10 and 5 mm around 51 mm; 4.4 to 5.2 N measured. Friction locked in 273 and 184 N once: chords
-  -- that roll onto the drum and stick are stretched by h^2/(12 R^2), times EA = 137 kN.
-  for _, case in ipairs{ { 80, 0.01 }, { 80, 0.002 }, { 160, 0.01 } } do
-    it(("has the brake's tension: %d edges, steps of %g s"):format(case[1], case[2]), function()
-      local wire, top = wound(case[1], case[2])
-      local bends = wire.beam.EI / (2 * top ^ 2)
-      local largest = wire:max_tension()
-      print(("measured: largest %.3g N, at 0.2 m %.3g N, bent %.4g m"):format(largest, wire:tension(0.2),
-        1 / wire:curvature(0.2)))
-      assert.is_true(largest < 1.3 * (BRAKE + bends), largest)
-      for _, s in ipairs{ 0.1, 0.2, 0.3 } do
-        t.share(BRAKE + bends, wire:tension(s), 0.2, "tension at " .. s)
-        t.share(top, 1 / wire:curvature(s), 0.03, "radius at " .. s)
-        local p = wire:position(s)
-        t.share(top, (p[1] ^ 2 + p[3] ^ 2) ^ 0.5, 0.01, "distance from the axis at " .. s)
-      end
-    end)
+  -- Edges of 10 and 5 mm around 51 to 53 mm. Friction locked in 273 and 184 N once: chords that roll onto
+  -- the drum and stick are stretched by h^2/(12 R^2), times EA = 137 kN. Touches softer than EA h/R^2, the
+  -- wire's own stiffness against a shift outwards, let it in where it comes on and out further on: that
+  -- stretched it by as much as the step allowed, and threw it (9.2 N at 5 ms).
+  local cases = {
+    { "GXL 1.5", 4, 80, 0.02 }, { "GXL 1.5", 4, 80, 0.01 },
+    { "GXL 1.5", 4, 80, 0.002 }, { "GXL 1.5", 4, 160, 0.01 },
+    { "H07V-K 10", 10, 80, 0.01 }, { "H07V-K 10", 10, 160, 0.01 },
+    { "GXL 6", 10, 80, 0.01 }, { "GXL 6", 10, 80, 0.002 },
+  }
+  for _, case in ipairs(cases) do
+    local cable, brake, edges, dt = table.unpack(case)
+    it(("keeps the tension that it came on with: %s, %d edges, steps of %g s"):format(cable, edges, dt),
+      function()
+        local wire, top = wound(cable, brake, edges, dt)
+        local tension, largest = brake - wire.beam.EI / (2 * top ^ 2), wire:max_tension()
+        print(("measured: %.3g N for %.3g N, largest %.3g N, bent %.4g m"):format(kept(wire), tension,
+          largest, 1 / wire:curvature(0.2)))
+        t.near(tension, kept(wire), 0.17 * brake, "tension of the wound part")
+        assert.is_true(largest < 1.35 * brake, largest)
+        -- the edge beside the clamp bent half as much again as the others: 37 mm for 51
+        t.share(top, (wire:min_bend_radius()), 0.07, "smallest radius of the run")
+        for _, s in ipairs{ 0.1, 0.2, 0.3 } do
+          t.near(tension, wire:tension(s), 0.2 * brake, "tension at " .. s)
+          t.share(top, 1 / wire:curvature(s), 0.03, "radius at " .. s)
+          local p = wire:position(s)
+          t.share(top, (p[1] ^ 2 + p[3] ^ 2) ^ 0.5, 0.01, "distance from the axis at " .. s)
+        end
+      end)
   end
+
+  it("keeps the same tension at any step", function()
+    local fine = kept((wound("H07V-K 10", 4, 80, 0.002)))
+    for _, dt in ipairs{ 0.02, 0.01, 0.005 } do
+      local tension = kept((wound("H07V-K 10", 4, 80, dt)))
+      print(("measured: %.3g N at %g s, %.3g N at 2 ms"):format(tension, dt, fine))
+      t.near(fine, tension, 0.04 * 4, "tension of the wound part") -- 2.4, 2.6, 2.4 and 1.8 N once
+    end
+  end)
 end)
