@@ -304,9 +304,11 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
   sw_contact_stiffness(c->regime, usual_force(p, weight), c->nominal, &base, &rate2);
   if (p->web && !p->web->per_ring && c->regime != SW_CONTACT_EXPLICIT)
     rate2 = fmax(rate2, HARD_SHARE * 0.5 * (p->web->rate2 + p->web->solid_rate2));
+  const double squeezing = sw_contact_squeezing_force(s, p);
   for (size_t i = first; i < c->candidate_count; i++) {
     sw_candidate *k = &c->candidates[i];
     const double grips = c->obstacles[k->obstacle].grips;
+    k->squeezing = squeezing;
     k->usual = fmax(fmax(base, rate2 * k->mass), round_stiffness(c, &s->bodies[body], k));
     if (k->samples) k->usual *= LEAST_SAMPLES / (double)k->samples;
     if (!(grips > 0)) continue;

@@ -182,8 +182,13 @@ int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_
 /* After a step. 1: the obstacles' forces at its end come from a shock, and the next step must not
  * begin with them. */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
+/* Two obstacles face each other where the cosine of their normals is below this [-]. */
+#define SW_FACING (-0.7)
 /* A wire's weight; of one without, the force that bends it [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
+/* Force of a touch from which on the wire is squeezed, or taut, and cannot come out; 0: of a mesh,
+ * which may [N]. */
+double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
 /* Axial stiffness of the edge that begins or ends at a node; 0: of a mesh, or a loose particle
  * [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);

@@ -100,6 +100,13 @@ double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
   return weight > 0 ? weight : p->beam.EI / (p->length * p->length);
 }
 
+/* Of usual forces [-]. */
+static const double SQUEEZED = 100.0;
+
+double sw_contact_squeezing_force(const sw_system *s, const sw_plan *p) {
+  return p->web ? 0.0 : SQUEEZED * sw_contact_usual_force(s, p);
+}
+
 double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
   const sw_body *b = &s->bodies[body];
   const size_t e = node - b->first_node, edges = b->plan->edges;

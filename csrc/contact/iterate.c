@@ -201,9 +201,12 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
 /* Touches that sink in too deep are made stiffer. Stiffness of one from the next iterate on, in
  * full [N/m]. */
 static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t) {
-  const int small = sw_press_is_short(c->regime == SW_CONTACT_STATIC, c->h, c->nominal);
+  const int still = c->regime == SW_CONTACT_STATIC, squeezed = t->squeezed && !still;
+  const int small = sw_press_is_short(still, c->h, c->nominal);
   if (t->held || c->candidates[t->candidate].given) return t->stiffer;
-  const double before = small ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
+  if (squeezed && sw_contact_is_pinched(c, t)) return t->stiffer;
+  double before = small || squeezed ? fmax(0.0, sw_contact_depth_before(c, s, t)) : -1.0;
+  if (squeezed) before = sw_press_squeezed(t->forgiven, before);
   const double k = sw_press_stiffer(&t->press, t->share * t->usual,
                                     t->share * sw_contact_edge_stiffness(s, t->body, t->node),
                                     t->forgiven, before);

@@ -40,9 +40,13 @@ static const double DEEPEST = 50e-6;
 static const double MOST_BOOST = 1e5;    /* of that stiffness [-] */
 static const double LARGEST_STEP = 10.0; /* of it at once [-] */
 static const double DEEPER = 5e-6;       /* than before, in short steps [m] */
-static const double NEEDLESS = 0.1;      /* of the allowed depth [-] */
-static const double EASING = 0.8;        /* per step [-] */
-static const double SHORT = 0.25;        /* step, of the nominal one [-] */
+/* A load that grows slowly leaves 18 um for each ten times of it: half or twice as much at half or
+ * twice of this, and as few steps are refused (spec/contact/taut_spec). */
+static const double EARLY = 0.4;    /* of the allowed depth [-] */
+static const double AT_ONCE = 2.0;  /* of the allowed depth, by a load that grows fast [-] */
+static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
+static const double EASING = 0.8;   /* per step [-] */
+static const double SHORT = 0.25;   /* step, of the nominal one [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
@@ -305,13 +309,18 @@ int sw_press_was_put(double depth, int first) { return depth > (first ? PLACED :
 sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly) {
   const double speed = slowly ? SLOW_RECOVERY : RECOVERY_SPEED;
   const double explained = kept ? kept->depth : 0.0;
-  const double forgiven = fmax(0.0, depth - explained - speed * h - PLACED);
-  const double left = depth - explained - forgiven;
-  return (sw_left){forgiven, left > PLACED ? left : 0.0};
+  const double left = kept ? fmin(kept->left, fmax(0.0, depth - explained)) : 0.0;
+  const double forgiven = left + fmax(0.0, depth - explained - left - speed * h - PLACED);
+  const double out = depth - explained - forgiven;
+  return (sw_left){forgiven, out > PLACED ? out : 0.0, left};
 }
 
 int sw_press_is_short(int statics, double h, double nominal) {
   return !statics && h > 0 && h < SHORT * nominal;
+}
+
+double sw_press_squeezed(double forgiven, double before) {
+  return fmax(before, forgiven + AT_ONCE * DEEPEST);
 }
 
 double sw_press_stiffer(const sw_press *p, double usual, double axial, double forgiven,
@@ -338,6 +347,13 @@ sw_kept sw_press_keep(const sw_press *p, double usual, double stiffer) {
                  .sliding = p->next_sliding};
   if (p->normal_force > 0) out.elastic = sw_scale(p->tangential, -1.0 / sw_press_grip(p));
   return out;
+}
+
+void sw_kept_harden(sw_kept *kept, double axial) {
+  if (kept->depth <= EARLY * DEEPEST || kept->k >= axial) return;
+  const double times = fmin(LARGEST_STEP, axial / kept->k), depth = kept->depth / times;
+  kept->left += kept->depth - depth;
+  kept->k *= times, kept->depth = depth;
 }
 
 double sw_kept_hardened(const sw_kept *kept, double k, int mesh) {

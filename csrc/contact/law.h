@@ -54,6 +54,7 @@ typedef struct sw_kept {
   double k;            /* to begin the next step with [N/m] */
   double steady;  /* mean normal force of the last steps; when just kept, that at the end [N] */
   double soft;    /* as above [-] */
+  double left;    /* depth besides, since it was made stiffer when it was squeezed [m] */
   sw_vec elastic; /* displacement of friction's spring [m] */
   int sliding;
 } sw_kept;
@@ -62,6 +63,11 @@ typedef struct sw_kept {
  * touch keeps its stiffness, because a change would be a kick; needless stiffness goes away slowly.
  */
 sw_kept sw_press_keep(const sw_press *press, double usual, double stiffer);
+/* What is squeezed cannot come out: to let it out would make energy, and the step would be refused.
+ * If it is too deep it is stiffer from the next step on, at the same force; the rest of the depth
+ * stays. axial: stiffness of the wire's edge, which is enough: between rigid things no force could
+ * be [N/m]. */
+void sw_kept_harden(sw_kept *kept, double axial);
 /* Energy that a touch gets by a stiffness k that is higher than it was [J]: what its spring holds
  * more at the same depth; of a line, which is light, it comes out to where the force is as before.
  */
@@ -141,6 +147,7 @@ typedef struct sw_left {
   double forgiven; /* the step leaves this alone [m] */
   double let_out;  /* unexplained depth that the step ends; 0 if it is only rounding, as of a wire
                       laid on a table [m] */
+  double left;     /* part of what is forgiven that is kept besides [m] */
 } sw_left;
 sw_left sw_press_leave(double depth, const sw_kept *kept, double h, int slowly);
 
@@ -169,6 +176,9 @@ int sw_press_apart(const sw_press *press);
  * pseudo steps would leave the depth in the scene, and the first dynamic step would turn it into
  * speed. */
 int sw_press_is_short(int statics, double h, double nominal);
+
+/* Depth from which on a squeezed touch is made stiffer at once [m]. */
+double sw_press_squeezed(double forgiven, double before);
 
 /* Stiffness from the next iterate on: higher for a touch that is too deep, else as it is [N/m].
  * usual: of a new touch; axial: of the wire's edge, for what a taut wire presses with has nothing

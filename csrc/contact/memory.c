@@ -33,7 +33,9 @@ static sw_status remember(sw_contact *c, const sw_system *s, const sw_touch *t) 
                    .normal = sw_rotate(back, t->press.normal),
                    .point = t->local,
                    .seen = t->seen};
-  m->kept.steady = steady_force(c, s, t);
+  m->kept.steady = steady_force(c, s, t), m->kept.left = t->left;
+  if (t->squeezed && c->regime == SW_CONTACT_IMPLICIT && !sw_contact_is_pinched(c, t))
+    sw_kept_harden(&m->kept, sw_contact_edge_stiffness(s, t->body, t->node));
   if (!(t->press.normal_force > 0)) return SW_OK;
   m->slid = t->slid + sw_norm(t->press.slip);
   m->kept.elastic = sw_rotate(back, m->kept.elastic);

@@ -26,6 +26,7 @@ typedef struct sw_candidate {
   int given;                 /* 1: it keeps that, however deep it gets */
   int smooth;                /* 1: the wire is its smooth curve there, not its chords */
   int round;                 /* 1: its curve at a thin round obstacle, chords elsewhere */
+  double squeezing;          /* force from which on its touch cannot come out; 0: none [N] */
   double firm;               /* then: firmness of the touch in the middle of its edge [-] */
   double firm_beside[2];     /* the same on the edges before and after it [-] */
   double lone;               /* and share of it in one place, 0 to 1 [-] */
@@ -49,6 +50,7 @@ typedef struct sw_touch {
   sw_vec point;     /* on the obstacle, world [m] */
   sw_vec local;     /* the same in the obstacle's coordinates [m] */
   double forgiven;  /* part of the true depth that this step leaves alone [m] */
+  double left;      /* and always did, since it was made stiffer [m] */
   double let_out;   /* unexplained part of the true depth that this step ends [m] */
   double hardened;  /* energy that comes by a higher stiffness [J] */
   double usual;     /* of a new touch here [N/m] */
@@ -56,6 +58,7 @@ typedef struct sw_touch {
   double share;     /* of that stiffness, near a place of the edge beside [-] */
   int known;        /* it pressed at the step's start */
   int held;         /* both ends are held: no force */
+  int squeezed;     /* a line that bore far more than its weight at the step's start */
   double friction;  /* coefficient in this step: kinetic if it slid before [-] */
   double slid;      /* sliding way until the step's start, since it began to press [m] */
   sw_vec seen;      /* where the wire was at this evaluation, in the obstacle's coordinates [m] */

@@ -301,8 +301,10 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
   if (c->regime != SW_CONTACT_IMPLICIT) return;
   const double depth = sw_contact_depth_before(c, s, t) - always;
   const double h = slowly ? c->stage_time - c->time : c->h;
-  const sw_left left = sw_press_leave(depth, m ? &m->kept : NULL, h, slowly);
-  t->forgiven += left.forgiven;
+  sw_kept kept = m ? m->kept : (sw_kept){0};
+  if (!t->squeezed) kept.left = 0;
+  const sw_left left = sw_press_leave(depth, m ? &kept : NULL, h, slowly);
+  t->forgiven += left.forgiven, t->left = left.left;
   t->let_out = left.let_out;
 }
 
@@ -343,8 +345,6 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
   press->active = sw_press_lies(press); /* it may be all that bears the wire */
 }
 
-static const double SQUEEZED = 100.0; /* a line with so many usual forces cannot come out [-] */
-
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const sw_place *place) {
   const sw_closest *near = &place->near;
@@ -368,8 +368,9 @@ sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candi
   press->gap += sw_contact_aslant(c, k->node, k->other, at, press->normal);
   if (plan->web && !plan->web->per_ring)
     press->soft = fmin(SW_SOFTEST, (double)plan->web->particles);
+  t->squeezed = m && k->squeezing > 0 && m->kept.normal_force >= k->squeezing;
   forgive(c, s, k, m, y, t);
-  if (m && (plan->web || m->kept.normal_force < SQUEEZED * sw_contact_usual_force(s, plan)))
+  if (m && !t->squeezed)
     t->hardened = sw_kept_hardened(&m->kept, t->share * t->stiffer, plan->web != NULL);
   press->gap += t->forgiven;
   press->gap_after = press->gap;

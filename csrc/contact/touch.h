@@ -178,6 +178,9 @@ double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candi
  * none [m]. */
 double sw_contact_imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_touch *t, const double *y);
+/* Is it pinched between its obstacle and another one? */
+int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t);
+
 /* 1: the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 

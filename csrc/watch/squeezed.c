@@ -9,8 +9,6 @@
 #include "scene/wire.h"
 #include "watch/observe.h"
 
-/* Two obstacles face each other where the cosine of their normals is below this [-]. */
-static const double FACING = -0.7;
 /* A gap narrower than the wire by less than this squeezes nothing [m]. */
 static const double NOTICED = 1e-6;
 
@@ -27,7 +25,7 @@ static int is_pad(const sw_scene *s, int obstacle) {
 /* By how much the gap between two obstacles is narrower than the wire; 0 or less: it is not, or
  * they do not face each other [m]. */
 static double narrower(const sw_contact_push *a, const sw_contact_push *b, double radius) {
-  if (a->obstacle == b->obstacle || sw_dot(a->normal, b->normal) > FACING) return 0;
+  if (a->obstacle == b->obstacle || sw_dot(a->normal, b->normal) > SW_FACING) return 0;
   const sw_vec across = sw_sub(a->point, b->point);
   return 2 * radius - fmax(sw_dot(across, b->normal), -sw_dot(across, a->normal));
 }
@@ -37,7 +35,8 @@ static void tell(sw_scene *s, size_t wire, const sw_contact_push *a, const sw_co
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   const sw_scene_obstacle *one = sw_scene_obstacle_in(s, a->obstacle),
                           *two = sw_scene_obstacle_in(s, b->obstacle);
-  sw_scene_tell(s, "crash", w->name, a->place - w->mesh.s[0], by,
+  const double place = 0.5 * (a->place + b->place) - w->mesh.s[0];
+  sw_scene_tell(s, "crash", w->name, place, by,
                 "obstacles '%s' and '%s' squeeze wire '%s' by %.3g mm; its section does not give "
                 "way, so the force depends on the step: take pads of a gripper, or a mesh",
                 one->name, two->name, w->name, 1e3 * by);
