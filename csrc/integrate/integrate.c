@@ -242,35 +242,47 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
   return SW_OK;
 }
 
+/* Shares of the velocities at the start and after each stage in the error of the last trial; NULL:
+ * none. Implicit Euler, which dull steps are taken with, is off by half the change of velocities.
+ */
+static const double *shares_of_error(const sw_stepper *p) {
+  static const double EULER[SW_STAGES_MAX + 1] = {-0.5, 0.5};
+  if (!p->used || !(p->method->flags & SW_INTEGRATOR_EMBEDDED)) return NULL;
+  if (p->used->error[0] != 0) return p->used->error;
+  return p->used->stages == 1 ? EULER : NULL;
+}
+
+/* h times this is the error, of one component [m/s]. */
+static double off_by(const sw_stepper *p, const double *shares, const sw_system *s, size_t i) {
+  double e = shares[0] * s->v[i];
+  for (size_t k = 0; k < p->used->stages; k++) e += shares[1 + k] * p->w[k][i];
+  return e;
+}
+
 /* Spins go along: they are bound to the nodes' motion by friction, or by twist, which is much
  * faster than a step. */
 double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
-  const sw_integrator *m = p->used;
+  const double *shares = shares_of_error(p);
   double largest = 0;
-  if (!m || m->error[0] == 0) return 0;
-  for (size_t i = 3 * first; i < 3 * end; i += 3) {
-    double sum = 0;
-    for (size_t c = i; c < i + 3; c++) {
-      double e = m->error[0] * s->v[c];
-      for (size_t k = 0; k < m->stages; k++) e += m->error[1 + k] * p->w[k][c];
-      sum += e * e;
-    }
-    largest = fmax(largest, sum);
+  for (size_t i = first; shares && i < end; i++) {
+    const double x = off_by(p, shares, s, 3 * i), y = off_by(p, shares, s, 3 * i + 1);
+    const double z = off_by(p, shares, s, 3 * i + 2);
+    largest = fmax(largest, x * x + y * y + z * z);
   }
   return p->trial_h * sqrt(largest);
 }
 
 double sw_stepper_error_of_mean(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
-  const sw_integrator *m = p->used;
-  if (!m || m->error[0] == 0 || !(end > first)) return 0;
+  const double *shares = shares_of_error(p);
+  if (!shares || !(end > first)) return 0;
   double mean[3] = {0};
-  for (size_t i = 3 * first; i < 3 * end; i++) {
-    double *sum = &mean[i % 3];
-    *sum += m->error[0] * s->v[i];
-    for (size_t k = 0; k < m->stages; k++) *sum += m->error[1 + k] * p->w[k][i];
-  }
+  for (size_t i = 3 * first; i < 3 * end; i++) mean[i % 3] += off_by(p, shares, s, i);
   return p->trial_h * sw_norm(sw_load(mean)) / (double)(end - first);
 }
+
+int sw_stepper_order(const sw_stepper *p) { return p->used ? p->used->order : p->method->order; }
+
+int sw_stepper_estimates(const sw_stepper *p) { return p->used && p->used->error[0] != 0; }
 
 double sw_stepper_drift(const sw_stepper *p, const sw_system *s) {
   double largest = 0;

@@ -117,8 +117,13 @@ size_t sw_stepper_history(const sw_stepper *stepper, const sw_system *system);
  * apart from the tension, which sw_stepper_reject puts back. */
 sw_status sw_stepper_trial(sw_stepper *stepper, sw_system *system, double t, double h,
                            sw_error *err);
-/* Error of the last trial by its method's estimate, the largest of nodes from first up to end; 0
- * when it has none [m]. */
+/* Has the method that the last trial was taken with an estimate of its own? */
+int sw_stepper_estimates(const sw_stepper *stepper);
+/* Order of that method [-]. */
+int sw_stepper_order(const sw_stepper *stepper);
+/* Error of the last trial by its method's estimate, of implicit Euler half the change of
+ * velocities times the step; the largest of nodes from first up to end; 0 when the stepper's method
+ * has none [m]. */
 double sw_stepper_error(const sw_stepper *stepper, const sw_system *system, size_t first,
                         size_t end);
 /* The same of the mean place of these nodes [m]. */

@@ -14,6 +14,11 @@ static int is_short_enough(const sw_ladder *p, double h) {
   return sw_scene_course(p->s)->stepper.restart && h <= SW_SMALLEST_SHARE * p->args->dt;
 }
 
+/* By the method's own estimate only: what a strike leaves is a jump. */
+static double error_of(const sw_stepper *stepper, const sw_system *system) {
+  return sw_stepper_estimates(stepper) ? sw_stepper_error(stepper, system, 0, system->nodes) : 0.0;
+}
+
 /* The next step after one of h. Implicit Euler gives no estimate, and is taken as it is: the step
  * after it is longer where it changed little. */
 static double next_of(const sw_ladder *p, double h, double error) {
@@ -40,7 +45,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);
     if (sw_ladder_hopeless(status)) return status;
-    const double error = sw_stepper_error(&course->stepper, system, 0, system->nodes);
+    const double error = error_of(&course->stepper, system);
     const int fine = status == SW_OK && (error <= tolerance || is_short_enough(p, h));
     double next = status == SW_OK ? next_of(p, h, error) : 0.25 * h;
     if (fine && sw_blow_begins(s, h)) {

@@ -13,8 +13,6 @@
  * of cable of 2 mm that is laid at 0.25 m/s in steps of 10 ms is beyond that in 3 of 100; one that
  * whips, falls on a peg or is struck, in most of those that make its largest tension. */
 static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1;
-/* The estimate goes with this power of the step [-]. */
-static const double POWER = 3.0;
 /* No part is a smaller share of a step, nor shorter [-], [s]. */
 static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
 
@@ -62,9 +60,14 @@ double sw_coarse_of(const sw_scene *s) {
   return over;
 }
 
+/* The estimate goes with this power of the step [-]. */
+static double power_of(const sw_scene *s) {
+  return 1.0 + sw_stepper_order(&sw_scene_course(s)->stepper);
+}
+
 /* What would take more parts than that is a shock, such as a tie that is made far too short. */
-double sw_coarse_part(double h, double dt, double over) {
-  const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / POWER));
+double sw_coarse_part(const sw_scene *s, double h, double dt, double over) {
+  const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / power_of(s)));
   if (!(over > 1.0) || h < 2.0 * SHORTEST || part < SMALLEST * dt) return h;
   return fmax(SHORTEST, part);
 }
@@ -77,4 +80,4 @@ double sw_coarse_half(double h, double dt) {
 /* Half a part of smooth motion has an eighth of its error, one with a jump in it more than all. */
 int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, before); }
 
-int sw_coarse_may_grow(double over) { return over * exp2(POWER) <= 1.0; }
+int sw_coarse_may_grow(const sw_scene *s, double over) { return over * exp2(power_of(s)) <= 1.0; }

@@ -13,12 +13,12 @@ int sw_coarse_applies(const sw_scene *scene);
 double sw_coarse_of(const sw_scene *scene);
 /* The part that is to be taken instead of one of size h with such an error, in a run of steps
  * dt [s]. */
-double sw_coarse_part(double h, double dt, double over);
+double sw_coarse_part(const sw_scene *scene, double h, double dt, double over);
 /* The same of a part in which a tie goes taut: halves are coarse only where it does [s]. */
 double sw_coarse_half(double h, double dt);
 /* Was it right to take a shorter part, with an error over, instead of one with an error before? */
 int sw_coarse_helps(double before, double over);
 /* 1: a part of twice the size would be fine too. */
-int sw_coarse_may_grow(double over);
+int sw_coarse_may_grow(const sw_scene *scene, double over);
 
 #endif

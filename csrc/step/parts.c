@@ -53,9 +53,9 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   const double over = k->rough ? 0.0 : sw_coarse_of(p->s);
   sw_snap snap;
   const int snaps = over > 1 && sw_scene_ties_snap(p->s, &snap);
-  const double shorter =
-      snaps ? sw_coarse_half(k->part, p->args->dt) : sw_coarse_part(k->part, p->args->dt, over);
-  *may_grow = sw_coarse_may_grow(over);
+  const double shorter = snaps ? sw_coarse_half(k->part, p->args->dt)
+                               : sw_coarse_part(p->s, k->part, p->args->dt, over);
+  *may_grow = sw_coarse_may_grow(p->s, over);
   if (k->doubted > 0 && !snaps && !sw_coarse_helps(k->over, over)) {
     k->rough = 1;
     k->part = k->doubted, k->doubted = 0;
