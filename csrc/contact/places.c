@@ -22,25 +22,29 @@ static const double BESIDE = 0.02;
  * [-]. */
 static const double SAME_POINT = 0.01;
 
-static int is_new(const sw_places *list, const sw_candidate *k, const sw_place *place) {
+static sw_place *same(sw_places *list, const sw_candidate *k, const sw_place *place) {
   const double near = SAME_POINT * k->radius;
   for (size_t i = 0; i < list->count; i++)
     if (list->place[i].sharp &&
         sw_norm2(sw_sub(list->place[i].near.point, place->near.point)) < near * near &&
         sw_dot(list->place[i].near.normal, place->near.normal) > 0)
-      return 0;
-  return 1;
+      return &list->place[i];
+  return NULL;
 }
 
-static void take(sw_places *list, const sw_place *place) {
-  size_t at = list->count;
-  if (at < SW_PLACES_MOST) {
+/* Close to a corner its edges touch at the same place: of those the nearest is taken, whatever
+ * comes first. 1: the place is a new one. */
+static int take(sw_places *list, const sw_candidate *k, const sw_place *place) {
+  sw_place *known = same(list, k, place);
+  const int is_new = !known;
+  if (is_new && list->count < SW_PLACES_MOST) {
     list->place[list->count++] = *place;
-    return;
+    return 1;
   }
-  for (size_t i = at = 0; i < list->count; i++)
-    if (list->place[i].near.gap > list->place[at].near.gap) at = i;
-  if (place->near.gap < list->place[at].near.gap) list->place[at] = *place;
+  for (size_t i = 0; is_new && i < list->count; i++)
+    if (!known || list->place[i].near.gap > known->near.gap) known = &list->place[i];
+  if (place->near.gap < known->near.gap) *known = *place;
+  return is_new;
 }
 
 /* A place found along a line is looked for again along the curve's tangent there, if the two differ
@@ -67,9 +71,8 @@ static void along_piece(const sw_piece *c, const sw_shape *shape, const sw_candi
     }
     place.near.at = u[0] + near[i].at * (u[1] - u[0]);
     if (!sw_contact_follow(c, &place)) continue;
-    if (!(place.near.gap < reach) || !is_new(list, k, &place)) continue;
+    if (!(place.near.gap < reach) || !take(list, k, &place)) continue;
     const int turned = sw_norm2(sw_cross(place.along, d)) > TURNED * TURNED * sw_norm2(d);
-    take(list, &place);
     if (turned && again)
       along_tangent(c, shape, k, reach, place.near.at, QUARTER, QUARTER, list, 0);
   }
@@ -134,8 +137,8 @@ static void try_ridge(void *user, const sw_ridge *r) {
   if (near->gap < 0) near->normal = sw_neg(near->normal), near->gap = -near->gap;
   if (!sw_shape_points_out(q->shape, r, near->normal, LEAN))
     q->doubt = 1;
-  else if (is_new(q->list, q->k, &place))
-    take(q->list, &place);
+  else
+    take(q->list, q->k, &place);
 }
 
 void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
