@@ -141,6 +141,17 @@ static void try_ridge(void *user, const sw_ridge *r) {
     take(q->list, q->k, &place);
 }
 
+/* The nearest first: of those that are one touch it is the touch. */
+static void put_in_order(sw_places *list) {
+  for (size_t i = 1; i < list->count; i++) {
+    const sw_place place = list->place[i];
+    size_t at = i;
+    for (; at > 0 && list->place[at - 1].near.gap > place.near.gap; at--)
+      list->place[at] = list->place[at - 1];
+    list->place[at] = place;
+  }
+}
+
 void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piece *piece,
                        double reach, sw_places *list) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
@@ -152,4 +163,5 @@ void sw_contact_places(const sw_contact *c, const sw_candidate *k, const sw_piec
   }
   sw_shape_ridges(shape, piece->p[1], piece->p[2], reach + piece->bulge, try_ridge, &q);
   if (q.doubt) of_segment(piece, shape, k, reach, list);
+  put_in_order(list);
 }
