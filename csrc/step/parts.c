@@ -28,7 +28,8 @@ typedef struct parts {
   double longest;    /* part that was taken [s] */
   int refused;       /* parts */
   double doubted;    /* a part that is coarse, while a shorter one is tried instead; 0: none [s] */
-  double over;       /* by so much it is [-] */
+  double over;       /* by so much the last part that was tried is [-] */
+  int worse;         /* shorter parts on end that were as coarse */
   int rough;         /* 1: coarse ones are taken in this step, for shorter ones do not help */
   int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
   sw_error failed;   /* why a part was refused last */
@@ -47,6 +48,10 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
+/* What strikes, or begins to pull, late in a part may do so in a shorter one too, and be as coarse
+ * there: so many shorter parts may be [-]. */
+enum { MOST_WORSE = 1 };
+
 /* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
  * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
@@ -56,14 +61,17 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   const double shorter = snaps ? sw_coarse_half(k->part, p->args->dt)
                                : sw_coarse_part(p->s, k->part, p->args->dt, over);
   *may_grow = sw_coarse_may_grow(p->s, over);
-  if (k->doubted > 0 && !snaps && !sw_coarse_helps(k->over, over)) {
+  const int helps = !(k->doubted > 0) || snaps || sw_coarse_helps(k->over, over);
+  k->worse = helps ? 0 : k->worse + 1;
+  if (k->worse > MOST_WORSE || (!helps && !(shorter < k->part))) {
     k->rough = 1;
     k->part = k->doubted, k->doubted = 0;
     return 1;
   }
-  k->doubted = 0;
+  if (helps) k->doubted = 0;
   if (!(shorter < k->part)) return 0;
-  k->doubted = k->part, k->over = over;
+  if (helps) k->doubted = k->part;
+  k->over = over;
   k->part = shorter;
   return 1;
 }
