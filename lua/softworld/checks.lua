@@ -105,12 +105,12 @@ function checks.number(what, value, low, unit, level, high, above)
   local fine = type(value) == "number" and value >= low and value < math.huge
     and not (above and value == low) and not (high and value > high)
   if fine then return value end
-  local range = low == -math.huge and "that is finite"
-    or ("%s %g%s"):format(above and "above" or "at least", low, unit)
+  local any = low == -math.huge
+  local range = any and "finite" or ("%s %g%s"):format(above and "above" or "at least", low, unit)
   if high then range = ("%s and at most %g%s"):format(range, high, unit) end
   if value == nil then error(("%s is required, %s"):format(what, range), level) end
   error(("%s = %s is not allowed; it must be %s%s"):format(what, checks.got(value, unit),
-    type(value) == "number" and "" or "a number ", range), level)
+    type(value) == "number" and "" or any and "a number that is " or "a number ", range), level)
 end
 
 --- One of the words in known (a table with them as keys).

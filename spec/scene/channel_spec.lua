@@ -161,7 +161,8 @@ describe("a channel", function()
       a.points, a.width, a.depth = { { 0, 0, 0 }, { 0.1, 0, 0 } }, 0.01, 0.01
       assert.are.equal("d", scene:channel(a).name) -- nothing was left behind
     end
-    refused("channel 'd': width = a boolean is not allowed; it must be a number above 0 m", { width = false })
+    refused("channel 'd': width = a boolean is not allowed; it must be a number at least 1e-06 m and at most"
+      .. " 1000 m", { width = false })
     refused("channel 'd': depth = -1 m is not allowed", { depth = -1 })
     refused("channel 'd': points is required, a list of at least two", { points = { { 0, 0, 0 } } })
     refused("channel 'd': points[2] must be a table of 3 finite numbers",

@@ -25,7 +25,8 @@ local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a 
   { "to", "point or { wire, s = }", "m", "the other end: a point, or a place of another wire (rod or string)",
     usual = "where it is now" },
   { "slack", "number", "m", "distance up to which it does not pull", min = 0, usual = "the present one" },
-  { "stiffness", "number", "N/m", "beyond the slack", min = 0, above = true, default = STIFFNESS },
+  { "stiffness", "number", "N/m", "beyond the slack", min = 0, above = true, max = 1e12,
+    default = STIFFNESS },
   { "strength", "number", "N", "pull at which it breaks", min = 0, above = true, usual = "never" },
 })
 local other_end = rows.list{
