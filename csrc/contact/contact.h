@@ -130,6 +130,9 @@ sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, con
 double sw_contact_soonest(const sw_contact *contact); /* after the step's start [s] */
 /* A step that began is not to be cut shorter than this [s]. */
 void sw_contact_cut(sw_contact *contact, double least);
+/* It was to be taken in parts of this size: touches that slowly get deeper in these are made
+ * stiffer as in whole steps [s]. */
+void sw_contact_ask(sw_contact *contact, double part);
 
 /* The same for statics. Segments of a solution x1 that passed an obstacle are kept on their side
  * from now on. 1 = there are some, solve again. */

@@ -68,6 +68,7 @@ struct sw_contact {
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
+  double asked;      /* the part that it was to be taken in, before any was refused [s] */
   sw_contact_regime regime;
   int plastic;     /* 1: the step is one that does not bounce */
   int hasty;       /* 1: friction of a wire that strikes is not agreed on in this trial */

@@ -21,6 +21,8 @@ typedef struct sw_ladder {
   int redo;        /* SW_AS_IS, or how the step is redone, for it made energy */
   double soonest;  /* a rebound asks the step to end then, after its start; 0 = none does [s] */
   int cuts;        /* of this step, at rebounds [-] */
+  double asked;    /* the part that a step is to be taken in: shorter ones are so for they were
+                      refused, or are its end; 0: dt [s] */
   sw_error held;   /* what the last rejected part was rejected for */
   int smooth;      /* 1: the step that was rejected last made energy where nothing touches */
   int changed;     /* 1: the scene was, since the last step: its energy is not judged */

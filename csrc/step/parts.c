@@ -99,6 +99,7 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   SW_TRY(sw_ladder_record(p, k->part, err));
   k->part = k->starts || k->cut ? k->h : may_grow ? 2 * k->part : k->part;
   k->starts = k->cut = 0;
+  p->asked = fmin(k->h, fmax(p->asked, k->part));
   return SW_OK;
 }
 
@@ -137,6 +138,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
   k.starts = sw_scene_course(p->s)->next && sw_slip_any(p->s);
   if (k.starts) k.part = FIRST_SLIP * h;
   p->cuts = 0;
+  p->asked = h;
   p->changed = sw_restart_changed(p->s);
   k.rough = !p->args->parts || !sw_coarse_applies(p->s);
   while (k.done < h) {
@@ -144,10 +146,12 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
     SW_TRY(begin(p, &k, err));
     const int smallest = 0.5 * k.part < SW_SMALLEST_SHARE * h;
     const sw_status status = sw_ladder_try(p, k.part, smallest, err);
-    if (status == SW_OK && is_too_long(p, &k, &may_grow))
+    if (status == SW_OK && is_too_long(p, &k, &may_grow)) {
       sw_ladder_undo(p);
-    else
+      p->asked = k.part;
+    } else {
       SW_TRY(status == SW_OK ? take(p, &k, may_grow, err) : refuse(p, &k, status, err));
+    }
   }
   remember(p->s, &k);
   return SW_OK;
