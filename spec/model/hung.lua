@@ -1,0 +1,50 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- A wire that hangs between two clamps, of which one comes nearer slowly: its model is chosen while what
+-- runs of a rung tell goes through a function of the spec.
+local refine = require "softworld.run.refine"
+local rod = require "spec.model.rod"
+local sw = require "softworld"
+
+local hung = {}
+
+local FINE = 20 -- segments from which edges are fine
+
+-- f() while runs of a model go through instead(run_once, scene, options, name, why).
+local function computing(instead, f)
+  local computer = refine.computer
+  function refine.computer(job, steps, run_once, total)
+    return computer(job, steps, function(...) return instead(run_once, ...) end, total)
+  end
+  local fine, result = pcall(f)
+  refine.computer = computer
+  assert(fine, result)
+  return result
+end
+
+--- Its run; more: arguments of it. of_fine(run_once, scene, options, name, why): instead of run_once where
+-- poses on fine edges are computed; nil: as they are.
+function hung.run(of_fine, more)
+  local scene = sw.scene { name = "hung" }
+  scene:force { kind = "damping", mass = 5 }
+  local w = rod.wire(scene)
+  scene:clamp(w, { s = 0 })
+  local right = scene:clamp(w, { s = 0.6, name = "right" })
+  scene:settle()
+  right:follow { points = { { 0.6, 0, 0 }, { 0.4, 0.1, 0 } }, duration = 10 }
+  local args = { duration = 10, tolerance = { ["right.force"] = { relative = 0.001 } } }
+  for key, value in pairs(more or {}) do args[key] = value end
+  return computing(function(run_once, s, options, ...)
+    local fine = of_fine and options.quasistatic and sw.core.segments(w) >= FINE
+    if fine then return of_fine(run_once, s, options, ...) end
+    return run_once(s, options, ...)
+  end, function() return scene:run(args) end)
+end
+
+--- How far the forces of two runs are apart, and what their bars allow [N].
+function hung.apart(one, other)
+  local a, b, sum = one.quantities["right.force"], other.quantities["right.force"], 0
+  for i = 1, 3 do sum = sum + (a.value[i] - b.value[i]) ^ 2 end
+  return sum ^ 0.5, a.error + b.error
+end
+
+return hung
