@@ -61,6 +61,22 @@ describe("model = 'auto', where a bar stays too long,", function()
   end)
 end)
 
+describe("model = 'auto', where wires touch each other,", function()
+  it("looks no more for how near they come", function()
+    local apart, alone, touching = sw.core.frames_apart, 0, 0
+    function sw.core.frames_apart(scene, ...)
+      if sw.core.data(scene).touching then touching = touching + 1 else alone = alone + 1 end
+      return apart(scene, ...)
+    end
+    local fine, run = pcall(beside, 0.015)
+    sw.core.frames_apart = apart
+    assert.is_true(fine, tostring(run))
+    assert.equal("wires", run.model.contact)
+    assert.is_true(alone > 0)
+    assert.equal(0, touching)
+  end)
+end)
+
 -- A cable is pressed into a clip, over whose lips it jumps.
 describe("model = 'auto', where a wire jumps,", function()
   it("computes dynamics on one level where they change hardly anything and show what rings", function()

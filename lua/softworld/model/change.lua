@@ -6,7 +6,7 @@ local quantity = require "softworld.quantity"
 
 local change = {}
 
-change.MODEL = 0.75 -- of a tolerance: what rungs may leave out [-]
+change.MODEL = 0.875 -- of a tolerance: what rungs may leave out [-]
 
 local SAFETY = 1.5 -- of what is known of finer levels [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
@@ -42,8 +42,8 @@ local function own_bound(state, levels, name, d)
 end
 
 --- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
--- all. levels: { here =, above = } of the rungs, also before; left(context, name, state): what other choices
--- leave out of a quantity.
+-- all; seen: what that quantity changes by here, over what is allowed. levels: { here =, above = } of the
+-- rungs, also before; left(context, name, state): what other choices leave out of a quantity.
 function change.between(context, state, levels, left)
   local c = { worst = -1, all = {} }
   local own = state.choice.rungs[state.rung].own and levels.before
@@ -54,9 +54,17 @@ function change.between(context, state, levels, left)
     c.all[q.name] = (own and own_bound or bound)(state, levels, q.name, d)
     local allowed = math.max(0, change.MODEL * quantity.asked(q, b) - left(context, q.name, state))
     local off = d > 0 and c.all[q.name] / allowed or 0
-    if off > c.worst then c.worst, c.quantity, c.allowed = off, q, allowed end
+    if off > c.worst then c.worst, c.quantity, c.allowed, c.seen = off, q, allowed, d / allowed end
   end
   return c
+end
+
+--- The same where edges and steps hide so many times as much of it.
+function change.hidden(c, times)
+  local more = { worst = times * c.worst, quantity = c.quantity, allowed = c.allowed, seen = c.seen,
+    all = {} }
+  for name, d in pairs(c.all) do more.all[name] = times * d end
+  return more
 end
 
 return change

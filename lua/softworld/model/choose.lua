@@ -8,6 +8,7 @@
 -- @module softworld.model.choose
 local answer = require "softworld.model.answer"
 local build = require "softworld.scene.build"
+local change = require "softworld.model.change"
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local decide = require "softworld.model.decide"
@@ -25,7 +26,7 @@ local trust = require "softworld.run.trust"
 
 local choose = {}
 
-local LEAST = 0.25 -- of a tolerance: what edges and steps may always take [-]
+local LEAST = 1 - change.MODEL -- of a tolerance: what edges and steps may always take [-]
 local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 local LONGEST = 300 -- that a level is expected to take [s]
@@ -150,16 +151,21 @@ local function given_up(context, state, time)
     text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
 end
 
+-- May what the finest run tells speak against the free check of a choice?
+local function is_checked(state) return state.by == "free" and not state.went_on end
+
 -- Look at what the finest run tells; true when it is to be computed again.
 local function broken(context, result)
-  local values = {}
+  local values, asked = {}, {}
   for name, q in pairs(result.quantities) do values[name] = q.value end
-  local facts, share = probe.facts(context, result), decide.tightest(context, values)
+  for _, state in ipairs(context.states) do
+    asked[state.choice.name] = is_checked(state) or state.choice.short ~= nil
+  end
+  local facts, share = probe.facts(context, result, asked), decide.tightest(context, values)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
-    local checked = state.by == "free" and not state.went_on
-    if checked and state.choice.broken(f, SLACK * share, state.rung) then
+    if is_checked(state) and state.choice.broken(f, SLACK * share, state.rung) then
       given_up(context, state, context.scene.time)
       again = true
     end
@@ -173,8 +179,8 @@ end
 -- shortens by no more than some times what the rung changes. But friction makes bars of fine poses.
 local function may_mend(state, q, over)
   if state.by == "free" then return state.choice.name == "motion" and not q.met end
-  local change = state.by == "compared" and state.change[q.name] or 0
-  return change > 0 and (state.choice.rough and not q.met or over <= OWN * change)
+  local moved = state.by == "compared" and state.change[q.name] or 0
+  return moved > 0 and (state.choice.rough and not q.met or over <= OWN * moved)
 end
 
 -- Where a bar stays too long the first choice whose next rung may mend that goes up. True when one does.

@@ -17,7 +17,7 @@ local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
-local CLEAR = 0.002 -- a change over what is allowed that is hardly so small by chance [-]
+local HIDDEN = 4   -- of a change that coarse edges and steps blur: they may hide so many times as much [-]
 local SEEN = 0.1   -- of a swing: what steps must show for that [-]
 local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
@@ -56,7 +56,7 @@ function decide.wasteful(context, k, run)
   for _, state in ipairs(context.states) do
     local open = state.by ~= "given" and not state.went_on and state.rung < state.last and state.choice.toils
     local above = open and open(state.rung, run) and iterations_above(context, state, k)
-    local why = above and state.choice.costly(state.rung, run, { iterations = above })
+    local why = above and state.choice.costly(state.rung, run, { iterations = above }, k)
     if why then return state, why end
   end
 end
@@ -104,34 +104,40 @@ local function saves_nothing(context, above, before, k)
   return true
 end
 
--- Does the level tell too little of the next rung to stay, or to go?
+-- Does the level tell too little of the next rung to stay, or to go? Or the change, with what may be hidden,
+-- if it is still small then.
 local function is_blurred(context, state, now, c)
   local choice = state.choice
   if now.k > 1 then return false end
   if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
   if c.worst > 1 then return c.worst <= FAR end
-  local above = now.above.facts[choice.name]
-  if c.worst < CLEAR and choice.shows and choice.shows(above) > SEEN then return false end
-  local share = decide.tightest(context, now.above.values)
-  return choice.blurred and choice.blurred(now.here.facts[choice.name], above, share)
+  local above, share = now.above.facts[choice.name], decide.tightest(context, now.above.values)
+  if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
+  local all = change.hidden(c, HIDDEN)
+  if all.worst < 1 / DOUBT and choice.shows and choice.shows(above) > SEEN then return false, all end
+  return true
 end
 
 -- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
 -- cheap rung must not pay for coarse steps. Nothing is computed twice.
 local function compare(context, state, rungs, above)
-  local c
-  local rung, levels, before = state.choice.rungs[state.rung], state.choice.levels or decide.levels, nil
+  local rung, levels = state.choice.rungs[state.rung], state.choice.levels or decide.levels
+  local c, before
   for k = 1, levels do
     local again = before and before.before and before.before.above
     if again and saves_nothing(context, before.above, again, k) then return c end
     local here, there = probe.of(context, rungs, k), probe.of(context, above, k)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     local now = { k = k, here = here, above = there, before = before }
+    local last = c
     c, before = change.between(context, state, now, left_by_others), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
-    if clear and not is_blurred(context, state, now, c) then return c end
+    local blurred, all = is_blurred(context, state, now, c)
+    if clear and not blurred then return all or c end
+    local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
+    if grows then return c end
     local costly = state.choice.costly
-    if c.worst > 1 and costly and costly(state.rung, here, there, true) then return c end
+    if c.worst > 1 and costly and costly(state.rung, here, there, k, true) then return c end
   end
   return c
 end
@@ -144,12 +150,12 @@ local function changed_by(c)
 end
 
 local function begin_anew(state)
-  state.rung, state.by, state.raised, state.why, state.checked = 1, nil, nil, nil, nil
+  state.rung, state.by, state.raised, state.why, state.checked, state.rose = 1, nil, nil, nil, nil, nil
 end
 
 --- One rung up. The choices after it begin anew: they were made with the rung that is given up.
 function decide.raise(context, state, why)
-  state.rung, state.by, state.raised, state.why = state.rung + 1, "raised", why, why
+  state.rung, state.by, state.raised, state.why, state.rose = state.rung + 1, "raised", why, why, nil
   local after = false
   for _, other in ipairs(context.states) do
     if after and other.by ~= "given" and not other.choice.steady then begin_anew(other) end
@@ -246,7 +252,7 @@ local function climb(context, state, rungs, here)
   if not above.ok then
     return unknown(context, state, f, here, ("%s cannot be computed: %s"):format(next_as, above.reason))
   end
-  local costly = choice.costly and choice.costly(rung, here, above)
+  local costly = choice.costly and choice.costly(rung, here, above, 1)
   if costly then
     decide.raise(context, state, costly)
     return false
@@ -255,7 +261,9 @@ local function climb(context, state, rungs, here)
   if blind then
     return unknown(context, state, f, here, ("%s cannot be computed finer: %s"):format(next_as, blind))
   end
-  if c.worst > 1 then decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
+  if c.worst > 1 then
+    decide.raise(context, state, ("with %s %s"):format(next_as, changed_by(c)))
+    state.rose = probe.key(rungs, 1)
   else
     state.change = c.all
     return stay(state, "compared", ("with %s %s"):format(next_as, changed_by(c)))
@@ -323,8 +331,30 @@ local function is_overdrawn(context)
   return false
 end
 
---- Decide all choices until nothing changes: what is chosen later may undo what was free before. Returns
--- what was computed of them on the coarsest level; nil: that failed.
+-- Would the rung below do after all, beside the rungs that the others have come to? True where it does: what
+-- the others leave out was found with the rung above, and what that changes comes to it.
+local function may_fall(context, state)
+  local now = decide.rungs(context)
+  local below = with(now, state.choice.name, state.rung - 1)
+  if not state.rose or state.choice.steady or state.rose == probe.key(below, 1) then return false end
+  state.rose = probe.key(below, 1)
+  local here, above, costly = probe.of(context, below, 1), probe.of(context, now, 1), state.choice.costly
+  if not (here.ok and above.ok) or costly and costly(state.rung - 1, here, above, 1) then return false end
+  local rung, was = state.rung, state.change
+  state.rung, state.change = rung - 1, nil
+  local c = compare(context, state, below, now)
+  if c.worst <= 1 then
+    state.change = c.all
+    state.by, state.why = "compared", ("with %s %s"):format(state.choice.rungs[rung].as, changed_by(c))
+    return true
+  end
+  state.rung, state.change = rung, was
+  return false
+end
+
+--- Decide all choices until nothing changes: what is chosen later may undo what was free before, or make do
+-- with a rung that did not suffice before. Returns what was computed of them on the coarsest level; nil: that
+-- failed.
 function decide.settle(context)
   for _ = 1, 3 do
     local before = decide.rungs(context)
@@ -336,6 +366,7 @@ function decide.settle(context)
     end
     if same and not is_overdrawn(context) then break end
   end
+  for _, state in ipairs(context.states) do may_fall(context, state) end
   local base = probe.of(context, decide.rungs(context), 1)
   if not base.ok then
     if base.raised then error(base.raised, 0) end

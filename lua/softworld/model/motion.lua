@@ -5,6 +5,7 @@ local build = require "softworld.scene.build"
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
+local trust = require "softworld.run.trust"
 
 local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
 local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
@@ -12,7 +13,8 @@ local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be
 local SAFETY = 3     -- coarse steps do not see all that swings [-]
 local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
 local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
-local COSTLY = 2     -- iterations of poses over those of steps, on the coarsest level [-]
+local COSTLY = 2     -- iterations of poses over those of steps, on the level where poses mostly end [-]
+local ENDS = 3       -- that level [-]
 local MANY = 30      -- iterations of a pose, of those which steps need some five each [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
@@ -85,9 +87,14 @@ function motion.look(context, run)
     dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
---- The first period, of the scene at rest as it begins [s]; look_at_end may find a longer one.
+--- The first period, of the scene at rest as it begins, on the coarsest edges: what all modes of fine ones
+-- take grows with their cube [s]. look_at_end may find a longer one.
 function motion.begin(context)
-  if context.job.rests then context.period = period(context.scene) end
+  local job, scene = context.job, context.scene
+  if not job.rests then return end
+  core.remesh(scene, trust.counts(job, 1))
+  context.period = scene:settle().ok and period(scene) or nil
+  job.restore()
 end
 
 -- What the damping of tr-bdf2 leaves of a swing after a step of so much of its phase [rad]: the size of its
@@ -160,10 +167,12 @@ end
 function motion.toils(rung, run) return rung == 1 and run.iterations > MANY * run.steps end
 
 --- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
--- fewer each, which steps do not: from level to level dynamics take at least twice as many, poses at most.
--- in_doubt: it is not known whether they suffice; then they are no saving already where they need as many.
-function motion.costly(rung, here, above, in_doubt)
-  if rung == 1 and here.iterations >= (in_doubt and 1 or COSTLY) * above.iterations then
+-- fewer each, which steps do not: from level k on dynamics take twice as many on each, poses hardly more, and
+-- dynamics need a level more, as they ring. in_doubt: it is not known whether poses suffice; then they are no
+-- saving already where they need as many.
+function motion.costly(rung, here, above, k, in_doubt)
+  local least = (in_doubt and 1 or COSTLY) * 2 ^ math.max(0, ENDS - k)
+  if rung == 1 and here.iterations >= least * above.iterations then
     return ("poses cost more: %d iterations on a mesh on which dynamics take %d"):format(here.iterations,
       above.iterations)
   end

@@ -59,10 +59,11 @@ function probe.arrange(context, rungs, factors, last)
   return function(k) return with_frames(context, steps(k), each_step, last) end
 end
 
-local function look(context, run)
+local function look(context, run, asked)
   local found = {}
   for _, choice in ipairs(registry.list) do
-    found[choice.name] = choice.look and choice.look(context, run) or {}
+    local told = choice.look and (not asked or asked[choice.name])
+    found[choice.name] = told and choice.look(context, run) or {}
   end
   return found
 end
@@ -78,8 +79,10 @@ local function look_at_failed(context, run)
   return found
 end
 
---- What a run tells to the choices, by their names.
-function probe.facts(context, run) return facts.reading(context.scene, run.start, look, context, run) end
+--- What a run tells to the choices, by their names; asked: a set of names, or nil for all.
+function probe.facts(context, run, asked)
+  return facts.reading(context.scene, run.start, look, context, run, asked)
+end
 
 -- What a run that failed tells, if anything.
 local function facts_of_failed(context, run)

@@ -30,8 +30,8 @@
 --   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
 --   toils(rung, run): may the rung cost more than the next one, by what a run of it needed? Then costly is
 --     asked
---   costly(rung, here, above, in_doubt): a sentence where the rung costs no less than the next one, which is
---     in doubt or not; here and above: computations by both on like levels, with iterations =
+--   costly(rung, here, above, k, in_doubt): a sentence where the rung costs no less than the next one, which
+--     is in doubt or not; here and above: computations by both on level k, with iterations =
 --   short(context, facts, share, state): a sentence where the rung leaves out too much all the same
 -- @module softworld.model.registry
 local registry = {}
