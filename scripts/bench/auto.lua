@@ -6,6 +6,7 @@ local autohandled = require "bench.autohandled"
 local autoharness = require "bench.autoharness"
 local autopressed = require "bench.autopressed"
 local autosteady = require "bench.autosteady"
+local autotruth = require "bench.autotruth"
 local draw = require "bench.autodraw"
 local sw = require "softworld"
 
@@ -129,40 +130,12 @@ for _, list in ipairs { autohandled.scenes, autoharness.scenes, autopressed.scen
   for _, kind in ipairs(list) do auto.scenes[#auto.scenes + 1] = kind end
 end
 
--- --- what is true ------------------------------------------------------------------------------
+-- --- one scene -------------------------------------------------------------------------------
 
-local COARSE, FINE = 4, 6 -- levels: of a first look at how long it takes to know, and to know [-]
-local LONGEST = 120       -- that it may take [s]
+-- To know what is true, from which fixed models that tell nothing of the one chosen are left out [s].
+local SLOW = 5
 
-local function tolerance(names, share)
-  local t = {}
-  for _, name in ipairs(names) do t[name] = { relative = share } end
-  return t
-end
-
-local function run(build, options, share, levels, static)
-  local scene, names, duration = build(options)
-  if options.settle ~= false then scene:settle() end
-  local clock = sw.core.clock()
-  local fine, r = pcall(scene.run, scene, { duration = duration, tolerance = tolerance(names, share),
-    levels = levels,
-    quasistatic = static, dt = static and 0.04 or nil })
-  if not fine then return nil, r end
-  return r.ok and r or nil, r.reason, sw.core.clock() - clock
-end
-
--- What is true, by far finer runs of the dearest model; nil where that would take too long, and why.
-local function true_values(build, moves, share)
-  local options = { rolls = true, contact = true, settle = not moves }
-  local truth, why = run(build, options, share, COARSE)
-  if not truth or truth.met then return truth, why end
-  local n = #truth.levels -- fewer than COARSE, where those would not tell
-  local last, before = truth.levels[n].cpu, truth.levels[n - 1].cpu
-  local growth, expected = last / math.max(before, 1e-3), 0
-  for k = 1, FINE - n do expected = expected + last * growth ^ k end
-  if expected > LONGEST then return nil, ("to know what is true would take about %.0f s"):format(expected) end
-  return run(build, options, share, FINE)
-end
+local run = autotruth.run
 
 local function near(a, b)
   if type(a) == "number" then return math.abs(a - b) end
@@ -198,11 +171,20 @@ local function cheaper(a, b)
   return a ~= b
 end
 
+-- The fixed models to compute: all, or of slow scenes what may be better than the model chosen.
+local function fixed_of(rungs, took)
+  local list = {}
+  for _, word in ipairs(fixed) do
+    if took < SLOW or word == rungs or cheaper(word, rungs) then list[#list + 1] = word end
+  end
+  return list
+end
+
 local function one(kind, random, share)
   local build, moves, known = kind.of(random)
-  local truth, why = { quantities = known }, nil
+  local truth, why, took = { quantities = known }, nil, 0
   if not known then
-    truth, why = true_values(build, moves, share / 8)
+    truth, why, took = autotruth.values(build, moves, share / 8)
   end
   if not truth then return nil, why end
   for name, t in pairs(truth.quantities) do
@@ -212,7 +194,7 @@ local function one(kind, random, share)
   if not r then return { failed = reason } end
   local out = { held = 0, rows = 0, model = r.model, rungs = rungs_of(r.model), cost = r.model.run_cost,
     probes = r.model.cost,
-    enough = {}, met = r.met, wall = cost, times = {} }
+    enough = {}, met = r.met, wall = cost, times = {}, away = {} }
   for name, q in pairs(r.quantities) do
     local t = truth.quantities[name]
     out.rows = out.rows + 1
@@ -225,24 +207,28 @@ local function one(kind, random, share)
     options.settle = not moves
     return (run(build, options, share))
   end) or nil
+  local twice = out.steady and out.steady.model or r.model -- the machine may be busy once
+  out.probes, out.cost = math.min(out.probes, twice.cost), math.min(out.cost, twice.run_cost)
   out.finest = autopressed.finest(build, moves)
   for _, word in ipairs(known and autopressed.fixed or {}) do
     local asked = word == out.rungs or cheaper(word, out.rungs) -- others are slow, and tell nothing of it
     if asked and word:sub(4) == "o" then out.enough[word], out.times[word] = false, 0 -- no line is squeezed
     elseif asked then out.enough[word], out.times[word] = autopressed.suffices(build, word, share, known) end
   end
-  for _, word in ipairs(known and {} or fixed) do
+  for _, word in ipairs(known and {} or fixed_of(out.rungs, took)) do
     local options = { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w", settle = not moves }
     local static = word:sub(1, 1) == "p" or nil
-    local f = run(build, options, share / 4, 5, static)
-    local enough = f ~= nil
+    local plain = run(build, options, share, nil, static) -- as the model was chosen for
+    local f = run(build, options, share / 4, 5, static) or plain -- poses may fail on finer edges
+    local enough, away = f ~= nil, 0
     for name, q in pairs(f and f.quantities or {}) do
       local t = truth.quantities[name]
       local most = share * size(t.value) -- and no more for bars that are longer than was asked for
-      enough = enough and near(q.value, t.value) <= most + math.min(q.error, most / 4) + t.error
+      local off = near(q.value, t.value)
+      enough = enough and off <= most + math.min(q.error, most / 4) + t.error
+      away = math.max(away, off / most)
     end
-    f = run(build, options, share, nil, static) -- as the model was chosen for
-    out.enough[word], out.times[word] = enough, f and f.cpu or 0
+    out.enough[word], out.times[word], out.away[word] = enough, plain and plain.cpu or 0, away
   end
   return out
 end
@@ -339,7 +325,11 @@ local function verdict(met) return met and "met" or "missed" end
 local function print_missed(r)
   if r.failed then return print(("    %-8s %g: %s"):format(r.name, r.share, r.failed)) end
   local words = {}
-  if not r.cheapest and r.some then words[1] = "dear, enough is " .. (r.better or "another") end
+  if not r.cheapest and r.some then
+    local away = r.better and r.away[r.better]
+    words[1] = ("dear, enough is %s%s"):format(r.better or "another",
+      away and (", %.2f of the tolerance away"):format(away) or "")
+  end
   if r.too_cheap then words[#words + 1] = "too cheap" end
   if r.held < r.rows then words[#words + 1] = ("%.2g bars off"):format(r.off) end
   if auto.is_over(r) then

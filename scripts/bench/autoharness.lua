@@ -9,11 +9,14 @@ local autoharness = {}
 
 local TRUNK, BRANCH = 0.3, 0.2 -- lengths [m]
 
+-- The branches leave the trunk at different angles: of a harness that is the same on both sides chance tells
+-- to which one a trunk goes that is pushed, and nobody knows what is true.
 local function branched(random)
   local section, duration = draw.wire_of(random), draw.pick(random, { 1, 4, 16 })
   local angle, mu = draw.between(random, 0.3, 0.9), draw.pick(random, { 0, 0.3 })
   local lift, apart = draw.between(random, 0.03, 0.09), draw.between(random, -0.05, 0.01)
   local slack = draw.pick(random, { false, 0.02 })
+  local angles = { angle, angle * draw.between(random, 0.3, 0.7) }
   return function(options)
     local scene, r = sw.scene { name = "harness" }, section.radius
     scene:obstacle { name = "table", shape = "plane", friction = mu }
@@ -22,9 +25,9 @@ local function branched(random)
     local ends = { { trunk, s = TRUNK } }
     scene:clamp(trunk, { s = 0, name = "root" })
     for k, name in ipairs { "left", "right" } do
-      local way = 3 - 2 * k
+      local way, a = 3 - 2 * k, angles[k]
       local w = draw.made(scene, section, options, { name = name, from = { TRUNK, 0, r }, segments = 12,
-        to = { TRUNK + BRANCH * math.cos(angle), way * BRANCH * math.sin(angle), r } })
+        to = { TRUNK + BRANCH * math.cos(a), way * BRANCH * math.sin(a), r } })
       ends[k + 1] = { w, s = 0 }
       scene:clamp(w, { s = BRANCH, name = name .. " hand" }):follow { relative = true, duration = duration,
         points = { { 0, 0, 0 }, { -0.04, way * apart, lift } } }

@@ -13,12 +13,12 @@ local function bits(run)
 end
 
 --- Compare with a run of build, by run_of(options): { same =, choice = both are as before, held = so many
--- values within their bars, rows = of so many }; nil where one fails.
+-- values within their bars, rows = of so many, model = of the same run again }; nil where one fails.
 function autosteady.look(first, rungs_of, distance, size, run_of)
   local again, other = run_of { auto = true }, run_of { auto = true, stiffer = 1 + CHANGE }
   if not again or not other then return nil end
   local out = { same = bits(first) == bits(again), choice = rungs_of(first.model) == rungs_of(other.model),
-    held = 0, rows = 0 }
+    held = 0, rows = 0, model = again.model }
   for name, q in pairs(first.quantities) do
     local p = other.quantities[name]
     local within = p and distance(p.value, q.value) <= p.error + q.error + MORE * CHANGE * size(q.value)
