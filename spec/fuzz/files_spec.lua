@@ -7,11 +7,11 @@ local SCRIPT = program.root .. "/scripts/fuzz_files.lua"
 describe("damaged files", function()
   for _, seed in ipairs { 1, 2, 3 } do
     it("give what they are for or an error that names them: seed " .. seed, function()
-      local out, _, code = program.run { SCRIPT, "--seed", tostring(seed), "--bytes", "4e5", "--quiet" }
+      local out, _, code = program.run { SCRIPT, "--seed", tostring(seed), "--bytes", "6e5", "--quiet" }
       assert.equal(0, code, out)
       local cases, bytes, refused = out:match "(%d+) cases, (%d+) bytes, (%d+) refused, 0 found\n$"
       assert.is_true(tonumber(cases) > 20, out)
-      assert.is_true(tonumber(bytes) >= 4e5)
+      assert.is_true(tonumber(bytes) >= 6e5)
       assert.is_true(tonumber(refused) > 10 and tonumber(refused) < tonumber(cases))
     end)
   end
