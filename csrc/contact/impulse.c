@@ -101,10 +101,10 @@ double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
 }
 
 /* Of usual forces [-]. */
-static const double SQUEEZED = 100.0;
+static const double FAR_ABOVE = 100.0;
 
 double sw_contact_squeezing_force(const sw_system *s, const sw_plan *p) {
-  return p->web ? 0.0 : SQUEEZED * sw_contact_usual_force(s, p);
+  return p->web ? 0.0 : FAR_ABOVE * sw_contact_usual_force(s, p);
 }
 
 double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {

@@ -45,6 +45,17 @@ function tools.fine(result)
   return result
 end
 
+--- What make(dt) gives, by names, is at these steps within limits of what it is at the fine one.
+function tools.same_at(dts, make, fine, limits)
+  local exact = make(fine)
+  for _, dt in ipairs(dts) do
+    local got = make(dt)
+    for key, limit in pairs(limits) do
+      tools.share(exact[key], got[key], limit, ("%s at %g ms"):format(key, 1e3 * dt))
+    end
+  end
+end
+
 --- Slope of -log(error(n)) over log(n), least squares; and the errors as text.
 function tools.order(numbers, error_of)
   local sx, sy, sxx, sxy, k, list = 0, 0, 0, 0, #numbers, {}
