@@ -67,10 +67,11 @@ static sw_status keeps(void *user, sw_system *system, const double *y, int *out,
   return s->contact && *out ? sw_contact_keeps(s->contact, system, y, out, err) : SW_OK;
 }
 
-static void refine(void *user, sw_system *system) {
+static double refine(void *user, sw_system *system) {
   const sw_scene *s = user;
+  const int pairs = s->pairs && !sw_mutual_idle(s->pairs);
   if (s->contact) sw_contact_refine(s->contact, system);
-  if (s->pairs && !sw_mutual_idle(s->pairs)) sw_mutual_refine(s->pairs, s->contact, system);
+  return pairs ? sw_mutual_refine(s->pairs, s->contact, system) : 1.0;
 }
 
 static int settled(void *user, sw_system *system, const double *y, const double *delta) {

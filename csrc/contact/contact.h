@@ -88,7 +88,9 @@ sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, in
 void sw_contact_refine(void *contact, sw_system *system);
 /* Bodies that are bridged are refined together, with all their touches. */
 struct sw_spots;
+struct sw_ways;
 void sw_contact_add_spots(sw_contact *contact, const sw_system *system, struct sw_spots *spots);
+void sw_contact_add_ways(sw_contact *contact, const sw_system *system, struct sw_ways *ways);
 int sw_contact_settled(void *contact, sw_system *system, const double *y, const double *delta);
 
 /* See sw_coupling. */

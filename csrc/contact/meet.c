@@ -66,11 +66,17 @@ static const double STILL_NEAR = 0.02;
 
 /* A force that turns with its normal has negative stiffness. At a predicted place, as deep as a
  * wire has flown in the step, it would be thousands of weights. So it is left out until the last
- * update shifted the touch by at most this share of the radii [-]. Depth by placing or by holds is
- * real; crossings of a knot slide. */
-static const double NEAR_SHIFT = 0.02;
+ * update shifted all touches that press by at most this share of the radii: one that flies throws
+ * its neighbours too. A touch that it shifted by more than the second share does not end the
+ * iteration [-]. Depth by placing or by holds is real; crossings of a knot slide. */
+static const double CALM_SHIFT = 0.01, NEAR_SHIFT = 0.02;
+
+static int may_fly(const sw_mutual *m, const sw_meet *t) {
+  return m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING && !(t->forgiven > 0);
+}
+
 static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int pressed) {
-  if (m->regime != SW_CONTACT_IMPLICIT || t->kind == SW_CROSSING || t->forgiven > 0) return 0;
+  if (!t->flies) return 0;
   if (!last) return !pressed;
   return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
 }
@@ -78,10 +84,8 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
 /* Normal force of a touch without a past: from its depth, but zero for a predicted depth, which
  * would give thousands of weights. Friction then starts at zero. Enough friction to stop the
  * lighter wire would push wires of a bundle about that only fall on each other [N]. */
-static double first_force(const sw_mutual *m, const sw_meet *t) {
-  const int flown =
-      m->regime == SW_CONTACT_IMPLICIT && !(t->forgiven > 0) && t->kind != SW_CROSSING;
-  return flown ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
+static double first_force(const sw_meet *t) {
+  return t->flies ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
 }
 
 static void begin_friction(const sw_mutual *m, const sw_system *s, const double *y, sw_meet *t,
@@ -95,7 +99,7 @@ static void begin_friction(const sw_mutual *m, const sw_system *s, const double 
     u = sw_v(0, 0, 0);
   sw_press_aim(press, u, last ? &last->press : NULL, last && last->stage == m->stage, m->first);
   sw_press_resume(press, pressed ? &met->kept : NULL, last ? &last->press : NULL, went_on,
-                  first_force(m, t));
+                  first_force(t));
   sw_press_begin(press, sw_mutual_rule(m, t->of.body)->friction, went_on || pressed, HUGE_VAL);
 }
 
@@ -118,7 +122,9 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   press->gap += t->forgiven;
   press->gap_after = press->gap;
   sw_press_activate(press, last && m->regime != SW_CONTACT_EXPLICIT ? &last->press : NULL);
+  t->flies = may_fly(m, t);
   t->far = is_far(m, t, last, pressed);
+  t->turns = !t->flies || (m->calm && !t->far);
   if (pressed && !last && m->regime == SW_CONTACT_IMPLICIT && t->kind != SW_CROSSING)
     press->active |= press->gap < STILL_NEAR * t->reach;
   begin_friction(m, s, y, t, met, last);
@@ -132,6 +138,34 @@ static const double PASSED = 0.5;
 void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *distance) {
   if (met && *distance < PASSED * reach && sw_dot(*normal, met->normal) < 0)
     *normal = sw_neg(*normal), *distance = -*distance;
+}
+
+/* --- before a solve ---------------------------------------------------------------- */
+
+/* Where wires have flown into each other in the prediction, all that overlaps would first be held
+ * at its surface, and touches beside each other push and pull with many times what they bear: half
+ * of the states that come of it are wrong. So the first solves are with softer springs, this many
+ * times each [-]; bundles of 16 and 20 wires that fall need a half to a third of the solves. With
+ * one or three of them, or 3 or 100 times as soft, 1.1 to 1.7 times as many
+ * (spec/contact/bundle_spec). */
+enum { SOFT_SOLVES = 2 };
+static const double SOFTER = 0.1;
+/* Overlaps from this share of the radii on are of wires that have flown [-]. */
+static const double FLOWN = 0.02;
+
+static int have_flown(const sw_mutual *m) {
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (t->flies && t->press.gap < -FLOWN * t->reach) return 1;
+  }
+  return 0;
+}
+
+void sw_mutual_soften(sw_mutual *m) {
+  if (m->regime != SW_CONTACT_IMPLICIT) return;
+  m->soft = m->solves == 0 ? (have_flown(m) ? SOFT_SOLVES : 0) : m->soft > 0 ? m->soft - 1 : 0;
+  for (size_t i = 0; i < m->touch_count && m->soft; i++)
+    if (m->touches[i].flies) m->touches[i].press.k *= pow(SOFTER, m->soft);
 }
 
 /* --- after a solve ---------------------------------------------------------------- */
@@ -193,15 +227,42 @@ static int update_all(sw_mutual *m, const double *delta) {
   verdict all = AGREES;
   find_scales(m);
   m->updates++;
+  m->calm = 1;
   memset(m->rubbing, 0, m->bodies * sizeof *m->rubbing);
   for (size_t i = 0; i < m->touch_count; i++) {
-    const verdict one = update(m, &m->touches[i], delta, scale_of(m, &m->touches[i]));
+    sw_meet *t = &m->touches[i];
+    const verdict one = update(m, t, delta, scale_of(m, t));
+    m->calm &= !(t->press.normal_force > 0) || sw_norm(t->press.shift) <= CALM_SHIFT * t->reach;
     all = one < all ? one : all;
   }
+  if (m->soft) return 0;
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
 }
 
-void sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
+/* Touches agree within so many solves, or they are about to go round in circles: from then on an
+ * update is made as far as energy falls, if at its end energy rises by more than this share of what
+ * it fell by at its beginning, and less from solve to solve. Two touches that alternate need the
+ * last bit of that. 20 wires whose nodes do not lie beside each other, in steps of 2.5 ms: without
+ * this most steps are halved, some for ever; with half, twice as many solves before, or a share
+ * that falls half or twice as fast, 1.2 times the solves at most (spec/contact/bundle_spec). */
+enum { FREE_SOLVES = 12 };
+static const double RISES = 0.5, FALLS = 0.8; /* [-] */
+
+static double share_of(sw_mutual *m, sw_contact *contact, sw_system *s) {
+  sw_ways *w = &m->ways;
+  const int solves = ++m->solves - FREE_SOLVES;
+  if (solves <= 0 || m->regime != SW_CONTACT_IMPLICIT || !sw_bridges_solves_again(s)) return 1.0;
+  w->count = 0, w->work = sw_bridges_work(s);
+  if (contact) sw_contact_add_ways(contact, s, w);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    sw_meet *t = &m->touches[i];
+    sw_ways_add(w, &t->press, sw_mutual_rule(m, t->of.body)->friction,
+                sw_bows_apart(s->delta, t->bow));
+  }
+  return sw_ways_share(w, RISES * pow(FALLS, solves - 1));
+}
+
+double sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
   m->spots.count = 0;
   if (contact) sw_contact_add_spots(contact, s, &m->spots);
   find_scales(m);
@@ -213,6 +274,7 @@ void sw_mutual_refine(sw_mutual *m, sw_contact *contact, sw_system *s) {
                  t->of.body[1]);
   }
   sw_spots_follow(&m->spots, s);
+  return share_of(m, contact, s);
 }
 
 int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {

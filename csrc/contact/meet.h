@@ -10,6 +10,7 @@
 #include "contact/law.h"
 #include "contact/mutual.h"
 #include "contact/spot.h"
+#include "contact/way.h"
 
 /* Two things that may touch. Each is a segment or edge from node to end, or a point with end =
  * node. In the system's arrays. */
@@ -30,6 +31,8 @@ typedef struct sw_meet {
   sw_bow bow[2];   /* as places that depend on nodes */
   int slides[2];   /* 1: the place there follows the nearest points */
   double firm[2];  /* how firmly it then keeps to the middle of each segment [-] */
+  int flies;       /* 1: what overlaps here may have flown into each other in the prediction */
+  int turns;       /* 1: its force turns with its normal in the linearisation */
   int far;         /* 1: too far from its last place for a known force */
   int barred;      /* kept on its side by a barrier */
   int emerges;     /* 1: placed in each other, and still coming out */
@@ -93,7 +96,9 @@ struct sw_mutual {
   double h, nominal;       /* [s] */
   size_t stage;            /* number of the stage, counted all along */
   double first;            /* share of the step's first stage in what this one begins from [-] */
-  int updates;             /* of the stage so far [-] */
+  int updates, solves;     /* of the stage so far; solves whose update is not made count too [-] */
+  int soft;                /* the touches' springs are softer in this solve, by so many powers */
+  int calm;                /* 1: the last update moved no touch far that presses */
   double *base;            /* (bodies) stiffness for the forces of each [N/m] */
   double *largest;         /* (bodies) largest normal force that friction uses [N] */
   sw_rubbing *rubbing;     /* (bodies) of each one's touches, after an update */
@@ -107,6 +112,7 @@ struct sw_mutual {
   void *grid; /* work of the search for what is near */
   size_t grid_capacity;
   sw_spots spots; /* work of the refinement */
+  sw_ways ways;   /* the same */
   sw_hit *hits;   /* at the end of stages of this trial */
   size_t hit_count, hit_capacity;
   size_t struck;                /* places that struck in this step */
@@ -138,6 +144,8 @@ sw_meet *sw_meet_new(sw_mutual *mutual);
  * met: memory of the last step, last: the iterate before, or NULL. */
 void sw_meet_add(sw_mutual *mutual, const sw_system *system, const double *y, sw_meet *t,
                  double gap, sw_vec normal, const sw_met *met, const sw_meet *last);
+/* The touches of an iterate are found: the first solves may be with softer springs. */
+void sw_mutual_soften(sw_mutual *mutual);
 /* If axes passed each other within the iteration, the remembered normal tells: it turns the normal
  * and the sign of the distance. */
 void sw_meet_side(const sw_met *m, double reach, sw_vec *normal, double *distance);

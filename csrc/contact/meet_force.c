@@ -184,7 +184,7 @@ sw_status sw_meet_push(sw_system *s, const sw_meet *t, const double *y, sw_vec f
   begin(&b, t->bow);
   take_law(&b, K);
   const double d = t->press.gap - t->forgiven + t->reach;
-  if (d > WELL_APART * t->reach && !t->barred && !t->far) {
+  if (d > WELL_APART * t->reach && !t->barred && t->turns) {
     const places at = places_of(t, y, d);
     add_turning(&b, &at, t->press.normal, d, -t->press.lag / d);
   }

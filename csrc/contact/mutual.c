@@ -33,8 +33,8 @@ void sw_mutual_free(sw_mutual *m) {
   if (!m) return;
   m->finder->free(m);
   sw_spots_free(&m->spots);
-  void *const blocks[] = {m->grid, m->rules, m->base,   m->rubbing,    m->touches,
-                          m->last, m->hits,  m->memory, m->next_memory};
+  void *const blocks[] = {m->grid, m->rules, m->base,   m->rubbing,     m->touches,
+                          m->last, m->hits,  m->memory, m->next_memory, m->ways.list};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) sw_free(blocks[k]);
   sw_free(m);
 }
@@ -116,7 +116,7 @@ sw_status sw_mutual_begin_step(sw_mutual *m, sw_system *s, sw_contact_regime reg
 
 void sw_mutual_begin_stage(sw_mutual *m, double first) {
   m->stage++;
-  m->updates = 0;
+  m->updates = m->solves = m->calm = m->soft = 0;
   m->first = first;
 }
 
@@ -146,6 +146,7 @@ sw_status sw_mutual_eval(sw_mutual *m, sw_system *s, const double *y, unsigned w
                          sw_error *err) {
   turn_over(m);
   sw_status status = m->finder->find(m, s, y);
+  sw_mutual_soften(m);
   for (size_t i = 0; i < m->touch_count && status == SW_OK; i++)
     status = push(m, s, &m->touches[i], y, want);
   return status == SW_OK ? SW_OK : fail(m, status, err);

@@ -45,8 +45,8 @@ sw_status sw_mutual_begin_look(sw_mutual *mutual, sw_system *system, sw_error *e
 sw_status sw_mutual_eval(sw_mutual *mutual, sw_system *system, const double *y, unsigned want,
                          sw_error *err);
 /* As sw_contact_refine, with all touches of bridged bodies; contact: those with obstacles, NULL:
- * none. */
-void sw_mutual_refine(sw_mutual *mutual, sw_contact *contact, sw_system *system);
+ * none. Returns the share of the solution that is to be made [-]. */
+double sw_mutual_refine(sw_mutual *mutual, sw_contact *contact, sw_system *system);
 int sw_mutual_settled(sw_mutual *mutual, sw_system *system, const double *delta);
 /* By velocities, will wires (of sw_pairs_new) strike in a step of size h from now? */
 int sw_pairs_expect(const sw_mutual *pairs, const sw_system *system, double h);

@@ -9,6 +9,7 @@
 #include "base/simd.h"
 #include "contact/spot.h"
 #include "contact/touch.h"
+#include "contact/way.h"
 #include "solve/dense.h"
 
 /* Most touches opened and closed in an iterate: beyond them the next iterate is cheaper. Passes
@@ -335,6 +336,14 @@ void sw_contact_refine(void *contact, sw_system *s) {
                  .delta = s->delta + 3 * b->first_node,
                  .more = c->room};
     refine(&r);
+  }
+}
+
+void sw_contact_add_ways(sw_contact *c, const sw_system *s, sw_ways *to) {
+  for (size_t i = 0; i < c->touch_count; i++) {
+    sw_touch *t = &c->touches[i];
+    if (t->held || !s->bodies[t->body].bridged) continue;
+    sw_ways_add(to, &t->press, t->friction, sw_mean_of(s->delta, 0, &t->spot));
   }
 }
 

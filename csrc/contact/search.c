@@ -1,27 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statics: touches find their states while the wires stay, which move only when all agree. A solve
- * holds for assumed states, and taking its new states may alternate for ever. But with given normal
- * forces for friction the energy is convex in the update: it has a minimum between the last update
- * and the new one, and steps to such minima always end. Only the touches' own forces are needed for
- * it; the rest is linear and in balance with the solve's forces. */
+/* Statics: touches find their states while the wires stay, which move only when all agree. Each
+ * solve goes on from the least energy between the last update and the new one (contact/way.h); all
+ * but the touches' forces is linear, and in balance with the solve's forces. */
 #include <math.h>
 
 #include "base/alloc.h"
 #include "contact/touch.h"
-
-/* Halvings of the way until its share is known [-]. */
-enum { HALVINGS = 20 };
-
-/* Force of the touch by its law, shifted by s, with friction's normal force as given. */
-static sw_vec force_at(const sw_touch *t, sw_vec s) {
-  const sw_press *p = &t->press;
-  const double across = sw_dot(p->normal, s), N = fmax(0.0, -p->k * (p->gap + across));
-  const sw_vec u = sw_madd(sw_add(p->trial, s), p->normal, -across);
-  const double most = t->friction * p->lag, spring = sw_press_grip(p) * sw_norm(u);
-  const sw_vec f = sw_scale(p->normal, N);
-  if (!(most > 0) || !(spring > 0)) return f;
-  return sw_madd(f, u, -sw_press_grip(p) * fmin(1.0, most / spring));
-}
+#include "contact/way.h"
 
 size_t sw_contact_wrong(const sw_contact *c) {
   size_t count = 0;
@@ -37,42 +22,31 @@ static int rubs(const sw_contact *c) {
   return 0;
 }
 
+typedef struct way {
+  const sw_contact *c;
+  const sw_ahead *to;
+} way;
+
 /* Slope of the energy at this share of the way [J]. */
-static double slope(const sw_contact *c, const sw_ahead *to, double share) {
+static double slope(const void *user, double share) {
+  const way *w = user;
   double sum = 0;
-  for (size_t i = 0; i < c->touch_count; i++) {
-    const sw_ahead *a = &c->ahead[i];
-    if (c->touches[i].held) continue;
-    const sw_vec linear = sw_lerp(a->force, to[i].force, share);
-    const sw_vec real = force_at(&c->touches[i], sw_lerp(a->shift, to[i].shift, share));
-    sum += sw_dot(sw_sub(linear, real), sw_sub(to[i].shift, a->shift));
+  for (size_t i = 0; i < w->c->touch_count; i++) {
+    const sw_ahead *a = &w->c->ahead[i], *to = &w->to[i];
+    const sw_touch *t = &w->c->touches[i];
+    if (t->held) continue;
+    const sw_vec linear = sw_lerp(a->force, to->force, share);
+    const sw_vec real = sw_press_at(&t->press, t->friction, sw_lerp(a->shift, to->shift, share));
+    sum += sw_dot(sw_sub(linear, real), sw_sub(to->shift, a->shift));
   }
   return sum;
-}
-
-static double least(const sw_contact *c, const sw_ahead *to) {
-  double low = 0, high = 1.0;
-  if (!(slope(c, to, 1.0) > 0) || !(slope(c, to, 0.0) < 0)) return 1.0;
-  for (int i = 0; i < HALVINGS; i++) {
-    const double middle = 0.5 * (low + high);
-    if (slope(c, to, middle) > 0)
-      high = middle;
-    else
-      low = middle;
-  }
-  return high;
 }
 
 /* The next solve is for the states there. */
 static void go_on_from(sw_touch *t, sw_vec shift) {
   sw_press *p = &t->press;
-  const double across = sw_dot(p->normal, shift), gap = p->gap + across;
-  const sw_vec u = sw_madd(sw_add(p->trial, shift), p->normal, -across);
-  p->take_on = !t->held && gap < 0;
-  p->let_go = !p->take_on;
-  p->normal_force = fmax(0.0, -p->k * gap);
-  p->next_sliding = sw_press_grip(p) * sw_norm(u) > t->friction * p->normal_force;
-  p->ahead = sw_madd(shift, p->normal, -across);
+  sw_press_go_on(p, t->friction, shift, !t->held);
+  p->ahead = sw_madd(shift, p->normal, -sw_dot(p->normal, shift));
 }
 
 /* On stiff springs a wire bends within one edge where it lifts off, and each solve would release a
@@ -129,7 +103,7 @@ int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta) {
     to[i].shift = sw_mean_of(delta, 0, &t->spot);
     to[i].force = sw_press_borne(&t->press, t->friction);
   }
-  const double share = goes_on ? least(c, to) : 1.0;
+  const double share = goes_on ? sw_way_least(slope, &(way){c, to}) : 1.0;
   for (size_t i = 0; i < n; i++) {
     sw_ahead *a = &c->ahead[i];
     *a = goes_on ? (sw_ahead){sw_lerp(a->shift, to[i].shift, share),

@@ -174,8 +174,8 @@ size_t sw_contact_wrong(const sw_contact *c);
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
 
-/* Depth on the segment beside a held node that no force takes away. One held beyond an edge is below
- * the faces that end there, but in none [m]. */
+/* Depth on the segment beside a held node that no force takes away. One held beyond an edge is
+ * below the faces that end there, but in none [m]. */
 double sw_contact_imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_touch *t, const double *y);
 /* Is it pinched between its obstacle and another one? */

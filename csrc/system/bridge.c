@@ -14,7 +14,7 @@ void sw_bridges_free(sw_system *s) {
   if (!l) return;
   sw_sparse_free(l->matrix);
   SW_FREE_ALL(l->list, l->pairs, l->known, l->planned, l->taken, l->table, l->number, l->first,
-              l->x, l->spans, l);
+              l->x, l->right, l->spans, l);
   s->bridges = NULL;
 }
 
@@ -145,6 +145,7 @@ static sw_status number_nodes(sw_system *s) {
     for (size_t i = 0; i < body->plan->nodes; i++)
       l->number[body->first_node + i] = body->bridged ? (uint32_t)l->nodes++ : NONE;
   }
+  SW_TRY(sw_grow((void **)&l->right, &l->right_capacity, l->block * l->nodes, sizeof *l->right));
   return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
 }
 

@@ -31,12 +31,12 @@ struct sw_bridges {
   int anew;         /* 1: a plan was made after the pattern */
   uint32_t *table;  /* hash: number in known + 1, 0 = empty */
   size_t table_capacity, table_size;
-  uint32_t *number; /* (system's nodes) in the matrix, or NONE */
-  size_t *first;    /* (bodies) first node in the matrix */
-  size_t nodes;     /* of the matrix */
-  size_t block;     /* unknowns a node: 3, or 4 with spins where a bridged body has frames */
-  double *x;        /* (nodes x block) */
-  size_t x_capacity;
+  uint32_t *number;  /* (system's nodes) in the matrix, or NONE */
+  size_t *first;     /* (bodies) first node in the matrix */
+  size_t nodes;      /* of the matrix */
+  size_t block;      /* unknowns a node: 3, or 4 with spins where a bridged body has frames */
+  double *x, *right; /* (nodes x block); the right-hand sides of the last solution, summed up */
+  size_t x_capacity, right_capacity;
   double *spans; /* work for twist */
   size_t span_capacity;
 };

@@ -217,6 +217,7 @@ sw_status sw_bridges_solve(sw_system *s, size_t *negative) {
   load(s);
   SW_TRY(sw_sparse_factor(l->matrix, &found));
   load_right(s, s->delta);
+  memcpy(l->right, l->x, l->block * l->nodes * sizeof *l->x);
   SW_TRY(solve_slopes(s, spans));
   const size_t fewer = spans ? correct_twist(s, spans) : 0;
   keep_gains(s);
@@ -233,12 +234,22 @@ void sw_bridges_solve_again(sw_system *s, double *more) {
   struct sw_bridges *l = s->bridges;
   const size_t spans = count_spans(s);
   load_right(s, more);
+  for (size_t i = 0; i < l->block * l->nodes; i++) l->right[i] += l->x[i];
   sw_sparse_solve(l->matrix, l->x);
   if (spans) correct_twist(s, spans);
   for (size_t b = 0; b < s->body_count; b++)
     if (!s->bodies[b].bridged)
       memset(more + 3 * s->bodies[b].first_node, 0, 3 * s->bodies[b].plan->nodes * sizeof *more);
   take_solution(s, more);
+}
+
+double sw_bridges_work(const sw_system *s) {
+  const struct sw_bridges *l = s->bridges;
+  double sum = 0;
+  for (size_t i = 0; i < s->nodes; i++)
+    if (l->number[i] != NONE)
+      sum += sw_dot(sw_load(l->right + l->block * l->number[i]), sw_vec_at(s->delta, i));
+  return sum;
 }
 
 void sw_bridges_solve_shift(sw_system *s, double *nodes, double *spins) {

@@ -62,12 +62,24 @@ typedef struct sw_coupling {
    * NULL: never. */
   sw_status (*keeps)(void *user, sw_system *system, const double *y, int *out, sw_error *err);
   /* delta solves the last eval's linearisation. Make it fit forces that depend on it in other ways,
-   * by more solves with the same factors. */
-  void (*refine)(void *user, sw_system *system);
+   * by more solves with the same factors. Returns the share of delta that is to be made: 1, or less
+   * where forces do not agree with it [-]. */
+  double (*refine)(void *user, sw_system *system);
   /* After an update y was reached by the solved delta: 1 = converged. */
   int (*settled)(void *user, sw_system *system, const double *y, const double *delta);
   /* A stage was solved, or an explicit method has evaluated: book the impulse. */
   void (*book)(void *user, const sw_booking *booking);
 } sw_coupling;
+
+/* --- while the coupling refines a solution ----------------------------------- */
+
+/* As sw_body_solves_again (system/body.h), of all bodies that bridges tie together: 1, they can be
+ * solved again; by how much forces (of the system's nodes x 3) change the solution, those of other
+ * bodies to zero; the system's delta is the last one. */
+int sw_bridges_solves_again(const sw_system *system);
+void sw_bridges_solve_again(sw_system *system, double *more);
+void sw_bridges_take_solution(sw_system *system);
+/* Their right-hand sides times their solution, without spins [J]. */
+double sw_bridges_work(const sw_system *system);
 
 #endif

@@ -123,7 +123,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
     s->counters.solves++;
   }
   sw_rails_solve(s, stage, &report->negative);
-  if (s->coupling.refine && !s->goes_on) s->coupling.refine(s->coupling.user, s);
+  report->share = s->coupling.refine && !s->goes_on ? s->coupling.refine(s->coupling.user, s) : 1.0;
   if (statics) sw_lead_update(s, stage->y);
   if (!s->goes_on) sw_factors_keep(s, stage, newton, report);
   s->counters.newton++;
@@ -170,7 +170,7 @@ static int flies_off(const sw_body *b, const double *delta) {
 /* Share of the update to be made, less than 1 when an edge would turn too far; 0 when it goes
  * nowhere near, or -1 when it is not finite. */
 static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
-  double largest = 0, share = 1.0;
+  double largest = 0, share = report->share;
   int flying = 0;
   for (size_t b = s->part; b < s->part_end; b++) {
     const sw_body *body = &s->bodies[b];
@@ -293,11 +293,11 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
     const double share = share_of(s, newton, report);
     if (share < 0) return sw_fail(err, SW_EDIVERGED, "the positions left the finite numbers");
     if (share == 0) return sw_fail(err, SW_ENOCONV, "nothing holds a wire where it is");
-    far += share < 1.0;
+    far += share < report->share;
     if (sw_lead_fails(s, newton, far, shortened))
       return sw_fail(err, SW_ENOCONV, "wires would go too far in %d iterations", i);
     if (sw_lead_waits(s, newton, stage->y, share, &waits)) continue;
-    shortened += share < 1.0;
+    shortened += share < report->share;
     if (is_thrown(s, newton, shortened))
       return sw_fail(err, SW_ENOCONV, "wires of a bundle would be thrown about");
     apply(s, stage, share);

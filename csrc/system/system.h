@@ -134,6 +134,7 @@ typedef struct sw_stage {
 typedef struct sw_stage_report {
   int iterations;
   double rotation; /* of the last update [rad] */
+  double share;    /* of it that the coupling lets be made [-] */
   size_t negative; /* negative pivots of the last matrix */
 } sw_stage_report;
 
@@ -180,12 +181,6 @@ void sw_system_measure_frames(sw_system *system, size_t body);
 /* Bring a body's twist or frames up to its field's tangents. */
 void sw_system_measure(sw_system *system, sw_body *body);
 
-/* As sw_body_solves_again (system/body.h), of all bodies that bridges tie together: 1, they can be
- * solved again; by how much forces (of the system's nodes x 3) change the solution, those of other
- * bodies to zero; the system's delta is the last one. */
-int sw_bridges_solves_again(const sw_system *system);
-void sw_bridges_solve_again(sw_system *system, double *more);
-void sw_bridges_take_solution(sw_system *system);
 /* A force is added at a held node of the system's: its hold bears it. */
 void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 
