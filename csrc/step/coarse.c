@@ -47,14 +47,14 @@ static double error_of(const sw_stepper *stepper, const sw_system *system, const
   return most;
 }
 
-double sw_coarse_of(const sw_scene *s) {
+double sw_coarse_of(const sw_scene *s, double tolerance) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   double over = 0;
   if (touch_each_other(s)) return 0;
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
     const sw_plan *p = b->plan;
-    const double allowed = fmin(OF_LENGTH * p->length, OF_RADIUS * p->beam.radius);
+    const double allowed = fmin(tolerance, fmin(OF_LENGTH * p->length, OF_RADIUS * p->beam.radius));
     over = fmax(over, error_of(stepper, system, b) / allowed);
   }
   return over;
@@ -65,6 +65,8 @@ static double power_of(const sw_scene *s) {
   return 1.0 + sw_stepper_order(&sw_scene_course(s)->stepper);
 }
 
+double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }
+
 /* What would take more parts than that is a shock, such as a tie that is made far too short. */
 double sw_coarse_part(const sw_scene *s, double h, double dt, double over) {
   const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / power_of(s)));
@@ -74,7 +76,7 @@ double sw_coarse_part(const sw_scene *s, double h, double dt, double over) {
 
 double sw_coarse_half(double h, double dt) {
   const double part = 0.5 * h;
-  return part >= fmax(SMALLEST * dt, SHORTEST) ? part : h;
+  return part >= sw_coarse_shortest(dt) ? part : h;
 }
 
 /* Half a part of smooth motion has an eighth of its error, one with a jump in it more than all. */

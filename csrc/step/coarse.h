@@ -9,11 +9,13 @@
 /* Are steps of the scene judged, as it is now? */
 int sw_coarse_applies(const sw_scene *scene);
 /* Error of the last trial, by the method's estimate, as a share of what a wire is allowed: up to 1
- * is fine; 0: the method has no estimate [-]. */
-double sw_coarse_of(const sw_scene *scene);
+ * is fine; 0: the method has no estimate. No more than the tolerance is allowed [-], [m]. */
+double sw_coarse_of(const sw_scene *scene, double tolerance);
 /* The part that is to be taken instead of one of size h with such an error, in a run of steps
  * dt [s]. */
 double sw_coarse_part(const sw_scene *scene, double h, double dt, double over);
+/* No part is taken shorter than this for what is coarse [s]. */
+double sw_coarse_shortest(double dt);
 /* The same of a part in which a tie goes taut: halves are coarse only where it does [s]. */
 double sw_coarse_half(double h, double dt);
 /* Was it right to take a shorter part, with an error over, instead of one with an error before? */

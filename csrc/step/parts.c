@@ -55,7 +55,7 @@ enum { MOST_WORSE = 1 };
 /* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
  * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
-  const double over = k->rough ? 0.0 : sw_coarse_of(p->s);
+  const double over = k->rough ? 0.0 : sw_coarse_of(p->s, HUGE_VAL);
   sw_snap snap;
   const int snaps = over > 1 && sw_scene_ties_snap(p->s, &snap);
   const double shorter = snaps ? sw_coarse_half(k->part, p->args->dt)
