@@ -172,7 +172,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
                         int (*interrupted)(void), sw_settle_report *report, sw_error *why) {
   sw_system *system = sw_scene_system(s);
   const size_t n = system->freedoms, size = system->state_size;
-  double *block SW_LOCAL = sw_alloc(4 * n + system->edges + 2 * size, sizeof *block);
+  double *block SW_LOCAL = sw_alloc(5 * n + system->edges + 2 * size, sizeof *block);
   sw_pose *poses SW_LOCAL = sw_alloc(system->hold_count, sizeof *poses);
   if (!block || !poses)
     return sw_fail(why, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
@@ -184,7 +184,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
                   .touched = since,
                   .too_far = too_far};
   p.zero = block, p.from = block + n, p.y = block + 2 * n, p.v = block + 3 * n;
-  p.tension = block + 4 * n;
+  p.way = block + 4 * n, p.tension = block + 5 * n;
   p.kept = p.tension + system->edges, p.begun = p.kept + size;
   p.from_poses = poses;
   find_from_poses(&p);

@@ -21,6 +21,7 @@ typedef struct sw_statics {
   double touched; /* time up to which contact has followed the obstacles [s] */
   int *too_far;   /* see sw_scene_rest; or NULL */
   double *zero, *from, *y, *v; /* (freedoms) */
+  double *way;                 /* (freedoms) of continuation's last step */
   double *tension;             /* (edges) at the start of an attempt */
   double *kept, *begun;        /* (state) put aside; as settling found it */
   sw_pose *from_poses;         /* (holds) where the holds were */
