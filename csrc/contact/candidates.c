@@ -291,7 +291,8 @@ static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge
  * edges of R/10; spec/contact/winding_spec) [N/m]. */
 static double round_stiffness(const sw_contact *c, const sw_body *b, const sw_candidate *k) {
   const size_t i = k->node - b->first_node;
-  if (c->regime != SW_CONTACT_IMPLICIT || b->plan->web || !(c->round[k->obstacle] > 0)) return 0;
+  if (c->regime != SW_CONTACT_IMPLICIT || b->plan->web || k->round || !(c->round[k->obstacle] > 0))
+    return 0;
   const double edge = b->plan->rest[i < b->plan->edges ? i : i - 1];
   const double radius = c->round[k->obstacle] + b->plan->beam.radius;
   return radius > SW_THICK * edge ? b->EA / radius : 0.0;

@@ -12,7 +12,7 @@ static double bulge(const sw_contact *c, const sw_candidate *k, sw_vec held, sw_
   const sw_vec edge = sw_sub(other, held);
   const double radius = c->round[k->obstacle] + k->skin, length = sw_norm(edge);
   sw_vec q, along;
-  if (!(c->round[k->obstacle] > 0) || !(radius > SW_THICK * length)) return 0;
+  if (k->round || !(c->round[k->obstacle] > 0) || !(radius > SW_THICK * length)) return 0;
   if (!(sw_shape_middle(c->obstacles[k->obstacle].shape, held, &q, &along) > 0)) return 0;
   return sw_norm2(sw_madd(edge, along, -sw_dot(along, edge))) / (8.0 * radius);
 }

@@ -13,7 +13,8 @@
 #include "contact/same.h"
 
 /* A wire meets a round obstacle, whose radius includes the wire's, by its curve: always if that
- * radius is below so many edges; below SW_THICK if it does not go round [-]. */
+ * radius is below so many edges; else if it does not go round, above SW_THICK if it does not even
+ * begin to [-]. */
 static const double THIN = 0.9;
 /* It goes round if curvature times radius is above this. Then its chords meet the obstacle until
  * they do not press any more: a capstan needs them. Chords lie outside of the curve, so the change
@@ -96,6 +97,18 @@ static int passes_side(const sw_contact *c, const sw_system *s, const sw_candida
          sw_shape_middle(shape, sw_madd(x, e, -aside), &q, &e) > 0;
 }
 
+/* Is a wire to be wound on something thick: does it begin to go round, or is it held there? As far
+ * as the radius along it is looked at. Its chords meet it then, from the start: a curve that gives
+ * way to chords lets the wire go, which strikes it again. */
+static int begins_round(const sw_system *s, const sw_body *b, double radius, size_t low,
+                        size_t high) {
+  const size_t far = (size_t)(radius / b->plan->rest[low]);
+  const size_t first = low > far ? low - far : 0, last = high + far;
+  for (size_t i = first; i <= last + 1 && i < b->plan->nodes; i++)
+    if (b->plan->held[i] != SW_FREE) return 1;
+  return radius * bend_at(s, b, first, last) > SW_GOES_ROUND;
+}
+
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const sw_plan *p = b->plan;
@@ -105,10 +118,11 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   const double edge = fmin(p->rest[low], p->rest[high]);
   const int thin = radius < THIN * edge;
   k->round = 0;
-  if (!(c->round[k->obstacle] > 0) || !(radius < SW_THICK * edge)) return;
+  if (!(c->round[k->obstacle] > 0)) return;
   const double round = radius * bend_beside(s, b, k->node, k->segment);
   const double least = thin ? LOOSE : 0.0;
-  const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND;
+  const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND ||
+                    (radius > SW_THICK * edge && begins_round(s, b, radius, low, high));
   k->round = thin || (!wound && passes_side(c, s, k, low, high));
   k->firm = fmax(least, round - SW_GOES_ROUND);
   for (size_t j = 0; j < 2; j++) {

@@ -7,7 +7,8 @@
 
 #include "contact/curve.h"
 
-/* Obstacles whose radius, with the wire's, is more edges than this are met by chords [-]. */
+/* Obstacles whose radius, with the wire's, is more edges than this are thick: a wire that begins to
+ * go round them meets them by chords, which are as stiff as it is [-]. */
 #define SW_THICK 4.0
 
 /* The obstacles that a body goes round at the step's start. */
