@@ -280,6 +280,14 @@ static int mod_frames_apart(lua_State *L) {
   return 1;
 }
 
+/* core.frames_flat(scene, w, start [s]) -> whether all of wire w happens in a plane */
+static int mod_frames_flat(lua_State *L) {
+  const sw_scene *scene = lsw_check_scene(L);
+  const size_t w = wire_index(L, 2, scene);
+  lua_pushboolean(L, sw_scene_frames_flat(scene, lsw_number(L, 3, "frames_flat: start", "s"), w));
+  return 1;
+}
+
 /* core.frame_contact(scene, i, w) -> forces across wire w at its nodes in frame i [N], and the
  * distance of its first two nodes [m]; nothing: no touch */
 static int mod_frame_contact(lua_State *L) {
@@ -335,9 +343,14 @@ static int mod_frames_press(lua_State *L) {
   return 1;
 }
 
-const luaL_Reg lsw_module_frames[] = {
-    {"frame_now", mod_frame_now},           {"frame_times", mod_frame_times},
-    {"frame_range", mod_frame_range},       {"keep_frames", mod_keep_frames},
-    {"frames_thinned", mod_frames_thinned}, {"frames_press", mod_frames_press},
-    {"frames_sweep", mod_frames_sweep},     {"frames_apart", mod_frames_apart},
-    {"frame_contact", mod_frame_contact},   {NULL, NULL}};
+const luaL_Reg lsw_module_frames[] = {{"frame_now", mod_frame_now},
+                                      {"frame_times", mod_frame_times},
+                                      {"frame_range", mod_frame_range},
+                                      {"keep_frames", mod_keep_frames},
+                                      {"frames_thinned", mod_frames_thinned},
+                                      {"frames_press", mod_frames_press},
+                                      {"frames_sweep", mod_frames_sweep},
+                                      {"frames_apart", mod_frames_apart},
+                                      {"frame_contact", mod_frame_contact},
+                                      {"frames_flat", mod_frames_flat},
+                                      {NULL, NULL}};

@@ -76,6 +76,9 @@ double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t 
  * [m]. What is no more than enough is not searched for better; infinite: they cannot meet. */
 sw_status sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
                                 double enough, double *out, sw_error *err);
+/* 1: wire w stays in one plane, all forces on it are in that, it has no twist, and no hold or tool
+ * turns but about the plane's normal: friction does not twist it. */
+int sw_scene_frames_flat(const sw_scene *scene, double start, size_t w);
 
 /* --- how lines are pressed ---------------------------------------------------------------- */
 

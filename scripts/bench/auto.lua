@@ -2,6 +2,7 @@
 --- Runs that choose their model: scenes drawn at random, each with a tolerance of 10, 3 or 1 %, against every
 -- fixed model and against far finer runs of the dearest one.
 -- @module bench.auto
+local autoguided = require "bench.autoguided"
 local autohandled = require "bench.autohandled"
 local autoharness = require "bench.autoharness"
 local autopressed = require "bench.autopressed"
@@ -76,26 +77,6 @@ auto.scenes = {
       return finish(scene, options), { "b1.force", "a1.force" }, duration
     end
   end },
-  { name = "pegged", of = function(random)
-    local section, duration = wire_of(random), pick(random, { 1, 5 })
-    local mu, down = between(random, 0, 0.4), between(random, 0.05, 0.12)
-    return function(options)
-      local scene = sw.scene{ name = "pegged" }
-      scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.02, length = 0.2, friction = mu < 0.1
-        and 0 or mu,
-        at = { 0, 0, -0.02 - section.radius - 0.003 }, rotation = { math.cos(math.pi / 4),
-          math.sin(math.pi / 4), 0, 0 } }
-      local w = made(scene, section, options, { name = "w", from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 },
-        segments = 40 })
-      for i, s in ipairs{ 0, 0.4 } do
-        local x = i == 1 and 0.06 or -0.06
-        scene:clamp(w, { s = s, name = "c" .. i }):follow{ points = { { 0, 0, 0 }, { x, 0, -down } },
-          relative = true,
-          duration = duration }
-      end
-      return finish(scene, options), { "peg.mean_force", "min_bend_radius" }, duration
-    end
-  end },
   { name = "dropped", of = function(random)
     local section, height = wire_of(random), between(random, 0.005, 0.05)
     local mu = pick(random, { 0, 0.3 })
@@ -126,7 +107,7 @@ auto.scenes = {
   end },
 }
 
-for _, list in ipairs { autohandled.scenes, autoharness.scenes, autopressed.scenes } do
+for _, list in ipairs { autohandled.scenes, autoguided.scenes, autoharness.scenes, autopressed.scenes } do
   for _, kind in ipairs(list) do auto.scenes[#auto.scenes + 1] = kind end
 end
 
@@ -171,20 +152,22 @@ local function cheaper(a, b)
   return a ~= b
 end
 
--- The fixed models to compute: all, or of slow scenes what may be better than the model chosen.
-local function fixed_of(rungs, took)
+-- The fixed models to compute: all, or of slow scenes what may be better than the model chosen. flat: none
+-- that roll, what is true is known without.
+local function fixed_of(rungs, took, flat)
   local list = {}
   for _, word in ipairs(fixed) do
-    if took < SLOW or word == rungs or cheaper(word, rungs) then list[#list + 1] = word end
+    local told = took < SLOW and not (flat and word:sub(2, 2) == "r")
+    if told or word == rungs or cheaper(word, rungs) then list[#list + 1] = word end
   end
   return list
 end
 
 local function one(kind, random, share)
   local build, moves, known = kind.of(random)
-  local truth, why, took = { quantities = known }, nil, 0
+  local truth, why, took = { quantities = known }, nil, SLOW
   if not known then
-    truth, why, took = autotruth.values(build, moves, share / 8)
+    truth, why, took = autotruth.values(build, moves, share / 8, kind.flat)
   end
   if not truth then return nil, why end
   for name, t in pairs(truth.quantities) do
@@ -203,19 +186,19 @@ local function one(kind, random, share)
     out.held = out.held + (off <= bar and 1 or 0)
     out.off = math.max(out.off or 0, off / bar)
   end
-  out.steady = not known and autosteady.look(r, rungs_of, near, size, function(options)
+  out.steady = not kind.pressed and autosteady.look(r, rungs_of, near, size, function(options)
     options.settle = not moves
     return (run(build, options, share))
   end) or nil
   local twice = out.steady and out.steady.model or r.model -- the machine may be busy once
   out.probes, out.cost = math.min(out.probes, twice.cost), math.min(out.cost, twice.run_cost)
   out.finest = autopressed.finest(build, moves)
-  for _, word in ipairs(known and autopressed.fixed or {}) do
+  for _, word in ipairs(kind.pressed and autopressed.fixed or {}) do
     local asked = word == out.rungs or cheaper(word, out.rungs) -- others are slow, and tell nothing of it
     if asked and word:sub(4) == "o" then out.enough[word], out.times[word] = false, 0 -- no line is squeezed
     elseif asked then out.enough[word], out.times[word] = autopressed.suffices(build, word, share, known) end
   end
-  for _, word in ipairs(known and {} or fixed_of(out.rungs, took)) do
+  for _, word in ipairs(kind.pressed and {} or fixed_of(out.rungs, took, kind.flat)) do
     local options = { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w", settle = not moves }
     local static = word:sub(1, 1) == "p" or nil
     local plain = run(build, options, share, nil, static) -- as the model was chosen for

@@ -47,13 +47,13 @@ local function force(E, r, per) return { ["top.force"] = { value = { 0, 0, per *
   error = ERROR * per * E * r * r } } end
 
 autopressed.scenes = {
-  { name = "plates", of = function(random)
+  { name = "plates", pressed = true, of = function(random)
     local E, r = pick(random, { 5e5, 1e6, 5e6 }), pick(random, { 0.0025, 0.005, 0.01 })
     local row, duration = pick(random, solid), pick(random, { 0.4, 0.8 })
     local section = { E = E, nu = 0.3, density = 1200, radius = r }
     return between(section, row[1], 2, duration), false, force(E, r, row[2])
   end },
-  { name = "hose", of = function(random)
+  { name = "hose", pressed = true, of = function(random)
     local E, r = pick(random, { 1e6, 5e6, 20e6 }), pick(random, { 0.004, 0.006, 0.01 })
     local row, duration = pick(random, tube), pick(random, { 0.4, 0.8 })
     local inner = 0.7 * r

@@ -27,9 +27,11 @@ function autotruth.run(build, options, share, levels, static)
   return r.ok and r or nil, r.reason, sw.core.clock() - clock
 end
 
---- What is true, by far finer runs of the dearest model; nil where that would take too long, and why.
-function autotruth.values(build, moves, share)
-  local options = { rolls = true, contact = true, settle = not moves }
+--- What is true, by far finer runs of the dearest model; nil where that would take too long, and why. flat: a
+-- single wire that stays in a plane; there friction does not twist it, and one that does not roll meets pegs
+-- by its curve, of which far coarser edges tell as much.
+function autotruth.values(build, moves, share, flat)
+  local options = { rolls = not flat, contact = not flat, settle = not moves }
   local truth, why, took = autotruth.run(build, options, share, COARSE)
   if not truth or truth.met then return truth, why, took end
   local n = #truth.levels -- fewer than COARSE, where those would not tell

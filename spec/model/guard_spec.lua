@@ -67,7 +67,8 @@ describe("a run that chose its model", function()
   end)
 
   -- What the coarse run did not have happens in those after it: a script that counts its runs.
-  local function lifted(turn)
+  -- aside: the way of the table across the plane in which the wire hangs [m].
+  local function lifted(turn, aside)
     local scene, count = sw.scene { name = "rub" }, 0
     scene:force { kind = "damping", mass = 5 }
     local w = rod.wire(scene)
@@ -79,7 +80,8 @@ describe("a run that chose its model", function()
       count = count + 1
       p:wait(5)
       if count > 1 then
-        table_:follow { relative = true, points = { { 0, 0, 0 }, { 0, 0, 0.17 } }, duration = 5 }
+        table_:follow { relative = true, points = { { 0, 0, 0 }, { 0, aside or 0, 0.17 } },
+          duration = 5 }
       end
       p:wait(15)
     end)
@@ -87,12 +89,18 @@ describe("a run that chose its model", function()
   end
 
   it("lets a wire roll from where something begins to rub", function()
-    local run, w = lifted()
+    local run, w = lifted(nil, 0.03)
     assert.equal("switched", choice(run, "twist").by, tostring(run:why()))
     assert.equal("rolling", run.model.twist)
     assert.truthy(event_of(run, "'table' rubs; rolling from there"))
     assert.is_true(event_of(run, "'table' rubs").time > 5)
     assert.is_not_nil(w:get().spin_inertia)
+  end)
+
+  it("lets it not where nothing rubs across the plane in which it hangs", function()
+    local run, w = lifted()
+    assert.equal("free", choice(run, "twist").by, tostring(run:why()))
+    assert.is_nil(w:get().spin_inertia)
   end)
 
   it("begins again where a wire that is twisted cannot go on rolling, and says why", function()

@@ -76,4 +76,7 @@ end
 -- frames. What is no more than enough is not searched for better.
 function facts.apart(v, w, enough) return core.frames_apart(kept.scene, v, w, kept.start, enough) end
 
+--- Does wire w stay in a plane, with all that pushes and turns it?
+function facts.flat(w) return core.frames_flat(kept.scene, w, kept.start) end
+
 return facts

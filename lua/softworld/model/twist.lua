@@ -31,11 +31,14 @@ end
 
 function twist.look(context, run)
   local met = context.data.touching and #context.scene:touches() > 0
-  local rods = 0
-  for _, w in ipairs(context.data.wires) do
-    if core.exists(w.object) and w.object.model == "rod" then rods = rods + 1 end
+  local f = { rubs = facts.rubbing(context.scene, run.start), met = met, rods = 0 }
+  f.flat = met or #f.rubs > 0
+  for i, w in ipairs(context.data.wires) do
+    if core.exists(w.object) and w.object.model == "rod" then
+      f.rods, f.flat = f.rods + 1, f.flat and facts.flat(i)
+    end
   end
-  return { rubs = facts.rubbing(context.scene, run.start), met = met, rods = rods }
+  return f
 end
 
 function twist.free(_, rung, f)
@@ -43,11 +46,14 @@ function twist.free(_, rung, f)
   if rung == 1 and #f.rubs == 0 and not f.met then
     return "no friction torque: nothing with friction touches a wire"
   end
+  if rung == 1 and f.flat then
+    return "no friction torque: each wire and the forces on it stay in a plane, and nothing turns out of it"
+  end
 end
 
 --- Why wires cannot go on without rolling, of what was seen of a run on the way.
 function twist.broken(f)
-  if f.rods == 0 then return nil end -- meshes roll by themselves
+  if f.rods == 0 or f.flat then return nil end -- meshes roll by themselves
   if #f.rubs > 0 then return ("'%s' rubs"):format(f.rubs[1]) end
   return f.met and "wires touch each other" or nil
 end

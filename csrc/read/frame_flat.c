@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Does a wire stay in a plane, with all that turns and pushes it? */
+#include "read/frames.h"
+
+/* Out of a plane, of a wire's length, of its largest force, or as an angle [rad]: no more than what
+ * 32-bit floats and iterations leave. Ten times as much takes 0.1 mm aside for none; at a tenth
+ * wires that were turned with their scene would hardly be flat (spec/model/flat_spec) [-]. */
+static const double NONE = 1e-5;
+
+typedef struct plane {
+  sw_vec at, normal; /* [m], [-] */
+  double size;       /* of what lies in it [m] */
+} plane;
+
+typedef struct look {
+  const sw_scene *scene;
+  size_t w;
+  size_t first; /* frame [-] */
+} look;
+
+/* The node farthest from a point, or from the line through it along a unit vector. */
+static sw_vec farthest(const look *l, sw_vec from, sw_vec along) {
+  sw_vec best = from;
+  double most = 0;
+  for (size_t f = l->first; f < sw_scene_frames(l->scene); f++) {
+    size_t count;
+    const float *x = sw_scene_frame_wire(l->scene, f, l->w, &count);
+    for (size_t i = 0; x && i < count; i++) {
+      const sw_vec to = sw_sub(sw_vec_of(x + 3 * i), from);
+      const double far = sw_norm2(sw_madd(to, along, -sw_dot(to, along)));
+      if (far > most) most = far, best = sw_vec_of(x + 3 * i);
+    }
+  }
+  return best;
+}
+
+/* A plane through three nodes far from each other. 0: they are in a line. */
+static int find_plane(const look *l, plane *p) {
+  size_t count;
+  const float *x = sw_scene_frame_wire(l->scene, l->first, l->w, &count);
+  if (!x || count == 0) return 0;
+  p->at = sw_vec_of(x);
+  const sw_vec way = sw_sub(farthest(l, p->at, sw_v(0, 0, 0)), p->at);
+  const sw_vec along = sw_unit_or(way, sw_v(0, 0, 0));
+  const sw_vec aside = sw_sub(farthest(l, p->at, along), p->at);
+  const sw_vec across = sw_cross(along, aside);
+  p->size = sw_norm(way);
+  p->normal = sw_unit_or(across, sw_v(0, 0, 0));
+  return sw_norm(across) > NONE * p->size;
+}
+
+/* Of a frame: places and forces in the plane, no twist. */
+static int is_in(const look *l, const plane *p, size_t frame) {
+  const double radius = sw_scene_frame_radius(l->scene, l->w);
+  double force = 0, off = 0, twist = 0;
+  size_t count, values;
+  const float *x = sw_scene_frame_wire(l->scene, frame, l->w, &count);
+  const float *v = sw_scene_frame_values(l->scene, frame, l->w, &values);
+  if (!x || !v || values != count) return 0;
+  for (size_t i = 0; i < count; i++, v += SW_FRAME_VALUES) {
+    const sw_vec push = sw_vec_of(v + SW_FRAME_FORCE);
+    const double away = sw_dot(p->normal, sw_sub(sw_vec_of(x + 3 * i), p->at));
+    if (!(fabs(away) <= NONE * p->size)) return 0;
+    force = fmax(force, sw_norm(push)), off = fmax(off, fabs(sw_dot(p->normal, push)));
+    twist = fmax(twist, fabs((double)v[SW_FRAME_TWIST]));
+  }
+  return off <= NONE * force && twist <= NONE * force * radius;
+}
+
+/* Since the first frame something turned about the normal at most. */
+static int turns_in(const plane *p, const float *pose, const float *first) {
+  const sw_quat a = {(double)first[3], (double)first[4], (double)first[5], (double)first[6]};
+  const sw_quat b = {(double)pose[3], (double)pose[4], (double)pose[5], (double)pose[6]};
+  const sw_vec turn = sw_quat_log(sw_quat_mul(b, sw_quat_conj(a)));
+  return sw_norm(sw_madd(turn, p->normal, -sw_dot(turn, p->normal))) <= NONE;
+}
+
+static int holds_turn_in(const look *l, const plane *p, size_t frame) {
+  const float *pose, *first;
+  int held, was;
+  for (size_t h = 0; (pose = sw_scene_frame_hold(l->scene, frame, h, &held)) != NULL; h++) {
+    first = sw_scene_frame_hold(l->scene, l->first, h, &was);
+    if (held && (!first || !was || !turns_in(p, pose, first))) return 0;
+  }
+  for (size_t k = 0; (pose = sw_scene_frame_tool(l->scene, frame, k)) != NULL; k++) {
+    first = sw_scene_frame_tool(l->scene, l->first, k);
+    if (!first || !turns_in(p, pose, first)) return 0;
+  }
+  return 1;
+}
+
+int sw_scene_frames_flat(const sw_scene *s, double start, size_t w) {
+  look l = {.scene = s, .w = w};
+  plane p;
+  while (l.first < sw_scene_frames(s) && sw_scene_frame_time(s, l.first) < start) l.first++;
+  if (l.first == sw_scene_frames(s) || !find_plane(&l, &p)) return 0;
+  for (size_t f = l.first; f < sw_scene_frames(s); f++)
+    if (!is_in(&l, &p, f) || !holds_turn_in(&l, &p, f)) return 0;
+  return 1;
+}
