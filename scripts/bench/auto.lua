@@ -167,7 +167,7 @@ local function one(kind, random, share)
   local build, moves, known = kind.of(random)
   local truth, why, took = { quantities = known }, nil, SLOW
   if not known then
-    truth, why, took = autotruth.values(build, moves, share / 8, kind.flat)
+    truth, why, took = autotruth.values(build, moves, share * (kind.truth or 1 / 8), kind.flat)
   end
   if not truth then return nil, why end
   for name, t in pairs(truth.quantities) do
