@@ -192,7 +192,7 @@ local function one(kind, random, share)
   end) or nil
   local twice = out.steady and out.steady.model or r.model -- the machine may be busy once
   out.probes, out.cost = math.min(out.probes, twice.cost), math.min(out.cost, twice.run_cost)
-  out.finest = autopressed.finest(build, moves)
+  out.finest = (kind.pressed or not known) and autopressed.finest(build, moves) or nil -- minutes on a peg
   for _, word in ipairs(kind.pressed and autopressed.fixed or {}) do
     local asked = word == out.rungs or cheaper(word, out.rungs) -- others are slow, and tell nothing of it
     if asked and word:sub(4) == "o" then out.enough[word], out.times[word] = false, 0 -- no line is squeezed
