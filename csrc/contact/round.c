@@ -97,12 +97,16 @@ static int passes_side(const sw_contact *c, const sw_system *s, const sw_candida
          sw_shape_middle(shape, sw_madd(x, e, -aside), &q, &e) > 0;
 }
 
+/* Edges looked at to each side: more than the radius has where a drum is told by fine edges; on
+ * what is all but flat the look would cost more than the step [-]. */
+enum { FARTHEST = 64 };
+
 /* Is a wire to be wound on something thick: does it begin to go round, or is it held there? As far
  * as the radius along it is looked at. Its chords meet it then, from the start: a curve that gives
  * way to chords lets the wire go, which strikes it again. */
 static int begins_round(const sw_system *s, const sw_body *b, double radius, size_t low,
                         size_t high) {
-  const size_t far = (size_t)(radius / b->plan->rest[low]);
+  const size_t far = (size_t)fmin(radius / b->plan->rest[low], FARTHEST);
   const size_t first = low > far ? low - far : 0, last = high + far;
   for (size_t i = first; i <= last + 1 && i < b->plan->nodes; i++)
     if (b->plan->held[i] != SW_FREE) return 1;
