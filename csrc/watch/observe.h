@@ -49,8 +49,8 @@ void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
 /* The obstacle that presses a wire hard, as the end of a sentence, or nothing. */
 void sw_scene_tell_pressed(const sw_scene *scene, char *out, size_t size);
 
-/* Tells of wires that are perfectly straight, and pushed beyond buckling. SW_ENOMEM, SW_ECALLBACK.
- */
+/* Tells of wires that are perfectly straight, or slow and in a plane, and pushed beyond buckling.
+ * SW_ENOMEM, SW_ECALLBACK. */
 sw_status sw_scene_look_for_buckling(sw_scene *scene, sw_error *err);
 
 /* Add a row of the accepted state. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that is perfectly straight stays so under any push along it: nothing bends it to a side,
- * not even rounding. Real ones buckle, and the run says so. */
+/* A wire that is perfectly straight stays so under any push along it, and one that lies in a plane
+ * stays in that: nothing bends it to a side, not even rounding. Real ones buckle, and the run says
+ * so. */
 #include <math.h>
 
 #include "body/join.h"
@@ -30,48 +31,114 @@ static double largest_push(const sw_system *system, const sw_body *b, size_t *ed
   return push;
 }
 
-static int is_straight(const sw_system *system, const sw_body *b) {
+/* Tangents of a wire in a plane are out of it by less than this; what rounding has bent of a turned
+ * scene has not fallen yet [-]. */
+static const double IN_PLANE = 1e-6;
+/* A wire in a plane is looked at where it is slow: faster, it may be elsewhere before it buckles.
+ * Speed, over sqrt(g L) [-]. */
+static const double SLOW = 0.01;
+/* A motion goes across the plane if it has this share of its shifts there: by symmetry all of it
+ * has, or nothing [-]. */
+static const double ACROSS = 0.5;
+
+static sw_vec tangent_at(const sw_system *system, const sw_body *b, size_t e) {
   const double *x = system->x + 3 * b->first_node;
-  sw_vec before = {0};
-  for (size_t e = 0; e < b->plan->edges; e++) {
-    const sw_vec t = sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
-    if (e > 0 && !(sw_dist(t, before) <= STRAIGHT)) return 0;
-    before = t;
-  }
+  return sw_unit_or(sw_sub(sw_vec_at(x, e + 1), sw_vec_at(x, e)), sw_v(1, 0, 0));
+}
+
+static int is_straight(const sw_system *system, const sw_body *b) {
+  for (size_t e = 1; e < b->plan->edges; e++)
+    if (!(sw_dist(tangent_at(system, b, e), tangent_at(system, b, e - 1)) <= STRAIGHT)) return 0;
   return 1;
 }
 
-static int cannot_be_said(sw_status status) {
-  return status == SW_EDIVERGED || status == SW_EINVAL;
+static double gravity_of(const sw_scene *s) { return fmax(sw_norm(sw_scene_gravity(s)), 1.0); }
+
+/* Is the wire bent in a plane, and slow? */
+static int lies_in_plane(const sw_scene *s, const sw_system *system, const sw_body *b,
+                         sw_vec *normal) {
+  const double most = SLOW * sqrt(gravity_of(s) * b->plan->length);
+  const sw_vec first = tangent_at(system, b, 0);
+  sw_vec n = {0};
+  for (size_t e = 1; e < b->plan->edges; e++) {
+    const sw_vec turn = sw_cross(first, tangent_at(system, b, e));
+    if (sw_norm2(turn) > sw_norm2(n)) n = turn;
+  }
+  *normal = n = sw_unit_or(n, sw_v(0, 0, 0));
+  if (!(sw_norm2(n) > 0)) return 0;
+  for (size_t e = 0; e < b->plan->edges; e++)
+    if (!(fabs(sw_dot(tangent_at(system, b, e), n)) <= IN_PLANE)) return 0;
+  for (size_t i = b->first_node; i < b->first_node + b->plan->nodes; i++)
+    if (!(sw_norm2(sw_vec_at(system->v, i)) <= most * most)) return 0;
+  return 1;
 }
 
-/* With the system linearised. */
-static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge) {
-  sw_system *system = sw_scene_system(s);
-  const sw_body *b = &system->bodies[w];
-  const double g = fmax(sw_norm(sw_scene_gravity(s)), 1.0),
-               rate = SLOWEST * sqrt(g / b->plan->length);
-  size_t count = 0;
-  const sw_status status = sw_modal_unstable(system, w, rate * rate, &count);
-  if (cannot_be_said(status)) return SW_OK;
-  if (status != SW_OK || count == 0) return status;
-  system->bodies[w].pushed = HUGE_VAL;
-  sw_scene_tell(s, "buckling", sw_scene_wire_in(s, w)->name, b->plan->s[edge] - b->plan->s[0], push,
-                "wire '%s' stays straight under a push of %.3g N, though it is unstable in %zu "
-                "directions: it would buckle, but nothing bends it to a side; draw it bent by a "
-                "thousandth of its length, or add a small force across",
-                sw_scene_wire_in(s, w)->name, push, count);
+/* How many of the unstable motions go across the plane? */
+static sw_status count_across(const sw_system *system, size_t w, double slow, sw_vec normal,
+                              size_t *count) {
+  const size_t nodes = system->bodies[w].plan->nodes;
+  sw_modes modes;
+  sw_error ignored;
+  *count = 0;
+  SW_TRY(sw_modal_solve(system, w, 0, slow, NULL, &modes, &ignored));
+  for (size_t k = 0; k < modes.unstable; k++) {
+    const double *shape = modes.shapes + k * modes.unknowns;
+    double across = 0, all = 0;
+    for (size_t i = 0; i < nodes; i++, shape += modes.unknowns / nodes) {
+      const double aside = sw_dot(sw_load(shape), normal);
+      across += aside * aside, all += sw_norm2(sw_load(shape));
+    }
+    *count += across > ACROSS * all;
+  }
+  sw_modes_free(&modes);
   return SW_OK;
 }
 
-/* Is the wire straight, and pushed by enough more than when it was looked at last? */
-static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge) {
+static int cannot_be_said(sw_status status) {
+  return status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
+}
+
+/* With the system linearised. normal: of the plane it lies in; zero, it is straight. */
+static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec normal) {
+  sw_system *system = sw_scene_system(s);
+  const sw_body *b = &system->bodies[w];
+  const double rate = SLOWEST * sqrt(gravity_of(s) / b->plan->length);
+  const int flat = sw_norm2(normal) > 0;
+  size_t count = 0;
+  sw_status status = sw_modal_unstable(system, w, rate * rate, &count);
+  if (status == SW_OK && flat && count > 0)
+    status = count_across(system, w, rate * rate, normal, &count);
+  if (cannot_be_said(status)) return SW_OK;
+  if (status != SW_OK || count == 0) return status;
+  system->bodies[w].pushed = HUGE_VAL;
+  const char *name = sw_scene_wire_in(s, w)->name;
+  const double at = b->plan->s[edge] - b->plan->s[0];
+  if (flat)
+    sw_scene_tell(
+        s, "buckling", name, at, push,
+        "wire '%s' stays in a plane under a push of %.3g N, though it is unstable across "
+        "it: it would fall to a side, but nothing bends it there; draw it bent out of the "
+        "plane by a thousandth of its length, or add a small force across",
+        name, push);
+  else
+    sw_scene_tell(s, "buckling", name, at, push,
+                  "wire '%s' stays straight under a push of %.3g N, though it is unstable in %zu "
+                  "directions: it would buckle, but nothing bends it to a side; draw it bent by a "
+                  "thousandth of its length, or add a small force across",
+                  name, push, count);
+  return SW_OK;
+}
+
+/* Is the wire straight or in a plane, and pushed by enough more than when it was looked at last? */
+static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, sw_vec *normal) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
   if (b->plan->web || sw_scene_joined(s, w)) return 0;
   *push = largest_push(system, b, edge);
   if (!(*push * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) return 0;
-  return *push > GROWN * b->pushed && is_straight(system, b);
+  *normal = sw_v(0, 0, 0);
+  return *push > GROWN * b->pushed &&
+         (is_straight(system, b) || lies_in_plane(s, system, b, normal));
 }
 
 /* The system is linearised once for all wires. */
@@ -81,13 +148,14 @@ static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
   for (size_t w = 0; w < system->body_count; w++) {
     size_t edge = 0;
     double push;
-    if (!is_new_push(s, w, &push, &edge)) continue;
+    sw_vec normal;
+    if (!is_new_push(s, w, &push, &edge, &normal)) continue;
     system->bodies[w].pushed = push;
     if (!*linear) made = sw_scene_linearise(s, NULL, 0, err);
     *linear = 1;
     if (cannot_be_said(made)) continue;
     SW_TRY(made);
-    SW_TRY(look_at(s, w, push, edge));
+    SW_TRY(look_at(s, w, push, edge, normal));
   }
   return SW_OK;
 }
