@@ -2,6 +2,7 @@
 /* A wire that is perfectly straight stays so under any push along it, and one that lies in a plane
  * stays in that: nothing bends it to a side, not even rounding. Real ones buckle, and the run says
  * so. */
+#include <float.h>
 #include <math.h>
 
 #include "body/join.h"
@@ -21,6 +22,19 @@ static const double LEAST_PUSH = 2.467;
 static const double SLOWEST = 1.0 / 30.0;
 /* A push is looked at again when it has grown by this factor [-]. */
 static const double GROWN = 1.2;
+
+/* Rounding of places pushes edges by this many units in the last place of their coordinates [-]. */
+static const double ROUNDED = 16.0;
+
+/* A push that rounding may have made, in a long wire more than what would buckle it [N]. */
+static double rounding_of(const sw_system *system, const sw_body *b) {
+  const double *x = system->x + 3 * b->first_node;
+  const sw_beam *beam = &b->plan->beam;
+  const size_t last = b->plan->nodes - 1;
+  const double far = fmax(sw_norm(sw_vec_at(x, 0)), sw_norm(sw_vec_at(x, last)));
+  const double edge = b->plan->length / (double)b->plan->edges;
+  return ROUNDED * DBL_EPSILON * (far + b->plan->length) / edge * beam->EA;
+}
 
 /* The largest push in an edge, and where; 0: none [N]. */
 static double largest_push(const sw_system *system, const sw_body *b, size_t *edge) {
@@ -136,6 +150,7 @@ static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, 
   if (b->plan->web || sw_scene_joined(s, w)) return 0;
   *push = largest_push(system, b, edge);
   if (!(*push * b->plan->length * b->plan->length > LEAST_PUSH * b->plan->beam.EI)) return 0;
+  if (!(*push > rounding_of(system, b))) return 0;
   *normal = sw_v(0, 0, 0);
   return *push > GROWN * b->pushed &&
          (is_straight(system, b) || lies_in_plane(s, system, b, normal));
