@@ -322,7 +322,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
   for (size_t first = c->parts.touch, end; first < c->touch_count; first = end) {
     sw_body *b = &s->bodies[c->touches[first].body];
     const double scale = sw_contact_scale(c, first, &end);
-    if (!sw_body_solves_again(b)) continue;
+    if (!sw_body_solves_again(s, b)) continue;
     const size_t n = 3 * b->plan->nodes;
     if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_CHANGED) * n, sizeof *c->room) !=
         SW_OK)

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solving an iterate's equations again with other forces. */
 #include "solve/band3.h"
+#include "system/bridge.h"
 #include "system/system.h"
 #include "system/twist.h"
 
-int sw_body_solves_again(const sw_body *b) {
-  return !b->bridged && !b->spin_block && !b->plan->web;
+int sw_body_solves_again(const sw_system *s, const sw_body *b) {
+  return !(b->bridged && sw_bridges_any(s)) && !b->spin_block && !b->plan->web;
 }
 
 void sw_body_solve_again(const sw_body *b, double *more) {

@@ -103,8 +103,6 @@ sw_status sw_body_plan_pairs(sw_body *body, const uint32_t *pairs, size_t count)
 
 /* --- while the coupling refines a solution ----------------------------------- */
 
-/* 1: the body's equations can be solved again by the factors that there are. */
-int sw_body_solves_again(const sw_body *body);
 /* Change of the solution by added forces, of the body's nodes (nodes x 3), zero where held; in
  * place. */
 void sw_body_solve_again(const sw_body *body, double *more);

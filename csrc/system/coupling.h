@@ -73,9 +73,10 @@ typedef struct sw_coupling {
 
 /* --- while the coupling refines a solution ----------------------------------- */
 
-/* As sw_body_solves_again (system/body.h), of all bodies that bridges tie together: 1, they can be
- * solved again; by how much forces (of the system's nodes x 3) change the solution, those of other
- * bodies to zero; the system's delta is the last one. */
+/* 1: the body's equations can be solved again by the factors that there are (system/body.h). */
+int sw_body_solves_again(const sw_system *system, const sw_body *body);
+/* The same of all bodies that bridges tie together; by how much forces (of the system's nodes x 3)
+ * change the solution, those of other bodies to zero; the system's delta is the last one. */
 int sw_bridges_solves_again(const sw_system *system);
 void sw_bridges_solve_again(sw_system *system, double *more);
 void sw_bridges_take_solution(sw_system *system);
