@@ -15,8 +15,8 @@ double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
 /* Does the tool run into obstacles? */
 sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
-/* 1: one slipped in the last step that ends a run with it. */
-int sw_tool_slipped(const sw_scene *scene);
+/* 1: one that ends a run with it slipped after this time, that of a step's start. */
+int sw_tool_slipped(const sw_scene *scene, double since);
 
 void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);
 void sw_tape_jaw(sw_tape *tape, sw_jaw *jaw);

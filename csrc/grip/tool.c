@@ -304,11 +304,11 @@ int sw_scene_tool_touch(const sw_scene *s, sw_handle tool, size_t number, sw_too
   return 0;
 }
 
-int sw_tool_slipped(const sw_scene *s) {
+int sw_tool_slipped(const sw_scene *s, double since) {
   SW_EACH(tool, t, s)
-    if (t->alive && ((t->stops && t->now.slip_time == sw_scene_time(s)) ||
-                     ((t->stops || t->frozen) && t->now.lost_time == sw_scene_time(s)) ||
-                     (t->crashing && t->crash.time == sw_scene_time(s))))
+    if (t->alive && ((t->stops && t->now.slip_time > since) ||
+                     ((t->stops || t->frozen) && t->now.lost_time > since) ||
+                     (t->crashing && t->crash.time > since)))
       return 1;
   return 0;
 }

@@ -50,15 +50,18 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
   if (span > 0 && span < SW_SHORTEST_STEP) sw_scene_set_time(s, until);
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
+  double began = t0; /* the last step [s] */
   for (size_t k = 1; sw_scene_time(s) < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
-    if (p->report->steps > first && (sw_tool_slipped(s) || sw_hold_crashed(s))) return SW_OK;
+    if (p->report->steps > first && (sw_tool_slipped(s, began) || sw_hold_crashed(s, began)))
+      return SW_OK;
     double t1 = (double)k >= count ? until : t0 + span * ((double)k / count);
     int cut = 0;
     if (p->args->quasistatic && sw_scene_wire_slots(s))
       SW_TRY(sw_scene_cut_pose(s, &t1, &cut, err));
     if (!cut) k++;
+    began = sw_scene_time(s);
     SW_TRY(one_step(p, t1, until, err));
     if (isfinite(p->args->frame) && sw_scene_time(s) >= sw_scene_frames_of(s)->next - slack)
       SW_TRY(sw_scene_store_frame(s, err));

@@ -128,9 +128,9 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   return SW_OK;
 }
 
-int sw_hold_crashed(const sw_scene *s) {
+int sw_hold_crashed(const sw_scene *s, double since) {
   SW_EACH(hold, h, s)
-    if (h->alive && h->watch.crashing && h->watch.crash.time == sw_scene_time(s)) return 1;
+    if (h->alive && h->watch.crashing && h->watch.crash.time > since) return 1;
   return 0;
 }
 

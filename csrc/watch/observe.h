@@ -40,8 +40,8 @@ void sw_scene_watch_ties(sw_scene *scene);
 
 /* Looks at a hold of the accepted state: is it driven into obstacles, does it push too hard? */
 sw_status sw_hold_look_out(sw_scene *scene, sw_hold *hold, sw_error *err);
-/* 1: one was driven into an obstacle in the last step. */
-int sw_hold_crashed(const sw_scene *scene);
+/* 1: one was driven into an obstacle after this time, that of a step's start. */
+int sw_hold_crashed(const sw_scene *scene, double since);
 
 /* Tells of a rod or string that two obstacles squeeze. */
 void sw_scene_watch_squeezed(sw_scene *scene, size_t wire);
