@@ -57,7 +57,8 @@ rules.ROOMS = {
 
 -- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
 -- state and solve have no single header: their parts have different users.
-rules.OPEN = { base = true, bind = true, contact = { "contact.h", "crowd.h", "mutual.h", "tally.h" },
+rules.OPEN = { base = true, bind = true,
+  contact = { "contact.h", "crowd.h", "jolt.h", "mutual.h", "tally.h" },
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
   read = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },

@@ -197,13 +197,6 @@ double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
 /* Axial stiffness of the edge that begins or ends at a node; 0: of a mesh, or a loose particle
  * [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
-/* The force above which a blow is followed in parts: of what is usual for the wire, and beside the
- * hardest before; followed: 1, it is, and goes on so [N]. */
-double sw_contact_least_blow(double usual, double hardest, int followed);
-/* The hardest new blow on an obstacle in a trial step: its mean over the step, over the striking
- * wire's weight or bending force. 0: none [-]. followed: 1, a blow that is followed in parts goes
- * on. */
-double sw_contact_jolt(sw_contact *contact, const sw_system *system, int followed);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 

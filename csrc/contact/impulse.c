@@ -4,6 +4,7 @@
  * the step's start add theirs. */
 #include <math.h>
 
+#include "contact/jolt.h"
 #include "contact/touch.h"
 
 static sw_contact_load sum(sw_contact_load a, double share, sw_contact_load b) {
@@ -118,9 +119,9 @@ double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
  * usual, is that of a shock [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;
 
-static int is_shock(const sw_system *s, const sw_plan *p, sw_vec end, sw_vec mean) {
+static int is_shock(double usual, sw_vec end, sw_vec mean) {
   const double off = sw_norm(sw_sub(end, mean)), most = fmax(sw_norm(end), sw_norm(mean));
-  return off > SHOCK * most && off > SHARP * sw_contact_usual_force(s, p);
+  return off > SHOCK * most && off > SHARP * usual;
 }
 
 /* Is a force off by off too much for one of the wires that touch obstacle o? */
@@ -159,11 +160,13 @@ double sw_contact_least_blow(double usual, double hardest, int followed) {
  * stiff wire that falls on a peg bounces as fast [s]. */
 static const double LONGEST_PART = 3e-4;
 
-/* Did what an obstacle gets come and go within the step? mean: over it, end: at its end [N]. */
-static int comes_and_goes(const sw_contact_loads *l, const sw_system *s, const sw_plan *p,
-                          sw_vec mean, sw_vec end) {
-  const sw_vec middle = sw_scale(sw_add(end, l->past.end.force), 0.5);
-  return is_shock(s, p, end, mean) || is_shock(s, p, middle, mean);
+int sw_contact_comes_and_goes(double usual, sw_vec start, sw_vec mean, sw_vec end) {
+  const sw_vec middle = sw_scale(sw_add(end, start), 0.5);
+  return is_shock(usual, end, mean) || is_shock(usual, middle, mean);
+}
+
+double sw_contact_jolt_of(double size, double usual, double h) {
+  return fmax(size / usual, sqrt(h / LONGEST_PART));
 }
 
 /* A gripper's pads close on a wire: they have ways of their own to do so slowly. */
@@ -183,9 +186,9 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
     if (size > p->beam.EA) continue;     /* driven into it by a hold: no blow of a wire has that */
     if (!followed && t->known) continue; /* what slips or sticks here strikes nothing */
-    if (!comes_and_goes(l, s, p, mean, l->trial.force)) continue;
+    if (!sw_contact_comes_and_goes(usual, l->past.end.force, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
-    hardest = fmax(hardest, fmax(size / usual, sqrt(c->h / LONGEST_PART)));
+    hardest = fmax(hardest, sw_contact_jolt_of(size, usual, c->h));
   }
   return hardest;
 }

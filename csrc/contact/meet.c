@@ -114,7 +114,7 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
                  sw_vec normal, const sw_met *met, const sw_meet *last) {
   sw_press *press = &t->press;
   const int pressed = met && met->kept.normal_force > 0;
-  t->stage = m->stage;
+  t->stage = m->stage, t->known = pressed;
   press->gap = gap, press->normal = normal;
   if (!(sw_norm2(t->square) > 0)) t->square = normal;
   press->k = t->stiffer = stiffness_of(m, t, met, last);

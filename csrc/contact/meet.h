@@ -36,6 +36,7 @@ typedef struct sw_meet {
   int far;         /* 1: too far from its last place for a known force */
   int barred;      /* kept on its side by a barrier */
   int emerges;     /* 1: placed in each other, and still coming out */
+  int known;       /* 1: it pressed at the step's start */
   double reach;    /* sum of the radii [m] */
   double usual;    /* stiffness of a new touch [N/m] */
   double stiffer;  /* its stiffness from the next iterate on [N/m] */

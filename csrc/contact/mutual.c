@@ -243,6 +243,20 @@ const void *sw_mutual_seen(const sw_mutual *m, size_t *bytes) {
   return m->touches;
 }
 
+int sw_mutual_crowded(const sw_mutual *m, size_t most) {
+  uint32_t seen[SW_NEAR_MOST];
+  size_t count = 0;
+  for (size_t i = 0; i < 2 * m->touch_count; i++) {
+    const uint32_t body = m->touches[i / 2].of.body[i % 2];
+    size_t k = 0;
+    while (k < count && seen[k] != body) k++;
+    if (k < count) continue;
+    if (count == most || count == SW_NEAR_MOST) return 1;
+    seen[count++] = body;
+  }
+  return 0;
+}
+
 static int is_of(const size_t *first, size_t bodies, uint32_t body, uint32_t node) {
   return body < bodies && node >= first[body] && node < first[body + 1];
 }

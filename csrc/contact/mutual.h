@@ -63,6 +63,10 @@ sw_status sw_mutual_set_memory(sw_mutual *mutual, const void *memory, size_t byt
 /* first (bodies + 1): node that each body begins with. */
 int sw_mutual_memory_fits(const void *memory, size_t bytes, const size_t *first, size_t bodies);
 int sw_mutual_memory_names(const void *memory, size_t bytes, size_t node);
+/* 1: more than so many bodies touch others or themselves, or nearly do; most: up to SW_NEAR_MOST.
+ */
+enum { SW_NEAR_MOST = 16 };
+int sw_mutual_crowded(const sw_mutual *mutual, size_t most);
 /* As sw_contact_seen. */
 const void *sw_mutual_seen(const sw_mutual *mutual, size_t *bytes);
 sw_status sw_mutual_set_seen(sw_mutual *mutual, const void *seen, size_t bytes,

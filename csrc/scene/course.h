@@ -23,6 +23,8 @@ typedef struct sw_course {
    * blow_part until blow_until [s] */
   double blow_part, blow_since, blow_until;
   double snap; /* hardest pull of ties that went taut and were followed so [N] */
+  double slap; /* the same of wires that struck each other [N] */
+  double part; /* that a step of fixed size begins with; 0: it is tried whole [s] */
   double next_dt; /* of an adaptive run; 0 = not known [s] */
   size_t parts;   /* of steps of the run, since it was last asked whether they have collapsed [-] */
   double covered; /* steps that these make together [-] */

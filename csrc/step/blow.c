@@ -4,10 +4,11 @@
 
 #include <math.h>
 
-#include "contact/contact.h"
+#include "contact/jolt.h"
 #include "link/hold.h"
 #include "scene/course.h"
 #include "scene/parts.h"
+#include "step/coarse.h"
 #include "watch/observe.h"
 
 /* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
@@ -25,8 +26,9 @@ double sw_blow_part(const sw_scene *s, double h) {
 }
 
 /* Every part that is refused, or makes energy, takes this share off the time that a blow is
- * followed for: a wire that is driven into something makes energy in parts of any size [-]. */
-static const double REFUSED = 1.0 / 16;
+ * followed for: a wire that is driven into something makes energy in parts of any size. Twice the
+ * share where wires touch each other, which rattle [-]. */
+static const double REFUSED = 1.0 / 16, RATTLES = 2.0;
 
 /* Parts refused down to this share of those that follow it: it is not followed any more, for
  * contact takes depth as it comes only in far smaller ones yet [-]. */
@@ -36,7 +38,7 @@ void sw_blow_refused(sw_scene *s, double part) {
   sw_course *course = sw_scene_course(s);
   if (!(sw_scene_time(s) < course->blow_until)) return;
   if (part < SMALLEST_FOLLOWED * course->blow_part) course->blow_until = sw_scene_time(s);
-  course->blow_since -= REFUSED * LONGEST_BLOW;
+  course->blow_since -= (sw_scene_pairs(s) ? RATTLES : 1.0) * REFUSED * LONGEST_BLOW;
   course->blow_until = fmin(course->blow_until, course->blow_since + LONGEST_BLOW);
 }
 
@@ -72,15 +74,22 @@ static double jolt_of_ties(sw_scene *s, int followed) {
 }
 
 static double jolt_of(sw_scene *s, int followed) {
+  sw_course *course = sw_scene_course(s);
+  const sw_system *system = sw_scene_system(s);
   sw_contact *contact = sw_scene_contact(s);
-  const double ties = jolt_of_ties(s, followed);
-  return contact ? fmax(ties, sw_contact_jolt(contact, sw_scene_system(s), followed)) : ties;
+  const sw_mutual *pairs = sw_scene_pairs(s);
+  double jolt = jolt_of_ties(s, followed);
+  if (contact) jolt = fmax(jolt, sw_contact_jolt(contact, system, followed));
+  if (pairs)
+    jolt =
+        fmax(jolt, sw_pairs_jolt(pairs, system, course->stepper.plastic, followed, &course->slap));
+  return jolt;
 }
 
 int sw_blow_begins(sw_scene *s, double h) {
   sw_course *course = sw_scene_course(s);
   const int followed = sw_scene_time(s) < course->blow_until;
-  if (sw_scene_wire_slots(s) > MOST_WIRES || sw_scene_pairs(s) || sw_scene_grains(s) ||
+  if (sw_scene_wire_slots(s) > MOST_WIRES || sw_coarse_is_bundle(s) || sw_scene_grains(s) ||
       (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
     return 0;
   const double jolt = jolt_of(s, followed);

@@ -5,6 +5,7 @@
 
 #include "contact/mutual.h"
 #include "scene/course.h"
+#include "scene/events.h"
 #include "scene/gripper.h"
 #include "scene/parts.h"
 #include "system/system.h"
@@ -36,13 +37,13 @@ int sw_coarse_applies(const sw_scene *s) {
   return sw_scene_wire_slots(s) <= MOST_WIRES;
 }
 
-/* Wires that touch each other, or nearly do, converge worse in shorter parts, and cost more than
- * all else. */
-static int touch_each_other(const sw_scene *s) {
+/* So many wires that touch each other, or nearly do, are judged. Bundles of more take their steps
+ * whole and say so: ten wires that fall would take three times as long, 20 too [-]. */
+enum { MOST_NEAR = 6 };
+
+int sw_coarse_is_bundle(const sw_scene *s) {
   const sw_mutual *pairs = sw_scene_pairs(s);
-  size_t near = 0;
-  if (pairs) sw_mutual_seen(pairs, &near);
-  return near > 0;
+  return pairs && sw_mutual_crowded(pairs, MOST_NEAR);
 }
 
 /* Sections of meshes swing far faster than any step, which is to damp that: their axis counts. */
@@ -81,11 +82,10 @@ static double allowed_of(const sw_body *b, const double *x) {
   return fmin(share * p->length, OF_RADIUS * p->beam.radius);
 }
 
-double sw_coarse_of(const sw_scene *s, double tolerance) {
+static double over_of(const sw_scene *s, double tolerance) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
   double over = 0;
-  if (touch_each_other(s)) return 0;
   SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
     const double allowed = fmin(tolerance, allowed_of(b, stepper->trial_x));
     over = fmax(over, error_of(stepper, system, b) / allowed);
@@ -93,9 +93,27 @@ double sw_coarse_of(const sw_scene *s, double tolerance) {
   return over;
 }
 
+double sw_coarse_of(const sw_scene *s, double tolerance) {
+  return sw_coarse_is_bundle(s) ? 0.0 : over_of(s, tolerance);
+}
+
 /* The estimate goes with this power of the step [-]. */
 static double power_of(const sw_scene *s) {
   return 1.0 + sw_stepper_order(&sw_scene_course(s)->stepper);
+}
+
+/* A bundle says so from this error on: half the step would have an eighth of it [-]. */
+static const double TOLD = 8.0;
+
+void sw_coarse_tell(sw_scene *s, double h) {
+  if (!sw_coarse_is_bundle(s)) return;
+  const double over = over_of(s, HUGE_VAL);
+  if (!(over > TOLD)) return;
+  sw_scene_tell(
+      s, "coarse", "", NAN, over,
+      "a step of %.3g ms is too long for %d wires and more that touch each other: peaks may "
+      "be wrong; compare them with those of dt = %.2g s",
+      1e3 * h, MOST_NEAR + 1, h * exp2(-ceil(log2(over) / power_of(s))));
 }
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }

@@ -8,9 +8,13 @@
 
 /* Are steps of the scene judged, as it is now? */
 int sw_coarse_applies(const sw_scene *scene);
+/* Do so many wires touch each other that their steps are taken whole? */
+int sw_coarse_is_bundle(const sw_scene *scene);
 /* Error of the last trial, by the method's estimate, as a share of what a wire is allowed: up to 1
  * is fine; 0: the method has no estimate. No more than the tolerance is allowed [-], [m]. */
 double sw_coarse_of(const sw_scene *scene, double tolerance);
+/* A trial of size h is taken. If it is coarse, of a bundle, the run says so. */
+void sw_coarse_tell(sw_scene *scene, double h);
 /* The part that is to be taken instead of one of size h with such an error, in a run of steps
  * dt [s]. */
 double sw_coarse_part(const sw_scene *scene, double h, double dt, double over);

@@ -8,6 +8,7 @@
 
 #include "base/status.h"
 #include "base/vec.h"
+#include "system/body.h"
 
 typedef struct sw_system sw_system;
 

@@ -112,7 +112,7 @@ describe("wire:frequencies of an unstable rest", function()
   end)
 end)
 
--- An arch between two clamps that point upwards, in a plane turned by `turn` [rad]: half a circle on two legs.
+-- An arch between two clamps that point upwards, in a plane turned by `turn` [rad]: half a circle on legs.
 local function arch(cable, length, apart, o)
   local c, d = math.cos(o.turn), math.sin(o.turn)
   local scene = sw.scene{ gravity = { -9.81 * o.tilt * d, 9.81 * o.tilt * c, -9.81 } }
@@ -138,10 +138,11 @@ describe("an arch in a plane", function()
   for _, case in ipairs{ { "GXL 1.5", 1.0, 0.3, falls = true }, { "H07V-K 10", 1.6, 0.5, falls = true },
     { "GXL 1.5", 0.6, 0.2 }, { "H07V-K 10", 0.6, 0.2 } } do
     local cable, length, apart = table.unpack(case)
-    it(("of %s, %g m, is told of if it only stands because nothing tilts it"):format(cable, length), function()
+    it(("of %s, %g m, is told of if it stands only for nothing tilts it"):format(cable, length), function()
       local real, silent = arch(cable, length, apart, { tilt = 0.01, turn = 0 })
       assert.equal(0, #silent)
-      for _, o in ipairs{ { turn = 0 }, { turn = 0.7 }, { turn = 0, segments = 47 }, { turn = 0, dt = 0.004 } } do
+      local others = { { turn = 0 }, { turn = 0.7 }, { turn = 0, segments = 47 }, { turn = 0, dt = 0.004 } }
+      for _, o in ipairs(others) do
         o.tilt = 0
         local top, told = arch(cable, length, apart, o)
         assert.equal(case.falls or false, real < 0.5 * top)

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Blows of wires on each other, to be followed in parts of a step. */
+#include <math.h>
+
+#include "contact/jolt.h"
+#include "contact/meet.h"
+
+/* What two bodies push each other with: at the step's start, and in the trial [N]. */
+typedef struct push {
+  sw_vec start, end;
+  int fresh; /* 1: by touches too that did not press before */
+} push;
+
+static int are_bodies(const sw_ends *e, const uint32_t body[2]) {
+  return e->body[0] == body[0] && e->body[1] == body[1];
+}
+
+static push push_of(const sw_mutual *m, const uint32_t body[2]) {
+  push p = {.fresh = 0};
+  for (size_t i = 0; i < m->memory_count; i++)
+    if (are_bodies(&m->memory[i].of, body))
+      p.start = sw_madd(p.start, m->memory[i].normal, m->memory[i].kept.normal_force);
+  for (size_t i = 0; i < m->touch_count; i++) {
+    const sw_meet *t = &m->touches[i];
+    if (!are_bodies(&t->of, body) || !(t->press.normal_force > 0)) continue;
+    p.end = sw_madd(p.end, t->press.normal, t->press.normal_force);
+    p.fresh |= !t->known;
+  }
+  return p;
+}
+
+static int is_first(const sw_mutual *m, size_t touch) {
+  for (size_t i = 0; i < touch; i++)
+    if (are_bodies(&m->touches[i].of, m->touches[touch].of.body)) return 0;
+  return 1;
+}
+
+/* A force that stretches a wire by so much is no blow of it: holds drive it into the other one, and
+ * parts of any size would be as rough [-]. */
+static const double DRIVEN = 0.1;
+
+/* The jolt of two bodies, harder than `hardest`, or 0 [-]; its force [N]. */
+static double jolt_of(const sw_mutual *m, const sw_system *s, const uint32_t body[2], int dull,
+                      int followed, double hardest, double *size) {
+  const sw_plan *one = s->bodies[body[0]].plan, *two = s->bodies[body[1]].plan;
+  const double usual = fmin(sw_contact_usual_force(s, one), sw_contact_usual_force(s, two));
+  const push p = push_of(m, body);
+  const sw_vec mean = dull ? p.end : sw_scale(sw_add(p.start, p.end), 0.5);
+  *size = sw_norm(mean);
+  if (!(*size > sw_contact_least_blow(usual, hardest, followed))) return 0;
+  if (*size > DRIVEN * fmin(one->beam.EA, two->beam.EA) || (!followed && !p.fresh)) return 0;
+  if (!sw_contact_comes_and_goes(usual, p.start, mean, p.end)) return 0;
+  return sw_contact_jolt_of(*size, usual, m->h);
+}
+
+double sw_pairs_jolt(const sw_mutual *m, const sw_system *s, int dull, int followed,
+                     double *hardest) {
+  double most = 0, force = *hardest;
+  if (m->regime != SW_CONTACT_IMPLICIT || !(m->h > 0) || (!followed && !m->struck)) return 0;
+  for (size_t i = 0; i < m->touch_count; i++) {
+    double size = 0;
+    if (!is_first(m, i)) continue;
+    const double jolt = jolt_of(m, s, m->touches[i].of.body, dull, followed, *hardest, &size);
+    if (jolt > 0) force = fmax(force, size);
+    most = fmax(most, jolt);
+  }
+  if (!followed) *hardest = force;
+  return most;
+}
