@@ -33,6 +33,7 @@ typedef struct parts {
   double doubted;    /* a part that is coarse, while a shorter one is tried instead; 0: none [s] */
   double struck;     /* a part that has a blow in it, while none of those that follow it went
                         well; 0: none [s] */
+  int unfollowed;    /* 1: that part is tried again, to be taken */
   double over;       /* by so much the last part that was tried is [-] */
   int worse;         /* shorter parts on end that were as coarse */
   int rough;         /* 1: coarse ones are taken in this step, for shorter ones do not help */
@@ -84,7 +85,7 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
 /* The trial converged, but it contains a blow, went past a force, or is coarse. may_grow: 1, one of
  * twice the size would not be. */
 static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
-  if (sw_blow_begins(p->s, k->part)) {
+  if (!k->unfollowed && sw_blow_begins(p->s, k->part)) {
     k->struck = k->part;
     return 1;
   }
@@ -113,7 +114,7 @@ static double first_part(const sw_scene *s, double h) {
 
 static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->done += k->part;
-  k->struck = 0;
+  k->struck = 0, k->unfollowed = 0;
   k->longest = fmax(k->longest, k->part);
   if (!k->rough) sw_coarse_tell(p->s, k->part);
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
@@ -145,7 +146,7 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   sw_restart_refused(p, k->cut);
   const double went = part_that_went(p, k);
   if (went > 0) {
-    k->rough = 1;
+    k->rough = 1, k->unfollowed = 1;
     k->part = went, k->doubted = k->struck = 0;
     return SW_OK;
   }
