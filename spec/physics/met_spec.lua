@@ -68,7 +68,8 @@ local PAIRS = { { "GXL 1.5", "H07V-K 10" }, { "GXL 0.5", "GXL 1.5" }, { "FLRY-B 
 -- Of the fine value [-]. Cables that fall roll off each other, and even the finest steps differ by 10 % in
 -- tension; so does what the first one, which lies below, bends to. What the others bend to does not.
 local BOTH = { tension1 = 0.1, tension2 = 0.1, bend1 = 0.1, bend2 = 0.1 }
-local cases = { { "one is swept by the other", swept, BOTH }, { "one is lifted from under the other", lifted, BOTH },
+local cases = { { "one is swept by the other", swept, BOTH },
+  { "one is lifted from under the other", lifted, BOTH },
   { "they fall across each other", dropped, { bend2 = 0.1, bend3 = 0.1 } } }
 
 describe("two cables:", function()
