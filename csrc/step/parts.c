@@ -4,7 +4,6 @@
 #include "scene/parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "body/guide.h"
 #include "scene/course.h"
@@ -107,9 +106,7 @@ static const double REMEMBERED = 1.0 / 33;
 
 static double first_part(const sw_scene *s, double h) {
   const double part = sw_scene_course(s)->part;
-  return part > REMEMBERED * h && part < (getenv("UP") ? atof(getenv("UP")) : 1) * h
-             ? h * exp2(-ceil(log2(h / part) - ROUNDING))
-             : h;
+  return part > REMEMBERED * h && part < h ? h * exp2(-ceil(log2(h / part) - ROUNDING)) : h;
 }
 
 static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
