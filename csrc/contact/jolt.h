@@ -10,8 +10,8 @@
 /* The force above which a blow is followed in parts: of what is usual for the wire, and beside the
  * hardest before; followed: 1, it is, and goes on so [N]. */
 double sw_contact_least_blow(double usual, double hardest, int followed);
-/* Did a force come and go within a step of size h? At its start, its mean, at its end [N]. And the
- * jolt that one of this size is [-]. */
+/* Did a force come and go within a step? At its start, its mean, at its end [N]. And the jolt that
+ * one of this size is, in a step of size h [-]. */
 int sw_contact_comes_and_goes(double usual, sw_vec start, sw_vec mean, sw_vec end);
 double sw_contact_jolt_of(double size, double usual, double h);
 /* The hardest new blow on an obstacle in a trial step: its mean over the step, over the striking
