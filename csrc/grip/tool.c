@@ -207,27 +207,41 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
 }
 
 /* What pads would have to bear in place of the grip that stands for them. */
-static void hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec moment) {
+static double hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec moment) {
   sw_tool_state *now = &t->now;
   now->margin =
       sw_frozen_margin(t->frozen, sw_unrotate(now->q, force), sw_unrotate(now->q, moment));
   if (isnan(now->lost_time) && now->margin > t->limit) now->lost_time = sw_scene_time(s);
+  return now->margin;
 }
 
-static void hold_now(const sw_scene *s, sw_tool *t) {
+/* Fingers that press, a bit for each; what they press with in all. */
+static unsigned fingers_that_press(const sw_scene *s, const sw_tool *t, sw_contact_grip *sum) {
   sw_contact *contact = sw_scene_contact(s);
+  unsigned press = 0;
+  for (size_t k = 0; contact && k < t->pads; k++) {
+    const double before = sum->normal;
+    if (t->pad[k].finger < 0) continue;
+    sw_contact_add_grip(contact, sw_scene_system(s), (int)t->pad[k].obstacle, sum);
+    if (sum->normal > before) press |= 1u << t->pad[k].finger;
+  }
+  return press;
+}
+
+/* Returns the margin, or NAN: there is none of a wire that only leans on a finger, nor while jaws
+ * close on it or let it go, when friction is always used up, of next to no force. */
+static double hold_now(const sw_scene *s, sw_tool *t) {
   sw_contact_grip sum = {0};
   sw_tool_state *now = &t->now;
   const int held = now->normal > 0;
-  for (size_t k = 0; contact && k < t->pads; k++)
-    if (t->pad[k].finger >= 0)
-      sw_contact_add_grip(contact, sw_scene_system(s), (int)t->pad[k].obstacle, &sum);
+  const unsigned press = fingers_that_press(s, t, &sum);
+  const int between = (press & (press - 1)) != 0 || (press && t->fingers == 1);
   now->opening = t->jaw.opening, now->status = t->jaw.status, now->squeeze = t->jaw.now;
   now->normal = sum.normal, now->most = sum.most;
   now->margin = sum.most > 0 ? sw_norm(sum.tangent) / sum.most : 0;
   now->sliding = sum.normal > 0 ? sum.sliding / sum.normal : 0;
   if (held && !(sum.normal > 0)) now->lost_time = sw_scene_time(s);
-  if (!(sum.normal > 0)) return;
+  if (!(sum.normal > 0)) return NAN;
   now->lost_time = NAN;
   now->place = sum.place / sum.normal;
   const sw_vec way = sw_unrotate(now->q, sw_scale(sum.slip, 1.0 / sum.normal));
@@ -235,6 +249,7 @@ static void hold_now(const sw_scene *s, sw_tool *t) {
   now->slip = sw_norm(now->slipped);
   if (isnan(now->slip_time) && now->slip > t->tolerance)
     now->slip_time = sw_scene_time(s), now->slip_place = now->place;
+  return between && now->status != SW_JAW_MOVES ? now->margin : (double)NAN;
 }
 
 static int holds_any(const sw_scene *s, size_t slot) {
@@ -256,17 +271,14 @@ sw_status sw_tool_observe(sw_scene *s, sw_error *err) {
     pads_mean(s, t, at.pose.p, &force, &moment);
     int mean = 0;
     SW_TRY(holds_force(s, k, at.pose.p, &force, &moment, &mean, err));
-    if (t->frozen)
-      hold_frozen(s, t, force, moment);
-    else
-      hold_now(s, t);
+    const double margin = t->frozen ? hold_frozen(s, t, force, moment) : hold_now(s, t);
     SW_TRY(sw_tool_look_out(s, k, err));
     row[SW_LOG_TIME] = sw_scene_time(s);
     sw_store(row + SW_LOG_FORCE, force);
     sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, at.pose.p);
     row[SW_LOG_OPENING] = t->now.opening, row[SW_LOG_SQUEEZE] = t->now.squeeze;
-    row[SW_LOG_MARGIN] = t->now.margin, row[SW_LOG_SLIP] = t->now.slip;
+    row[SW_LOG_MARGIN] = margin, row[SW_LOG_SLIP] = t->now.slip;
     row[SW_LOG_SPAN] = holds_any(s, k) ? sw_hold_span(s, mean) : sw_scene_course(s)->span;
     if (sw_log_add(&t->log, row, SW_LOG_TOOL_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", t->name);

@@ -13,11 +13,12 @@
 #include "scene/wire.h"
 #include "step/obey.h"
 
-static const double PRECISION = 1e-3;    /* of the force wanted [-] */
-static const double ROUGHLY = 0.015;     /* likewise, when it is reached first [-] */
-static const double REACHED = 0.02;      /* so far below it the force counts as reached [-] */
-enum { MOST_TRIALS = 10 };               /* the last one is then taken as it is [-] */
-enum { MOST_RESTS = 12 };                /* the same of equilibria [-] */
+static const double PRECISION = 1e-3; /* of the force wanted [-] */
+static const double ROUGHLY = 0.015;  /* likewise, when it is reached first [-] */
+static const double REACHED = 0.02;   /* so far below it the force counts as reached [-] */
+enum { MOST_TRIALS = 10 };            /* the last one is then taken as it is [-] */
+enum { MOST_FIRST = 20 };             /* likewise, until there is a force for the first time [-] */
+enum { MOST_RESTS = 12 };             /* the same of equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS =
     1e-7;                  /* forces at openings nearer to each other tell no stiffness [m] */
@@ -158,13 +159,19 @@ static int give_up(sw_jaw *j, double off, int rests) {
   return 0;
 }
 
+/* Openings without a touch do not tell how far it is to one: to find the force takes longer. */
+static int most_trials(const sw_jaw *j, int rests) {
+  if (rests) return MOST_RESTS;
+  return j->status == SW_JAW_HOLDS ? MOST_TRIALS : MOST_FIRST;
+}
+
 /* 1: the trial's force is as wanted, or nothing can be done about it in this step. */
 static int correct(sw_scene *s, sw_tool *t, int rests) {
   sw_jaw *j = &t->jaw;
   const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
   const double allowed = rests || j->status == SW_JAW_HOLDS ? PRECISION : ROUGHLY;
   if (fabs(off) <= allowed * j->force) return 1;
-  if (++j->trials >= (rests ? MOST_RESTS : MOST_TRIALS)) return give_up(j, off, rests);
+  if (++j->trials >= most_trials(j, rests)) return give_up(j, off, rests);
   const int approaches = j->status != SW_JAW_HOLDS && j->trials == 1;
   if (off < 0 && (approaches || j->speed <= speed_to(j, 0))) return 1;
   if (off > 0 && j->speed >= j->most) return 1;

@@ -197,7 +197,7 @@ end
 -- over a window of time, and beside them raw_peak_force, raw_peak_moment of single steps; see help
 -- "peaks". Moments are about the tool centre. options: { window = [s], at = point [m] that moments are
 -- about }, or that point.
--- Of pads also peak_squeeze [N], peak_margin, slip [m].
+-- Of pads also peak_squeeze [N], peak_margin (while they hold, not while they close or let go), slip [m].
 function Measures:over(t1, t2, options)
   t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options)
   for name, time in pairs{ t1 = t1, t2 = t2 } do
@@ -217,7 +217,8 @@ function Measures:over(t1, t2, options)
       last = r.t
       if r.squeeze then
         m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
-        m.peak_margin, m.slip = math.max(m.peak_margin or 0, r.margin), r.slip
+        if r.margin == r.margin then m.peak_margin = math.max(m.peak_margin or 0, r.margin) end
+        m.slip = r.slip
       end
     end
   end
@@ -227,7 +228,8 @@ function Measures:over(t1, t2, options)
   return m
 end
 
---- Series: { t =, force = {{x, y, z}, ...}, moment = } and, of pads, opening, squeeze, margin, slip.
+--- Series: { t =, force = {{x, y, z}, ...}, moment = } and, of pads, opening, squeeze, margin (NaN while
+-- they hold nothing, close on it or let it go), slip.
 function Measures:series()
   local s = { t = {}, force = {}, moment = {} }
   for i, r in ipairs(records(self)) do
