@@ -4,6 +4,7 @@
  * A rod and a mesh do not lie quite alike under the same forces. So the wire that takes over is
  * shifted, by micrometres, to where it is in balance with the inertia of the other one. Else it
  * would begin to swing, and the gripper would feel that. */
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -11,7 +12,9 @@
 #include "remodel/remodel.h"
 #include "save/life.h"
 #include "scene/course.h"
+#include "scene/events.h"
 #include "scene/parts.h"
+#include "scene/wire.h"
 
 enum { MOST_POSES = 200 }; /* iterations; without a result the wire stays as it lies [-] */
 static const double BALANCED = 1e-8; /* of the shifts that end them, of the wire's length [-] */
@@ -59,6 +62,11 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
   system->dead = NULL;
   memcpy(system->v, v, n * sizeof *v);
   memcpy(system->a, a, n * sizeof *a);
+  if (status == SW_ENOCONV)
+    sw_scene_tell(s, "unbalanced", sw_scene_wire_in(s, wire)->name, NAN, NAN,
+                  "the change between pads and a rigid grip leaves wire '%s' out of balance: forces "
+                  "just after it may be too large",
+                  sw_scene_wire_in(s, wire)->name);
   return status == SW_ENOMEM || status == SW_ECALLBACK || status == SW_EINTR ? status : SW_OK;
 }
 

@@ -42,39 +42,139 @@ static sw_vec turned(const double *from, const double *to, sw_vec a) {
   return sw_madd(sw_madd(sw_scale(t2, sw_dot(a, t)), u2, sw_dot(a, u)), w2, sw_dot(a, w));
 }
 
-/* Particles that pads press on stay where they were between them. The middle goes with the rod
- * that stands for it, and the particles between both shear. */
-static void place_pressed(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
-                          size_t r, const sw_web *web, double *x) {
-  const sw_vec middle = sw_pose_local(f->pose, sw_vec_at(f->rod, r));
-  const sw_vec off = sw_sub(sw_vec_at(l->x, r), sw_pose_point(tool->pose, middle));
-  double widest = 0;
-  for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
-    const sw_vec at = sw_pose_local(f->pose, sw_vec_at(x, p));
-    widest = fmax(widest, fabs(sw_dot(sw_sub(at, middle), f->across)));
+/* From the pads' face on the wire goes over from where it was between the pads to where the rod is,
+ * within so many radii: the rod is held further inside, and lies there as no mesh would [-]. */
+static const double SPREAD = 12.0;
+
+/* One end of the pressed rings: how the line beside it, which goes on to where the rod is, differs
+ * from the rod. Edges turn and keep their lengths: a cable would pull with newtons for each micron
+ * that they miss. */
+typedef struct face {
+  size_t ring;
+  int step;     /* to the next ring outside, as an index */
+  double reach; /* of the difference, along the wire [m] */
+  sw_vec way;   /* from the rod to where the wire was at the face [m] */
+  sw_vec turn;  /* likewise [rad] */
+  sw_vec back;  /* more of it further out, that brings the line back to the rod [rad] */
+} face;
+
+/* The turn from a frame to another one, which has been moved. */
+static sw_quat between(const double *from, sw_quat moved, const double *to) {
+  const sw_vec t = sw_rotate(moved, sw_load(to)), across = sw_rotate(moved, sw_load(to + 3));
+  const sw_quat bend = sw_quat_between(sw_load(from), t);
+  const sw_vec u = sw_rotate(bend, sw_load(from + 3));
+  const double twist = atan2(sw_dot(sw_cross(u, across), t), sw_dot(u, across));
+  return sw_quat_mul(sw_quat_exp(sw_scale(t, twist)), bend);
+}
+
+/* Share of the reach at an arc length, 1 beyond it [-]. */
+static double share_at(const face *e, const sw_line *l, double at) {
+  return e->reach > 0 ? fmin(1.0, fabs(at - l->s[e->ring]) / e->reach) : 1.0;
+}
+
+/* How the line is turned there [rad]. */
+static sw_vec turn_at(const face *e, const sw_line *l, double at) {
+  const double u = share_at(e, l, at), left = (1.0 - u) * (1.0 - u);
+  return sw_madd(sw_scale(e->turn, left * (1.0 + 2.0 * u)), e->back, left * u);
+}
+
+/* The next ring outside of ring r; the arc length between them [-], [m]. */
+static size_t next_to(const face *e, size_t r) { return (size_t)((long)r + e->step); }
+static double middle_of(const face *e, const sw_line *l, size_t r) {
+  return 0.5 * (l->s[r] + l->s[next_to(e, r)]);
+}
+
+/* From ring r of the rod to the next one outside; how far it comes by the turn of that edge. */
+static sw_vec edge_of(const face *e, const sw_line *l, size_t r, sw_vec *gain) {
+  const sw_vec edge = sw_sub(sw_vec_at(l->x, next_to(e, r)), sw_vec_at(l->x, r));
+  const sw_quat turn = sw_quat_exp(turn_at(e, l, middle_of(e, l, r)));
+  *gain = sw_sub(sw_rotate(turn, edge), edge);
+  return edge;
+}
+
+static int goes_on(const face *e, const sw_line *l, size_t r) {
+  return e->step > 0 ? r + 1 < l->n : r > 0;
+}
+
+/* The turn that brings the line back: it is off by d, and shifts by back x the sum of all edges,
+ * each by its share. */
+static sw_vec back_of(const face *e, const sw_line *l) {
+  sw_vec off = e->way, sum = sw_v(0, 0, 0), gain;
+  for (size_t r = e->ring; goes_on(e, l, r); r = next_to(e, r)) {
+    const sw_vec edge = edge_of(e, l, r, &gain);
+    const double u = share_at(e, l, middle_of(e, l, r));
+    off = sw_add(off, gain);
+    sum = sw_madd(sum, edge, u * (1.0 - u) * (1.0 - u));
   }
-  for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
-    const sw_vec at = sw_pose_local(f->pose, sw_vec_at(x, p));
-    const double far = fabs(sw_dot(sw_sub(at, middle), f->across));
-    const double share = widest > 0 ? 1.0 - far / widest : 0.0;
-    sw_store(x + 3 * p, sw_madd(sw_pose_point(tool->pose, at), off, share));
+  return sw_scale(sw_cross(off, sum), 1.0 / fmax(sw_norm2(sum), 1e-300));
+}
+
+static face face_of(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l, int after,
+                    double radius) {
+  face out = {.ring = after ? f->last : f->first, .step = after ? 1 : -1};
+  const double end = l->s[after ? l->n - 1 : 0];
+  const sw_quat moved = sw_quat_mul(tool->pose.q, sw_quat_conj(f->pose.q));
+  const sw_vec was = sw_pose_local(f->pose, sw_vec_at(f->rod, out.ring));
+  out.reach = fmin(SPREAD * radius, fabs(end - l->s[out.ring]));
+  out.way = sw_sub(sw_pose_point(tool->pose, was), sw_vec_at(l->x, out.ring));
+  out.turn = sw_quat_log(between(l->frame + 6 * out.ring, moved, f->frame + 6 * out.ring));
+  if (out.reach > 0) out.back = back_of(&out, l);
+  return out;
+}
+
+/* The line beyond a face. */
+static void lead_out(const face *e, sw_line *l) {
+  sw_vec off = e->way, gain;
+  for (size_t r = e->ring; goes_on(e, l, r); r = next_to(e, r)) {
+    const size_t next = next_to(e, r);
+    (void)edge_of(e, l, r, &gain); /* ring r is where the rod has it yet */
+    if (r != e->ring) sw_store(l->x + 3 * r, sw_add(sw_vec_at(l->x, r), off));
+    off = sw_add(off, gain);
+    const sw_quat turn = sw_quat_exp(turn_at(e, l, l->s[next]));
+    for (size_t k = 6 * next; k < 6 * next + 6; k += 3)
+      sw_store(l->frame + k, sw_rotate(turn, sw_load(l->frame + k)));
+    if (!goes_on(e, l, next)) sw_store(l->x + 3 * next, sw_add(sw_vec_at(l->x, next), off));
   }
 }
 
-/* Move the particles of the strand from their places at the freeze to their present places. */
+/* Lead the line through the pads as the wire was there. */
+static void lead(const sw_frozen *f, const sw_motion_state *tool, sw_line *l, double radius) {
+  for (int after = 0; after < 2; after++) {
+    const face e = face_of(f, tool, l, after, radius);
+    lead_out(&e, l);
+  }
+  for (size_t r = f->first; r <= f->last; r++)
+    sw_store(l->x + 3 * r, sw_pose_point(tool->pose, sw_pose_local(f->pose, sw_vec_at(f->rod, r))));
+}
+
+/* A ring's frame on a line at x: it faces along the edges beside it; where the wire goes on as a
+ * line, along that edge alone, for they are tied to each other. */
+static void frame_at(const sw_web *web, const double *x, const double *frame, size_t r,
+                     double out[6]) {
+  const sw_vec t = sw_load(frame + 6 * r), across = sw_load(frame + 6 * r + 3);
+  const int ties = r + 1 < web->rings && !sw_web_is_ring(web, r + 1);
+  const int tied = r > 0 && !sw_web_is_ring(web, r - 1);
+  const size_t a = r > 0 && !ties ? r - 1 : r, b = r + 1 < web->rings && !tied ? r + 1 : r;
+  const sw_vec facing = sw_unit_or(sw_sub(sw_vec_at(x, b), sw_vec_at(x, a)), t);
+  sw_store(out, facing);
+  sw_store(out + 3, sw_carry_unit(across, t, facing));
+}
+
+/* Move the particles of the strand from their places at the freeze to their present places: between
+ * the pads as they were, beside them with the line. */
 static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                   sw_strand *strand) {
   const sw_web *web = strand->web;
   double *x = strand->x, *v = strand->v;
   for (size_t r = 0; r < web->rings; r++) {
-    if (r >= f->first && r <= f->last) {
-      place_pressed(f, tool, l, r, web, x);
-      continue;
-    }
+    const int pressed = r >= f->first && r <= f->last;
+    double then[6], now[6];
+    frame_at(web, f->rod, f->frame, r, then);
+    frame_at(web, l->x, l->frame, r, now);
     for (size_t p = web->first[r]; p < web->first[r + 1]; p++) {
-      const sw_vec off = sw_sub(sw_vec_at(x, p), sw_vec_at(f->rod, r));
-      sw_store(x + 3 * p,
-               sw_add(sw_vec_at(l->x, r), turned(f->frame + 6 * r, l->frame + 6 * r, off)));
+      const sw_vec at = sw_vec_at(x, p), off = sw_sub(at, sw_vec_at(f->rod, r));
+      sw_store(x + 3 * p, pressed ? sw_pose_point(tool->pose, sw_pose_local(f->pose, at))
+                                  : sw_add(sw_vec_at(l->x, r), turned(then, now, off)));
     }
   }
   sw_line_spin(l, web, x, v);
@@ -124,6 +224,7 @@ static sw_status change_to_mesh(sw_scene *s, const sw_exchange *x, const double 
   sw_momentum_of(s, f->wire.slot, &about, out->before);
   out->energy_before = sw_scene_total_energy(s, err);
   SW_TRY(sw_scene_release_hold(s, f->hold, err));
+  lead(f, &now, line, sw_scene_wire_in(s, f->wire.slot)->beam.radius);
   SW_TRY(become_mesh(s, f, &now, line, err));
   SW_TRY(sw_scene_tool_pads_on(s, x->tool, 1, err));
   SW_TRY(sw_scene_build(s, err));

@@ -65,7 +65,7 @@ static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
 }
 
 /* Of each hinge so much is left at least: one that hardly turns would be very stiff [-]. */
-static const double LEAST_HINGE = 1.0 / 3.0;
+static const double LEAST_HINGE = 1.0 / 30.0;
 
 /* The bending wire begins further out than the clamp: hinges from there on are shorter. */
 static void shorten(sw_plan *p, sw_clamp_hinge *c, double by) {

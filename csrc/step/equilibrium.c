@@ -233,19 +233,20 @@ static void hurry(sw_statics *p, drift *d) {
   go_on(p, fmin(left, d->most / fmax(p->report->residual, 1e-300)));
 }
 
+static const sw_newton CONTINUE = {
+    .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
+
 static sw_status transient(sw_statics *p, sw_error *err) {
   sw_scene *s = p->s;
   drift d = {0};
   const double first = first_step(s);
-  const sw_newton newton = {
-      .max_iterations = 30, .accept_rotation = 0.01, .limit_rotation = 0.3, .statics = 0};
   /* what is dragged along must not be kept from it by inertia */
   double tau = is_dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
   p->report->transient = 1;
   while (p->report->iterations < (size_t)p->args->max_iterations) {
     if (p->interrupted && p->interrupted()) return SW_EINTR;
     const size_t before = p->report->iterations;
-    const sw_status status = sw_rest_solve(p, tau, &newton, err);
+    const sw_status status = sw_rest_solve(p, tau, &CONTINUE, err);
     if (sw_rest_stops(status)) return status;
     if (status != SW_OK) {
       tau *= 0.25;
@@ -268,6 +269,23 @@ static sw_status transient(sw_statics *p, sw_error *err) {
       err, SW_ENOCONV,
       "not at rest after %zu iterations: the last iteration still moved the wires by %.3g m",
       p->report->iterations, p->report->residual);
+}
+
+/* Steps of continuation of its first size or less: what is stiff comes to rest in them, what swings
+ * slowly hardly moves. So many that fail end it; so many go well at that size [-]. */
+enum { RELAXING = 4, MOST_FAILED = 6 };
+
+sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
+  const double first = first_step(p->s);
+  double tau = first;
+  for (int done = 0, failed = 0; done < RELAXING;) {
+    const sw_status status = sw_rest_solve(p, tau, &CONTINUE, err);
+    if (status != SW_OK && (sw_rest_stops(status) || ++failed > MOST_FAILED)) return status;
+    if (status == SW_OK) take(p, 0), done += tau == first;
+    tau = status == SW_OK ? fmin(4.0 * tau, first) : 0.25 * tau;
+  }
+  p->report->relaxed = 1;
+  return SW_OK;
 }
 
 /* Newton's iteration from where continuation came to rest, which stays when that fails: the

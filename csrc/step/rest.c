@@ -190,6 +190,7 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
   find_from_poses(&p);
   sw_rest_put_aside(s, p.begun);
   system->still = 1;
+  if (args->relaxes && sw_rest_relax(&p, why) == SW_OK) sw_rest_put_aside(s, p.begun);
   const sw_status status = follow_holds(&p, why);
   system->still = 0;
   if (status == SW_OK) {
@@ -207,7 +208,10 @@ sw_status sw_scene_rest(sw_scene *s, double since, int *too_far, const sw_settle
 }
 
 sw_status sw_scene_balance(sw_scene *s, double tolerance, long most, sw_error *err) {
-  const sw_settle_args args = {.tolerance = tolerance, .max_iterations = most};
+  const sw_settle_args args = {
+      .tolerance = tolerance, .max_iterations = most, .stays = 1, .relaxes = 1};
   sw_settle_report report = {0};
-  return sw_scene_rest(s, sw_scene_time(s), NULL, &args, NULL, &report, err);
+  int too_far = 0;
+  const sw_status status = sw_scene_rest(s, sw_scene_time(s), &too_far, &args, NULL, &report, err);
+  return status == SW_ENOCONV && report.relaxed ? SW_OK : status;
 }

@@ -48,6 +48,8 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err);
 sw_status sw_rest_find(sw_statics *p, sw_error *err);
 /* The same by continuation, which goes where the wires would. */
 sw_status sw_rest_continue(sw_statics *p, sw_error *err);
+/* A few short steps towards it: all that is stiff is at rest then. */
+sw_status sw_rest_relax(sw_statics *p, sw_error *err);
 /* Wires that do not rest where a pose begins come to rest before obstacles move on: then *fell
  * is 1. */
 sw_status sw_rest_before(sw_statics *p, int *fell, sw_error *err);

@@ -65,7 +65,8 @@ sw_status sw_scene_advance(sw_scene *scene, const sw_run_args *args, double unti
 typedef struct sw_settle_args {
   double tolerance;    /* largest node shift of the last iteration [m] */
   long max_iterations; /* [-] */
-  int stays; /* 1: wires that find no rest near by go nowhere, for a shorter way may have one */
+  int stays;   /* 1: wires that find no rest near by go nowhere, for a shorter way may have one */
+  int relaxes; /* 1: what is stiff comes to rest first, and stays so if nothing else does */
 } sw_settle_args;
 extern const sw_params sw_settle_params;
 
@@ -74,6 +75,7 @@ typedef struct sw_settle_report {
   size_t iterations; /* matrix solves [-] */
   size_t negative;   /* unstable directions of the equilibrium found [-] */
   int transient;     /* 1: pseudo-transient continuation was needed */
+  int relaxed;       /* 1: what is stiff is at rest, if nothing else */
   double residual;   /* largest node shift of the last iteration [m] */
   int jumped;        /* 1: the wires moved much further than what drives them */
   sw_error reason;
