@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Slip margin of pads: friction over what the normal forces allow, the largest of all steps; 1: it slips.
+--- Slip margin of pads: friction over what the normal forces allow while they hold, as a mean over the
+-- window of peaks; 1: it slips.
 -- @module softworld.check.slip
 local SLIPS = 1 - 1e-9 -- a wire that slides has 1 but for rounding [-]
 
@@ -7,7 +8,9 @@ return { name = "peak_margin", unit = "-", side = "max", on = "gripper",
   label = "friction used, of what the pads allow", missing = "allowed share of the friction",
   value = function(entry, context)
     local m = entry.object:over(context.run.start, context.run.time)
-    return m.peak_margin and { value = m.peak_margin, note = ("slid by %.3g m"):format(m.slip) } or nil
+    if not m.peak_margin then return nil end
+    local note = ("slid by %.3g m; raw %.3g"):format(m.slip, m.raw_peak_margin)
+    return { value = m.peak_margin, time = m.peak_margin_time, note = note }
   end,
   limit = function() return { value = SLIPS, from = "definition", source = "at 1 the wire slips" } end,
   reference = function() return 1 end }

@@ -149,7 +149,7 @@ local over = rows.call("gripper:over", "t1, t2, {...}",
   "its loads between two times [s], which may be left out", {
   gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
     .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; of pads peak_squeeze [N], "
-    .. "peak_margin, slip [m]",
+    .. "peak_margin, slip [m]; raw_peak_margin of a single step",
   { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
   { "at", "vector", "m", "point that moments are about", usual = "the tool's centre" },
 })
@@ -197,7 +197,8 @@ end
 -- over a window of time, and beside them raw_peak_force, raw_peak_moment of single steps; see help
 -- "peaks". Moments are about the tool centre. options: { window = [s], at = point [m] that moments are
 -- about }, or that point.
--- Of pads also peak_squeeze [N], peak_margin (while they hold, not while they close or let go), slip [m].
+-- Of pads also peak_squeeze [N] of single steps, peak_margin, raw_peak_margin (while they hold, not while
+-- they close or let go), slip [m].
 function Measures:over(t1, t2, options)
   t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options)
   for name, time in pairs{ t1 = t1, t2 = t2 } do
@@ -207,7 +208,7 @@ function Measures:over(t1, t2, options)
   end
   local width = window.of(self.scene, options.window, "gripper:over", 3)
   local m = { impulse = { 0, 0, 0 }, duration = 0, window = width }
-  local list, forces, moments, last = records(self), {}, {}, -math.huge
+  local list, forces, moments, margins, last = records(self), {}, {}, {}, -math.huge
   for _, r in ipairs(list) do
     r.moment = moment_about(r, options.at)
     if r.t >= t1 and r.t <= t2 then
@@ -217,13 +218,18 @@ function Measures:over(t1, t2, options)
       last = r.t
       if r.squeeze then
         m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
-        if r.margin == r.margin then m.peak_margin = math.max(m.peak_margin or 0, r.margin) end
-        m.slip = r.slip
+        local held = r.margin == r.margin
+        margins[#margins + 1] = { t0 = t0, t1 = r.t, held and r.margin or 0, 0, 0 }
+        margins.held, m.slip = margins.held or held, r.slip
       end
     end
   end
   window.fill(m, "peak_force", window.peak(forces, width), "N")
   window.fill(m, "peak_moment", window.peak(moments, width), "N m")
+  if margins.held then
+    local p = window.largest(margins, width)
+    m.peak_margin, m.peak_margin_time, m.raw_peak_margin = p.value, p.time, p.raw
+  end
   add_up(self, m, list, t1, t2)
   return m
 end
