@@ -326,7 +326,8 @@ local function is_overdrawn(context)
   local here = probe.of(context, decide.rungs(context), 1)
   for _, q in ipairs(here.ok and context.job.quantities or {}) do
     local left = left_by_others(context, q.name)
-    if left > MODEL * quantity.asked(q, here.values[q.name] or NONE) then return true end
+    local value = change.known(context, q.name, 1, here.values[q.name] or NONE)
+    if left > MODEL * quantity.asked(q, value) then return true end
   end
   return false
 end
