@@ -104,19 +104,21 @@ local function guarded(context, steps)
   end
 end
 
--- The finest run of the rungs chosen.
-local function refined(context)
-  local job, steps, kept = context.job, nil, nil
-  for _, q in ipairs(job.quantities) do
-    local left = decide.left_out(context, q.name)
-    function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
-  end
+-- Begin the levels of the run with those that choosing had already: nothing is computed twice. Gives what is
+-- kept of the last of them where it suffices.
+local function take_known(context)
+  local job, kept = context.job, nil
   job.levels, job.contact, job.finest, job.begun = {}, nil, nil, 0
   for name in pairs(job.values) do job.values[name] = {} end
-  for k = 1, decide.levels do -- what was computed on the way is not computed again
+  local astray = 0 -- levels that tell nothing of finer ones
+  for k = 1, decide.levels do
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
-    for name, values in pairs(job.values) do values[k] = known.values[name] or NONE end
+    astray = known.astray and k or astray
+    for name, values in pairs(job.values) do
+      values[k - astray] = known.values[name] or NONE -- of an astray one, 0: that is none
+      if known.astray then job.values[name] = {} end
+    end
     job.moves = known.moves
     if suffices(job, k, known) then -- the scene is to end there
       kept = probe.as_it_ended(context, decide.rungs(context), k)
@@ -125,8 +127,19 @@ local function refined(context)
     job.levels[k], job.begun = known.level, k
   end
   for _, values in pairs(job.values) do
-    for k = job.begun + 1, #values do values[k] = nil end
+    for k = job.begun - astray + 1, #values do values[k] = nil end
   end
+  return kept
+end
+
+-- The finest run of the rungs chosen.
+local function refined(context)
+  local job, steps = context.job, nil
+  for _, q in ipairs(job.quantities) do
+    local left = decide.left_out(context, q.name)
+    function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
+  end
+  local kept = take_known(context)
   affordable(context)
   if context.guard then context.guard:close() end
   context.guard = nil

@@ -17,6 +17,7 @@ local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
+local FEIGNED = 16 -- the same that coarse edges do only where poses jump to another place [-]
 local HIDDEN = 4   -- of a change that coarse edges and steps blur: they may hide so many times as much [-]
 local SEEN = 0.1   -- of a swing: what steps must show for that [-]
 local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
@@ -104,18 +105,34 @@ local function saves_nothing(context, above, before, k)
   return true
 end
 
+-- Did poses jump? On coarse edges chance tells to where, and any change may come of that.
+local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
+
 -- Does the level tell too little of the next rung to stay, or to go? Or the change, with what may be hidden,
 -- if it is still small then.
 local function is_blurred(context, state, now, c)
   local choice = state.choice
   if now.k > 1 then return false end
   if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
-  if c.worst > 1 then return c.worst <= FAR end
+  if c.worst > 1 then return c.worst <= FAR or jumps(now.here) or jumps(now.above) end
   local above, share = now.above.facts[choice.name], decide.tightest(context, now.above.values)
   if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
   local all = change.hidden(c, HIDDEN)
   if all.worst < 1 / DOUBT and choice.shows and choice.shows(above) > SEEN then return false, all end
   return true
+end
+
+-- Poses that jumped on the level before to where they do not go on this one: what they tell there is no level
+-- of what they come to be. last: by how much the rungs differed there. By half of that at least one of them
+-- has moved since.
+local function mark_astray(now, last)
+  local q, before = last.quantity, now.before
+  local function value(result) return result.values[q.name] or NONE end
+  local apart = quantity.distance(value(before.here), value(before.above))
+  for _, rung in ipairs { "here", "above" } do
+    local moved = quantity.distance(value(before[rung]), value(now[rung]))
+    if jumps(before[rung]) and moved >= apart / 2 then before[rung].astray = true end
+  end
 end
 
 -- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
@@ -132,6 +149,7 @@ local function compare(context, state, rungs, above)
     local last = c
     c, before = change.between(context, state, now, left_by_others), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
+    if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)
     if clear and not blurred then return all or c end
     local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
