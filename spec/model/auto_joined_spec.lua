@@ -140,7 +140,7 @@ local function drawn(parts, share)
   return run, seen
 end
 
-describe("model = 'auto', where poses jump on the coarsest edges to another place than on finer ones,", function()
+describe("model = 'auto', where poses on coarse edges jump to another place than on finer ones,", function()
   it("stays with poses that suffice there, and leaves the first level out of the bar", function()
     local run = drawn(function(moves, _, level) return level == 1 and not moves and 50 or 1 end, 0.1)
     assert.equal("poses", run.model.motion, tostring(run:why()))

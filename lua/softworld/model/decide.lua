@@ -126,11 +126,14 @@ end
 -- of what they come to be. last: by how much the rungs differed there. By half of that at least one of them
 -- has moved since.
 local function mark_astray(now, last)
-  local q, before = last.quantity, now.before
-  local function value(result) return result.values[q.name] or NONE end
-  local apart = quantity.distance(value(before.here), value(before.above))
+  local name, before = last.quantity.name, now.before
+  local function distance(one, other)
+    local a, b = one.values[name] or NONE, other.values[name] or NONE
+    return quantity.alike(a, b) and quantity.distance(a, b) or NONE
+  end
+  local apart = distance(before.here, before.above)
   for _, rung in ipairs { "here", "above" } do
-    local moved = quantity.distance(value(before[rung]), value(now[rung]))
+    local moved = distance(before[rung], now[rung])
     if jumps(before[rung]) and moved >= apart / 2 then before[rung].astray = true end
   end
 end
