@@ -11,14 +11,14 @@ local estimate = require "softworld.run.estimate"
 local decide = {}
 
 local MODEL = change.MODEL
--- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
-local DOUBT = 2
+local DOUBT = 2 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
 local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local FEIGNED = 16 -- the same that coarse edges do only where poses jump to another place [-]
 local HIDDEN = 4   -- of a change that coarse edges and steps blur: they may hide so many times as much [-]
+local HIDES = 2 / 3 -- of what is allowed: what that may come to; more leaves edges and steps too little [-]
 local SEEN = 0.1   -- of a swing: what steps must show for that [-]
 local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
@@ -118,7 +118,7 @@ local function is_blurred(context, state, now, c)
   local above, share = now.above.facts[choice.name], decide.tightest(context, now.above.values)
   if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
   local all = change.hidden(c, HIDDEN)
-  if all.worst < 1 / DOUBT and choice.shows and choice.shows(above) > SEEN then return false, all end
+  if all.worst < HIDES and choice.shows and choice.shows(above) > SEEN then return false, all end
   return true
 end
 
