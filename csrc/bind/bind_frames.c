@@ -267,15 +267,19 @@ static int mod_frames_sweep(lua_State *L) {
   return 4;
 }
 
-/* core.frames_apart(scene, w, v, start [s], enough [m]) -> least distance of their axes [m] */
+/* core.frames_apart(scene, w, v, start [s], enough [m], most [m] or nil) -> least distance of their
+ * axes [m] */
 static int mod_frames_apart(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene), v = wire_index(L, 3, scene);
   const double start = lsw_number(L, 4, "frames_apart: start", "s");
-  const double enough = lsw_number(L, 5, "frames_apart: enough", "m");
+  const int bound = !lua_isnoneornil(L, 6);
+  const sw_apart_request request = {
+      .enough = lsw_number(L, 5, "frames_apart: enough", "m"),
+      .most = bound ? lsw_number(L, 6, "frames_apart: most", "m") : HUGE_VAL};
   double apart = 0;
   sw_error err = {""};
-  lsw_must(L, sw_scene_frames_apart(scene, start, w, v, enough, &apart, &err), &err);
+  lsw_must(L, sw_scene_frames_apart(scene, start, w, v, &request, &apart, &err), &err);
   lua_pushnumber(L, apart);
   return 1;
 }

@@ -52,9 +52,6 @@ double sw_pair_radii(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
 }
 
-/* So near a join wires do not touch each other; of the radii's sum along both [-]. */
-static const double AT_A_JOIN = 4.0;
-
 /* More pairs than this: segments are much shorter than the wire is thick [-]. */
 static const size_t MOST_NEAR = 30000000;
 
@@ -77,7 +74,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   n.bulge = sw_pair_bulge(p, s, &n);
   n.known = n.distance -= n.bulge;
   if (!(n.distance - sw_pair_radii(s, n.body) < p->listed_reach)) return SW_OK;
-  if (sw_joins_near(s, n.one, n.two, AT_A_JOIN * sw_pair_radii(s, n.body))) return SW_OK;
+  if (sw_joins_near(s, n.one, n.two)) return SW_OK;
   if (p->near_count == MOST_NEAR) return SW_ELIMIT;
   SW_TRY(sw_grow((void **)&p->near, &p->near_capacity, p->near_count + 1, sizeof *p->near));
   p->near[p->near_count++] = n;

@@ -3,6 +3,8 @@
 #include "base/alloc.h"
 #include "base/segments.h"
 #include "read/frames.h"
+#include "scene/parts.h"
+#include "system/join.h"
 
 static const double HALF_TURN = 3.14159265358979323846; /* [rad] */
 
@@ -45,7 +47,8 @@ static void sweep(const line *l, sw_swept *out) {
   for (size_t i = 0; i < l->count; i++) {
     for (size_t k = 0; k < 3; k++) {
       const double x = (double)l->x[3 * i + k];
-      out->low[k] = fmin(out->low[k], x), out->high[k] = fmax(out->high[k], x);
+      if (x < out->low[k]) out->low[k] = x;
+      if (x > out->high[k]) out->high[k] = x;
     }
     out->step = fmax(out->step, moved(l, i));
     if (i > 0 && i + 1 < l->count) turn += angle_at(l, i);
@@ -84,13 +87,36 @@ double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w, s
 
 /* --- how near lines come ----------------------------------------------------------------- */
 
-/* An edge of a line: its first node, the way to the second, half of its length, and by how much
- * what is there may be off it: moved since the frame before, or bowed; the angle by which the line
- * turns before it. */
+/* An edge of a line: its first node, the way to the second, half of its length, how far both have
+ * moved since the frame before, and by how much what is there may be off: what they moved by, and
+ * how far it bows; the angle by which the line turns before it. */
 typedef struct edge {
-  sw_vec from, way;
-  double half, off, turn; /* [m], [m], [rad] */
+  sw_vec from, way, moved[2];   /* [m] */
+  double half, off, bows, turn; /* [m], [m], [m], [rad] */
 } edge;
+
+/* Some edges in a row, and a ball that holds them with all they may be off [m]. */
+enum { ROW = 8 };
+typedef struct row {
+  size_t first, end;
+  sw_vec middle;
+  double radius;
+} row;
+
+/* A line's edges in rows. */
+typedef struct rows {
+  edge *edges;
+  row *rows;
+  size_t edge_count, count;
+} rows;
+
+/* Two lines of a frame: the system that holds them, their bodies, and whether the places at which
+ * they are joined are together in that frame. */
+typedef struct duo {
+  const sw_system *system;
+  uint32_t body[2];
+  int joined;
+} duo;
 
 /* The edges of a line, one less than its nodes; returns how many. */
 static size_t edges_of(const line *l, edge *edges) {
@@ -101,19 +127,31 @@ static size_t edges_of(const line *l, edge *edges) {
     const double next = i + 1 < count ? angle_at(l, i + 1) : 0;
     e.way = sw_sub(node(l->x, i + 1), e.from);
     e.half = sw_norm(e.way) / 2;
-    e.off = fmax(moved(l, i), moved(l, i + 1)) + e.half * fmax(angle, next) / 4; /* of an arc */
+    for (size_t k = 0; k < 2 && l->before; k++)
+      e.moved[k] = sw_sub(node(l->x, i + k), node(l->before, i + k));
+    e.bows = e.half * fmax(angle, next) / 4; /* of an arc */
+    e.off = fmax(moved(l, i), moved(l, i + 1)) + e.bows;
     edges[i] = e, angle = next;
   }
   return count;
 }
 
+/* How far a place on one edge moves against one on the other at most: both move evenly from node
+ * to node, so that it is a mean of what nodes do. */
+static double moved_apart(const edge *a, const edge *b) {
+  double most = 0;
+  for (size_t i = 0; i < 4; i++) most = fmax(most, sw_dist(a->moved[i / 2], b->moved[i % 2]));
+  return most;
+}
+
 static double gap_of(const edge *a, const edge *b, double enough) {
   double s, t;
   const sw_vec middle = sw_sub(sw_madd(a->from, a->way, 0.5), sw_madd(b->from, b->way, 0.5));
-  const double off = a->off + b->off, least = sw_norm(middle) - a->half - b->half - off;
+  const double least = sw_norm(middle) - a->half - b->half - a->off - b->off;
   if (least >= enough) return least;
   sw_pair_segments(a->from, a->way, b->from, b->way, &s, &t);
-  return sw_dist(sw_madd(a->from, a->way, s), sw_madd(b->from, b->way, t)) - off;
+  return sw_dist(sw_madd(a->from, a->way, s), sw_madd(b->from, b->way, t)) - a->bows - b->bows -
+         moved_apart(a, b);
 }
 
 /* Of a line with itself, places between which it turns by less than half a turn cannot meet: a
@@ -125,12 +163,75 @@ static double near_itself(const edge *e, size_t count, double best, double enoug
   return best;
 }
 
-static double near_other(const edge *e, size_t count, const edge *f, size_t other, double best,
-                         double enough) {
-  for (size_t i = 0; i < count; i++)
-    for (size_t j = 0; j < other && best > enough; j++)
-      best = fmin(best, gap_of(&e[i], &f[j], best));
+static int at_join(const duo *d, size_t i, size_t j) {
+  const sw_body *b = d->system->bodies;
+  return d->joined && sw_joins_near(d->system, (uint32_t)(b[d->body[0]].first_node + i),
+                                    (uint32_t)(b[d->body[1]].first_node + j));
+}
+
+static void make_rows(rows *r) {
+  r->count = (r->edge_count + ROW - 1) / ROW;
+  for (size_t k = 0; k < r->count; k++) {
+    row *b = &r->rows[k];
+    *b = (row){.first = k * ROW, .end = k * ROW + ROW};
+    if (b->end > r->edge_count) b->end = r->edge_count;
+    const edge *last = &r->edges[b->end - 1];
+    b->middle = sw_scale(sw_add(r->edges[b->first].from, sw_add(last->from, last->way)), 0.5);
+    for (size_t i = b->first; i < b->end; i++) {
+      const edge *e = &r->edges[i];
+      const double far = sw_dist(sw_madd(e->from, e->way, 0.5), b->middle) + e->half + e->off;
+      b->radius = fmax(b->radius, far);
+    }
+  }
+}
+
+/* Near a join wires do not touch each other. */
+static double near_rows(const duo *d, const rows *a, const row *b, const rows *c, const row *other,
+                        double best) {
+  for (size_t i = b->first; i < b->end; i++)
+    for (size_t j = other->first; j < other->end; j++) {
+      const double gap = gap_of(&a->edges[i], &c->edges[j], best);
+      if (gap < best && !at_join(d, i, j)) best = gap;
+    }
   return best;
+}
+
+static double near_other(const duo *d, const rows *a, const rows *b, double best, double enough) {
+  for (size_t i = 0; i < a->count; i++)
+    for (size_t j = 0; j < b->count && best > enough; j++) {
+      const row *one = &a->rows[i], *two = &b->rows[j];
+      if (sw_dist(one->middle, two->middle) - one->radius - two->radius < best)
+        best = near_rows(d, a, one, b, two, best);
+    }
+  return best;
+}
+
+/* The node of line l, which is body b, that has a number in the system; NULL: it is on another. */
+static const float *node_of(const line *l, const sw_body *b, uint32_t number) {
+  const size_t at = number - b->first_node;
+  return number >= b->first_node && at < b->plan->nodes ? l->x + 3 * at : NULL;
+}
+
+/* Are the places together at which two lines are joined, in this frame? Joins may be made later. */
+static int is_joined(const duo *d, const line *l, const line *m) {
+  const sw_system *s = d->system;
+  const struct sw_joins *all = s->joins;
+  if (!s->joins || d->body[0] >= s->body_count || d->body[1] >= s->body_count) return 0;
+  const sw_body *b = &s->bodies[d->body[0]], *c = &s->bodies[d->body[1]];
+  int found = 0;
+  if (l->count != b->plan->nodes || m->count != c->plan->nodes) return 0; /* another mesh */
+  for (size_t k = 0; k < all->spring_count; k++) {
+    const sw_join_spring *p = &all->springs[k];
+    const int turned = !node_of(l, b, p->i);
+    const float *x = node_of(l, b, turned ? p->j : p->i);
+    const float *y = node_of(m, c, turned ? p->i : p->j);
+    if (p->tie || !x || !y) continue;
+    if (sw_dist(sw_vec_of(x), sw_vec_of(y)) >
+        sw_norm(p->offset) + b->plan->beam.radius + c->plan->beam.radius)
+      return 0;
+    found = 1;
+  }
+  return found;
 }
 
 /* The largest number of nodes of wire w in a frame. */
@@ -141,21 +242,46 @@ static size_t most_nodes(const sw_scene *s, size_t w) {
   return most;
 }
 
-sw_status sw_scene_frames_apart(const sw_scene *s, double start, size_t w, size_t v, double enough,
-                                double *out, sw_error *err) {
-  double best = INFINITY;
-  edge *e SW_LOCAL = sw_alloc(most_nodes(s, w) + 1, sizeof *e);
-  edge *g SW_LOCAL = sw_alloc(most_nodes(s, v) + 1, sizeof *g);
-  if (!e || !g) return sw_fail(err, SW_ENOMEM, "out of memory for how near lines come");
+/* Room for a line's edges. */
+static sw_status new_rows(const sw_scene *s, size_t w, rows *r) {
+  const size_t most = most_nodes(s, w);
+  *r = (rows){.edges = sw_alloc(most + 1, sizeof *r->edges),
+              .rows = sw_alloc(most / ROW + 1, sizeof *r->rows)};
+  return r->edges && r->rows ? SW_OK : SW_ENOMEM;
+}
+
+static void rows_of(const line *l, rows *r) {
+  r->edge_count = edges_of(l, r->edges);
+  make_rows(r);
+}
+
+static double look_at_frames(const sw_scene *s, double start, duo *d, rows *a, rows *b,
+                             const sw_apart_request *request) {
+  const size_t w = d->body[0], v = d->body[1];
+  const double enough = request->enough;
+  double best = request->most;
   for (size_t f = 0; f < sw_scene_frames(s) && best > enough; f++) {
     if (sw_scene_frame_time(s, f) < start) continue;
     const line l = line_of(s, f, w, start), m = line_of(s, f, v, start);
-    const size_t n = edges_of(&l, e);
-    if (w == v)
-      best = near_itself(e, n, best, enough);
-    else
-      best = near_other(e, n, g, edges_of(&m, g), best, enough);
+    rows_of(&l, a);
+    if (w == v) {
+      best = near_itself(a->edges, a->edge_count, best, enough);
+      continue;
+    }
+    rows_of(&m, b);
+    d->joined = is_joined(d, &l, &m);
+    best = near_other(d, a, b, best, enough);
   }
-  *out = best;
-  return SW_OK;
+  return best;
+}
+
+sw_status sw_scene_frames_apart(const sw_scene *s, double start, size_t w, size_t v,
+                                const sw_apart_request *request, double *out, sw_error *err) {
+  duo d = {.system = sw_scene_system(s), .body = {(uint32_t)w, (uint32_t)v}};
+  rows a = {0}, b = {0};
+  sw_status status = new_rows(s, w, &a);
+  if (status == SW_OK) status = new_rows(s, v, &b);
+  if (status == SW_OK) *out = look_at_frames(s, start, &d, &a, &b, request);
+  SW_FREE_ALL(a.edges, a.rows, b.edges, b.rows);
+  return status == SW_OK ? status : sw_fail(err, status, "out of memory for how near lines come");
 }

@@ -71,11 +71,15 @@ void sw_scene_frames_sweep(const sw_scene *scene, double start, size_t w, sw_swe
  * are not as many. The frame at the start is left out: of poses it is not yet at rest on its mesh.
  */
 double sw_scene_frames_acceleration(const sw_scene *scene, double start, size_t w, size_t stride);
+/* What is no more than enough is not searched for better, nor what is more than most [m]. */
+typedef struct sw_apart_request {
+  double enough, most;
+} sw_apart_request;
 /* How near the axes of wires w and v come at least, or one to itself where it turns by more than
- * half a turn between two places: less what moves between frames, and what bows beside the edges
- * [m]. What is no more than enough is not searched for better; infinite: they cannot meet. */
+ * half a turn between two places: less what one moves against the other between frames, and what
+ * bows beside the edges; not where they are joined [m]. Most: they come no nearer. */
 sw_status sw_scene_frames_apart(const sw_scene *scene, double start, size_t w, size_t v,
-                                double enough, double *out, sw_error *err);
+                                const sw_apart_request *request, double *out, sw_error *err);
 /* 1: wire w stays in one plane, all forces on it are in that, it has no twist, and no hold or tool
  * turns but about the plane's normal: friction does not twist it. */
 int sw_scene_frames_flat(const sw_scene *scene, double start, size_t w);

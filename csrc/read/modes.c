@@ -22,6 +22,8 @@ static const sw_param rows[] = {
     {"tolerance", SW_PARAM_NUMBER, "-", 1e-4, 0, 1e9, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_modes_args, tolerance),
      "how far from rest the wire may be, as a share of its length"},
+    {"alone", SW_PARAM_BOOLEAN, "-", 0, 0, 1, 0, NULL, offsetof(sw_modes_args, alone),
+     "true: wires that it is joined to stay where they are; together they swing more slowly"},
 };
 const sw_params sw_modes_params = SW_PARAMS("wire:frequencies", rows);
 
@@ -82,7 +84,7 @@ static sw_status check_rest(sw_scene *s, size_t w, double tolerance, sw_error *e
   return SW_OK;
 }
 
-static sw_status check_joins(const sw_scene *s, size_t w, sw_error *err) {
+static sw_status check_joins(const sw_scene *s, size_t w, int alone, sw_error *err) {
   SW_EACH(hold, h, s)
     if (h->alive && h->wire == w && h->cls->hold->rail)
       return sw_fail(err, SW_EINVAL,
@@ -90,10 +92,10 @@ static sw_status check_joins(const sw_scene *s, size_t w, sw_error *err) {
                      "looked at",
                      sw_scene_wire_in(s, w)->name, h->name);
   const sw_joint *join = sw_scene_joined(s, w);
-  if (!join) return SW_OK;
+  if (!join || alone) return SW_OK; /* its own stiffness has what joins do to it, without bridges */
   return sw_fail(err, SW_EINVAL,
-                 "frequencies: wire '%s' is joined to others by '%s' and moves with them; only "
-                 "wires without joins are looked at",
+                 "frequencies: wire '%s' is joined to others by '%s' and moves with them; give "
+                 "alone = true for its own while they stay where they are",
                  sw_scene_wire_in(s, w)->name, join->name);
 }
 
@@ -115,7 +117,7 @@ static sw_status find(sw_scene *s, size_t w, const sw_modes_args *args, int (*in
   sw_modes modes;
   sw_error why = {""};
   SW_TRY(sw_scene_check_line(sw_scene_wire_in(s, w), "frequencies", err));
-  SW_TRY(check_joins(s, w, err));
+  SW_TRY(check_joins(s, w, args->alone, err));
   SW_TRY(sw_scene_linearise(s, NULL, 0, err));
   SW_TRY(check_rest(s, w, args->tolerance, err));
   const double rate = 1.0 / (SLOWEST_GROWTH * time_scale(s, w));

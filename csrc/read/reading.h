@@ -31,6 +31,7 @@ typedef struct sw_modes_args {
   long modes;       /* how many [-] */
   double tolerance; /* how far from rest the wire may be, of its length [-] */
   int shapes;       /* wanted? */
+  int alone;        /* do wires that are joined to it stay where they are? */
 } sw_modes_args;
 extern const sw_params sw_modes_params;
 

@@ -297,8 +297,16 @@ static double along(const sw_system *s, uint32_t edge, uint32_t node) {
   return to < at[0] ? at[0] - to : to > at[1] ? to - at[1] : 0.0;
 }
 
-int sw_joins_near(const sw_system *s, uint32_t one, uint32_t two, double reach) {
+/* So near a join wires do not touch each other; of the radii's sum along both [-]. */
+static const double AT_A_JOIN = 4.0;
+
+static double radius_at(const sw_system *s, uint32_t node) {
+  return s->bodies[sw_system_body_of(s, node)].plan->beam.radius;
+}
+
+int sw_joins_near(const sw_system *s, uint32_t one, uint32_t two) {
   const struct sw_joins *all = s->joins;
+  const double reach = all ? AT_A_JOIN * (radius_at(s, one) + radius_at(s, two)) : 0;
   for (size_t k = 0; all && k < all->spring_count; k++) {
     const sw_join_spring *p = &all->springs[k];
     if (p->tie) continue; /* wires that are tied lie on each other */

@@ -55,9 +55,9 @@ sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
 
 double sw_joins_energy(const sw_system *system); /* at the state [J] */
 
-/* 1: the edges that start at nodes one and two are within reach of a join of their wires, along
- * both: they do not touch each other [m]. */
-int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two, double reach);
+/* 1: the edges that start at nodes one and two are so near a join of their wires, along both, that
+ * they do not touch each other. */
+int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two);
 
 void sw_joins_free(sw_system *system);
 

@@ -14,6 +14,7 @@
 #include "solve/blocks.h"
 #include "system/assemble.h"
 #include "system/bridge.h"
+#include "system/join.h"
 #include "system/spin.h"
 #include "system/system.h"
 #include "system/twist.h"
@@ -30,6 +31,7 @@ sw_status sw_system_linearise(sw_system *s, double time, sw_error *err) {
   sw_bridges_begin(s);
   if (c->eval)
     SW_TRY(c->eval(c->user, s, time, HUGE_VAL, s->x, SW_WANT_FORCE | SW_WANT_STIFFNESS, err));
+  SW_TRY(sw_joins_eval(s, s->x));
   for (size_t b = 0; b < s->body_count; b++) {
     const size_t at = 3 * s->bodies[b].first_node;
     sw_gather_residual(&s->bodies[b].field, 0.0, s->x + at, s->x + at, s->delta + at);

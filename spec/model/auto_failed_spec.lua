@@ -19,6 +19,15 @@ describe("model = 'auto' where poses fail on fine edges", function()
     assert.is_true(away <= bars, ("%.3g N apart"):format(away))
   end)
 
+  it("tries no finer ones than the first that fail", function()
+    local count = 0
+    hung.run(function(...)
+      count = count + 1
+      return fails(...)
+    end)
+    assert.equal(1, count)
+  end)
+
   it("keeps to poses that the script asks for, and says that they failed", function()
     local run = hung.run(fails, { quasistatic = true })
     assert.is_false(run.ok)

@@ -84,6 +84,16 @@ describe("model = 'auto' looks no longer than it takes:", function()
     assert.is_true(more.model.probes > little.model.probes)
     assert.is_near(0.2 * SHARE, more.quantities.odd.model_error, 3e-3)
   end)
+
+  -- Of seven eighths of the tolerance; by the error that is stated of a change of a hundredth of it.
+  it("at one level up to an error of two thirds of what is allowed", function()
+    local function run_of(part) return drawn(function(moves) return moves and part or 0 end, 0.2) end
+    local little = run_of(0.01)
+    local stated = little.quantities.odd.model_error / (0.01 * SHARE)
+    local function probes_at(share) return run_of(share * 7 / 8 / stated).model.probes end
+    assert.equal(little.model.probes, probes_at(0.63))
+    assert.is_true(probes_at(0.7) > little.model.probes)
+  end)
 end)
 
 describe("model = 'auto' and the first period of a wire", function()

@@ -50,7 +50,7 @@ rows.calls{
   { "wire:folded", "", "where a section of springs folded through first", "s [m], t [s], or nothing" },
   { "wire:calibration", "", "springs of its mesh and how they were found", "see help 'calibrate'" },
   -- the whole wire
-  { "wire:frequencies", "{ modes =, shapes = }", "natural frequencies about the present equilibrium",
+  { "wire:frequencies", "{ modes =, shapes =, alone = }", "natural frequencies about the present equilibrium",
     "{ f1, f2, ... } [Hz], see help 'vibration'" },
   { "wire:remodel", "{ model =, ... }", "another model or other edges from now on", "see help 'remodel'" },
   { "wire:log", "", "every step of the run", "{ t, tension, curvature, t, ... } [s], [N], [1/m], count" },

@@ -41,6 +41,14 @@ local function own_bound(state, levels, name, d)
   return state.choice.safety * (d + (quantity.alike(before, now) and quantity.distance(before, now) or 0))
 end
 
+--- A quantity's value on level k, for what a share of it is: by a finer level where one was computed. Coarse
+-- poses may end in another place, where a force is a small part of what it comes to be.
+function change.known(context, name, k, value)
+  local finest = context.finest
+  local finer = finest and finest.k > k and finest.values[name] or nil
+  return is_finite(finer) and quantity.alike(finer, value) and finer or value
+end
+
 --- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
 -- all; seen: what that quantity changes by here, over what is allowed. levels: { here =, above = } of the
 -- rungs, also before; left(context, name, state): what other choices leave out of a quantity.
@@ -52,7 +60,8 @@ function change.between(context, state, levels, left)
     local d = quantity.alike(a, b) and quantity.distance(a, b) or math.huge
     if d ~= d then d = math.huge end
     c.all[q.name] = (own and own_bound or bound)(state, levels, q.name, d)
-    local allowed = math.max(0, change.MODEL * quantity.asked(q, b) - left(context, q.name, state))
+    local asked = quantity.asked(q, change.known(context, q.name, levels.k, b))
+    local allowed = math.max(0, change.MODEL * asked - left(context, q.name, state))
     local off = d > 0 and c.all[q.name] / allowed or 0
     if off > c.worst then c.worst, c.quantity, c.allowed, c.seen = off, q, allowed, d / allowed end
   end

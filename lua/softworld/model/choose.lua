@@ -62,6 +62,20 @@ local function is_wasteful(context, k)
   return state ~= nil
 end
 
+-- The choice whose next rung may compute what does not go with this one; nil: there is none.
+local function may_replace(context)
+  for _, state in ipairs(context.states) do
+    if state.choice.instead and state.by ~= "given" and state.rung < state.last then return state end
+  end
+end
+
+-- Has the last level failed, by a rung that another one may replace? Finer ones mostly fail too, and slowly.
+local function has_failed(context)
+  local levels = context.job.levels
+  local last = levels[#levels]
+  return last and not last.ok and may_replace(context) ~= nil
+end
+
 -- No finer levels than can be waited for, as far as it is known; and as it turns out, from level to level.
 local function affordable(context)
   local job = context.job
@@ -72,7 +86,9 @@ local function affordable(context)
       break
     end
   end
-  function job.enough(k, good) return good >= 2 and (is_dear(context, k) or is_wasteful(context, k - 1)) end
+  function job.enough(k, good)
+    return has_failed(context) or good >= 2 and (is_dear(context, k) or is_wasteful(context, k - 1))
+  end
 end
 
 -- The steps of levels, each with a guard of what free checks stand on.
@@ -88,19 +104,21 @@ local function guarded(context, steps)
   end
 end
 
--- The finest run of the rungs chosen.
-local function refined(context)
-  local job, steps, kept = context.job, nil, nil
-  for _, q in ipairs(job.quantities) do
-    local left = decide.left_out(context, q.name)
-    function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
-  end
+-- Begin the levels of the run with those that choosing had already: nothing is computed twice. Gives what is
+-- kept of the last of them where it suffices.
+local function take_known(context)
+  local job, kept = context.job, nil
   job.levels, job.contact, job.finest, job.begun = {}, nil, nil, 0
   for name in pairs(job.values) do job.values[name] = {} end
-  for k = 1, decide.levels do -- what was computed on the way is not computed again
+  local astray = 0 -- levels that tell nothing of finer ones
+  for k = 1, decide.levels do
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
-    for name, values in pairs(job.values) do values[k] = known.values[name] or NONE end
+    astray = known.astray and k or astray
+    for name, values in pairs(job.values) do
+      values[k - astray] = known.values[name] or NONE -- of an astray one, 0: that is none
+      if known.astray then job.values[name] = {} end
+    end
     job.moves = known.moves
     if suffices(job, k, known) then -- the scene is to end there
       kept = probe.as_it_ended(context, decide.rungs(context), k)
@@ -109,9 +127,22 @@ local function refined(context)
     job.levels[k], job.begun = known.level, k
   end
   for _, values in pairs(job.values) do
-    for k = job.begun + 1, #values do values[k] = nil end
+    for k = job.begun - astray + 1, #values do values[k] = nil end
   end
+  return kept
+end
+
+-- The finest run of the rungs chosen.
+local function refined(context)
+  local job, steps = context.job, nil
+  for _, q in ipairs(job.quantities) do
+    local left = decide.left_out(context, q.name)
+    function q.aim(asked) return math.max(asked - left, asked * LEAST, context.spread:floor(q)) end
+  end
+  local kept = take_known(context)
   affordable(context)
+  if context.guard then context.guard:close() end
+  context.guard = nil
   context.wasteful, context.run_of = nil, {}
   if not kept then job.restore() end
   function job.kept(k)
@@ -154,14 +185,28 @@ end
 -- May what the finest run tells speak against the free check of a choice?
 local function is_checked(state) return state.by == "free" and not state.went_on end
 
+-- What the finest run tells of choices whose free checks are to be borne out, or which may fall short. Where
+-- that does not depend on the tolerance, only what its guard has not seen.
+local function last_facts(context, result)
+  local seen, unseen = {}, {}
+  for _, state in ipairs(context.states) do
+    local asked = is_checked(state) or state.choice.short ~= nil
+    local set = state.choice.by_itself and context.guard and unseen or seen
+    set[state.choice.name] = asked
+  end
+  context.watching = true
+  local found = probe.facts(context, result, seen)
+  local late = next(unseen) and probe.facts(context, result, unseen, context.guard.from)
+  context.watching = nil
+  for name in pairs(unseen) do found[name] = late[name] end
+  return found
+end
+
 -- Look at what the finest run tells; true when it is to be computed again.
 local function broken(context, result)
-  local values, asked = {}, {}
+  local values = {}
   for name, q in pairs(result.quantities) do values[name] = q.value end
-  for _, state in ipairs(context.states) do
-    asked[state.choice.name] = is_checked(state) or state.choice.short ~= nil
-  end
-  local facts, share = probe.facts(context, result, asked), decide.tightest(context, values)
+  local facts, share = last_facts(context, result), decide.tightest(context, values)
   local again = false
   for _, state in ipairs(context.states) do
     local f = facts[state.choice.name]
@@ -219,15 +264,12 @@ end
 -- A fine run that failed by a rung which coarse ones could be computed with: its choice goes up.
 local function goes_on_above(context, result)
   if not result.refused then return false end
-  for _, state in ipairs(context.states) do
-    if state.choice.instead and state.by ~= "given" and state.rung < state.last then
-      decide.raise(context, state, ("%s cannot be computed finer: %s"):format(
-        state.choice.rungs[state.rung].as, result.reason))
-      decide.settle(context)
-      return true
-    end
-  end
-  return false
+  local state = may_replace(context)
+  if not state then return false end
+  decide.raise(context, state, ("%s cannot be computed finer: %s"):format(state.choice.rungs[state.rung].as,
+    result.reason))
+  decide.settle(context)
+  return true
 end
 
 -- A rung that costs more than the next one is given up.

@@ -4,7 +4,7 @@
 local facts = require "softworld.model.facts"
 local record = require "softworld.scene.record"
 
-local contact = { name = "contact", rungs = {
+local contact = { name = "contact", by_itself = true, rungs = {
   { name = "none", as = "no touches of wires", leaves = "touches of wires with wires and with themselves" },
   { name = "wires", as = "touches of wires", leaves = "nothing" } } }
 
@@ -28,12 +28,12 @@ local function room(a, b)
 end
 
 -- Room between the axes of two wires, or of one and itself, less their width [m]: by the frames, where their
--- boxes meet. sort: "boxes" or "axes", for which it was.
-local function room_between(context, boxes, i, j)
+-- boxes meet, where it is less than most. sort: "boxes" or "axes", for which it was.
+local function room_between(context, boxes, i, j, most)
   local wide = context.data.wires[i].object.radius + context.data.wires[j].object.radius
   local between = i < j and room(boxes[i], boxes[j]) - boxes[i].step - boxes[j].step - wide or -1
   if between > 0 then return between, "boxes" end
-  return facts.apart(i, j, wide) - wide, "axes"
+  return facts.apart(i, j, wide, most < math.huge and most + wide or nil) - wide, "axes"
 end
 
 function contact.look(context)
@@ -42,7 +42,8 @@ function contact.look(context)
   local f = { room = math.huge, turning = turning, frames = #boxes > 0 }
   for i = 1, #boxes do
     for j = turning < math.pi and i + 1 or i, #boxes do
-      local between, sort = room_between(context, boxes, i, j)
+      local most = context.watching and context.data.wires[i].object.radius or math.huge
+      local between, sort = room_between(context, boxes, i, j, math.min(f.room, most))
       if between < f.room then f.room, f.sort = between, i == j and "itself" or sort end
       if f.room <= 0 then return f end
     end

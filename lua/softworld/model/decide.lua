@@ -11,13 +11,14 @@ local estimate = require "softworld.run.estimate"
 local decide = {}
 
 local MODEL = change.MODEL
--- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
-local DOUBT = 2
+local DOUBT = 2 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
 local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
 local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
+local FEIGNED = 16 -- the same that coarse edges do only where poses jump to another place [-]
 local HIDDEN = 4   -- of a change that coarse edges and steps blur: they may hide so many times as much [-]
+local HIDES = 2 / 3 -- of what is allowed: what that may come to; more leaves edges and steps too little [-]
 local SEEN = 0.1   -- of a swing: what steps must show for that [-]
 local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
@@ -104,18 +105,37 @@ local function saves_nothing(context, above, before, k)
   return true
 end
 
+-- Did poses jump? On coarse edges chance tells to where, and any change may come of that.
+local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
+
 -- Does the level tell too little of the next rung to stay, or to go? Or the change, with what may be hidden,
 -- if it is still small then.
 local function is_blurred(context, state, now, c)
   local choice = state.choice
   if now.k > 1 then return false end
   if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
-  if c.worst > 1 then return c.worst <= FAR end
+  if c.worst > 1 then return c.worst <= FAR or jumps(now.here) or jumps(now.above) end
   local above, share = now.above.facts[choice.name], decide.tightest(context, now.above.values)
   if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
   local all = change.hidden(c, HIDDEN)
-  if all.worst < 1 / DOUBT and choice.shows and choice.shows(above) > SEEN then return false, all end
+  if all.worst < HIDES and choice.shows and choice.shows(above) > SEEN then return false, all end
   return true
+end
+
+-- Poses that jumped on the level before to where they do not go on this one: what they tell there is no level
+-- of what they come to be. last: by how much the rungs differed there. By half of that at least one of them
+-- has moved since.
+local function mark_astray(now, last)
+  local name, before = last.quantity.name, now.before
+  local function distance(one, other)
+    local a, b = one.values[name] or NONE, other.values[name] or NONE
+    return quantity.alike(a, b) and quantity.distance(a, b) or NONE
+  end
+  local apart = distance(before.here, before.above)
+  for _, rung in ipairs { "here", "above" } do
+    local moved = distance(before[rung], now[rung])
+    if jumps(before[rung]) and moved >= apart / 2 then before[rung].astray = true end
+  end
 end
 
 -- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
@@ -132,6 +152,7 @@ local function compare(context, state, rungs, above)
     local last = c
     c, before = change.between(context, state, now, left_by_others), now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
+    if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)
     if clear and not blurred then return all or c end
     local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
@@ -326,7 +347,8 @@ local function is_overdrawn(context)
   local here = probe.of(context, decide.rungs(context), 1)
   for _, q in ipairs(here.ok and context.job.quantities or {}) do
     local left = left_by_others(context, q.name)
-    if left > MODEL * quantity.asked(q, here.values[q.name] or NONE) then return true end
+    local value = change.known(context, q.name, 1, here.values[q.name] or NONE)
+    if left > MODEL * quantity.asked(q, value) then return true end
   end
   return false
 end

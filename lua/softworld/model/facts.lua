@@ -73,8 +73,11 @@ function facts.swept()
 end
 
 --- How near the axes of wires v and w come, or one to itself beyond half a turn [m]: less what moves between
--- frames. What is no more than enough is not searched for better.
-function facts.apart(v, w, enough) return core.frames_apart(kept.scene, v, w, kept.start, enough) end
+-- frames, and not where they are joined. What is no more than enough is not searched for better, nor what is
+-- more than most.
+function facts.apart(v, w, enough, most)
+  return core.frames_apart(kept.scene, v, w, kept.start, enough, most)
+end
 
 --- Does wire w stay in a plane, with all that pushes and turns it?
 function facts.flat(w) return core.frames_flat(kept.scene, w, kept.start) end

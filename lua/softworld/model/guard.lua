@@ -129,7 +129,9 @@ end
 --- Between two steps: look, and go back if need be. options: of the run, which the next rung may change.
 function guard:look(options, total)
   if not is_due(self, total) then return end
+  self.context.watching = true
   local i, why = facts.reading(self.scene, self.from, broken, self, total)
+  self.context.watching = nil
   if i then switch(self, i, why, options, total) end
   self.frames = self.scene:frame_count()
   if not i then self.from = math.max(self.from, time_of(self.scene, self.frames - BEFORE)) end

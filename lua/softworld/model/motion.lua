@@ -50,15 +50,29 @@ function motion.apply(context, rung, changes)
   end
 end
 
--- First period of a wire about where the scene rests, the longest of all wires [s]; nil where it rests
--- nowhere.
+-- First period of wire w about where it rests [s]; nil where it rests nowhere, or is joined to others and
+-- not taken alone.
+local function period_of(w, alone)
+  local fine, list = pcall(w.object.frequencies, w.object, { modes = 1, alone = alone })
+  return fine and list[1] and list.unstable == 0 and 1 / list[1] or nil
+end
+
+-- The longest first period of all wires [s]; nil where one of them has none.
 local function period(scene)
   local longest
   for _, w in ipairs(build.data(scene).wires) do
-    local fine, list = pcall(w.object.frequencies, w.object, { modes = 1 })
-    if not fine or not list[1] or list.unstable > 0 then return nil end
-    longest = math.max(longest or 0, 1 / list[1])
+    local own = period_of(w)
+    if not own then return nil end
+    longest = math.max(longest or 0, own)
   end
+  return longest
+end
+
+-- The longest first period of those wires that have one while what they are joined to stays where it is [s]:
+-- no more than that of all together, which nothing holds there (Rayleigh). 0: none has one.
+local function period_alone(scene)
+  local longest = 0
+  for _, w in ipairs(build.data(scene).wires) do longest = math.max(longest, period_of(w, true) or 0) end
   return longest
 end
 
@@ -68,13 +82,17 @@ end
 local function look_at_end(context)
   if context.period_of_end or speed(context.scene) > 0 then return end
   context.period_of_end = period(context.scene) or 0
+  if not context.period and context.period_of_end == 0 then
+    context.alone = math.max(context.alone or 0, period_alone(context.scene))
+  end
   if context.period then context.period = math.max(context.period, context.period_of_end) end
 end
 
--- First period of swings [s], where one is known.
+-- First period of swings [s], where one is known; of wires that are joined less than that.
 local function swing(context)
   local ends = context.period_of_end or 0
-  return context.period or ends > 0 and ends or nil
+  local alone = context.alone or 0
+  return context.period or ends > 0 and ends or alone > 0 and alone or nil
 end
 
 function motion.look(context, run)
@@ -93,7 +111,9 @@ function motion.begin(context)
   local job, scene = context.job, context.scene
   if not job.rests then return end
   core.remesh(scene, trust.counts(job, 1))
-  context.period = scene:settle().ok and period(scene) or nil
+  local rests = scene:settle().ok
+  context.period = rests and period(scene) or nil
+  context.alone = rests and not context.period and period_alone(scene) or nil
   job.restore()
 end
 

@@ -79,9 +79,10 @@ local function look_at_failed(context, run)
   return found
 end
 
---- What a run tells to the choices, by their names; asked: a set of names, or nil for all.
-function probe.facts(context, run, asked)
-  return facts.reading(context.scene, run.start, look, context, run, asked)
+--- What a run tells to the choices, by their names; asked: a set of names, or nil for all; from: in frames
+-- from that time on [s], or nil for all.
+function probe.facts(context, run, asked, from)
+  return facts.reading(context.scene, from or run.start, look, context, run, asked)
 end
 
 -- What a run that failed tells, if anything.
@@ -165,6 +166,9 @@ local function compute(context, rungs, k, factors)
   for name, read in pairs(trust.read(job, run)) do result.values[name] = read.value end
   context.iterations = run.iterations / 2 ^ (k - 1)
   result.level = { segments = trust.counts(job, k), ok = true, cpu = cpu }
+  if not factors and k >= (context.finest and context.finest.k or 0) then
+    context.finest = { k = k, values = result.values }
+  end
   context.last = not factors and { key = probe.key(rungs, k), run = run, level = result.level } or nil
   return result
 end

@@ -9,6 +9,7 @@
 --     A rung with own = true: what the next one's own edges change counts too
 --   instead: where the fine run fails, it is computed by the next rung
 --   rough: fine levels of a rung may tell less than those of the next one, where coarse ones are alike
+--   by_itself: what broken tells of a run so far does not depend on the share
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
@@ -17,7 +18,8 @@
 --   shows(facts): the share of what the next rung adds that its computation shows [-], where not all
 --   blurred(facts, above, share): the coarsest level tells too little of the next rung, whose facts are
 --     above, to stay
---   look(context, run): what a computation tells about the choice, read at its end
+--   look(context, run): what a computation tells about the choice, read at its end; or while it is watched
+--     (context.watching), where only what would speak against a free check matters
 --   idle(facts): there was nothing to choose
 --   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
 --     suffice without another computation, and where it counts what share of a value is left out; else
