@@ -62,7 +62,7 @@ void sw_broad_know(sw_broad *b, const sw_contact *c, sw_contact_moves_function m
 static sw_status place_one(sw_contact *c, size_t o, double t, sw_contact_at *out, sw_error *err) {
   sw_motion_state m;
   SW_TRY(c->place(c->user, c->obstacles[o].id, t, &m, err));
-  *out = (sw_contact_at){m.pose, m.v, m.omega};
+  *out = (sw_contact_at){m.pose, m.v, m.omega, m.pivot};
   return SW_OK;
 }
 

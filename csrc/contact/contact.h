@@ -25,7 +25,7 @@ typedef struct sw_contact_obstacle {
   int off;            /* 1: nothing touches it */
 } sw_contact_obstacle;
 
-/* Load of wires on an obstacle: force and moment about the obstacle's own origin [N], [N m]; or
+/* Load of wires on an obstacle: force and moment about the obstacle's pivot [N], [N m]; or
  * their impulses [N s], [N m s]. */
 typedef struct sw_contact_load {
   sw_vec force, moment;

@@ -18,12 +18,14 @@ static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
   return p->normal_force > 0 ? sw_madd(p->tangential, p->normal, p->normal_force) : sw_v(0, 0, 0);
 }
 
-/* Add share times the forces of the touches, with moments about the obstacles' origins now. */
+/* Add share times the forces of the touches, with moments about the obstacles' pivots now: those
+ * of fingers about one point, or what they press with would turn the tool as they turn in a step.
+ */
 static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw_contact_loads *)) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
     if (!t->press.active && !t->press.opened) continue;
-    const sw_vec arm = sw_sub(t->point, c->now[t->obstacle].pose.p);
+    const sw_vec arm = sw_sub(t->point, c->now[t->obstacle].pivot);
     const sw_vec f = sw_neg(force_on(c, t));
     sw_contact_load *to = at(&c->loads[t->obstacle]);
     *to = sum(*to, share, (sw_contact_load){f, sw_cross(arm, f)});
@@ -49,7 +51,7 @@ void sw_contact_book(void *contact, const sw_booking *b) {
 }
 
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse) {
-  const sw_vec arm = sw_sub(point, c->start[obstacle].pose.p);
+  const sw_vec arm = sw_sub(point, c->start[obstacle].pivot);
   sw_contact_load *to = &c->loads[obstacle].blows;
   *to = sum(*to, 1.0, (sw_contact_load){impulse, sw_cross(arm, impulse)});
 }
@@ -91,7 +93,7 @@ void sw_contact_conclude(sw_contact *c) {
     const sw_contact_load gained = l->stage[c->last_stage];
     l->past.gained = moves ? gained : none;
     l->past.mean = moves ? sum(none, 1.0 / c->h, sum(gained, 1.0, l->blows)) : l->past.end;
-    const sw_vec turned = sw_cross(c->now[c->busy[i]].pose.p, l->past.mean.force);
+    const sw_vec turned = sw_cross(c->now[c->busy[i]].pivot, l->past.mean.force);
     l->past.mean.moment = sw_add(l->past.mean.moment, turned);
   }
 }

@@ -31,6 +31,7 @@ typedef struct sw_motion_state {
   sw_vec a;     /* its acceleration [m/s2] */
   sw_vec omega; /* angular velocity, world axes [rad/s] */
   sw_vec alpha; /* angular acceleration, world axes [rad/s2] */
+  sw_vec pivot; /* what moments of a step are about: the origin, of a tool's parts its centre [m] */
 } sw_motion_state;
 
 typedef enum sw_facing {

@@ -31,6 +31,7 @@ static sw_status carried(sw_scene *s, const sw_drive *d, double t, sw_motion_sta
                   sw_cross(f.omega, sw_madd(turning, opening, 2.0)));
   out->omega = f.omega;
   out->alpha = f.alpha;
+  out->pivot = f.pose.p;
   return SW_OK;
 }
 
@@ -40,11 +41,13 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
   if (!d->motion) {
     memset(out, 0, sizeof *out);
     out->pose = d->pose;
+    out->pivot = d->pose.p;
     return SW_OK;
   }
   sw_scene_enter(s, 1); /* a user's function may call anything: nothing may change meanwhile */
   const sw_status status = sw_motion_eval(d->motion, t - d->start, out, err);
   sw_scene_enter(s, -1);
+  out->pivot = out->pose.p;
   return status;
 }
 
