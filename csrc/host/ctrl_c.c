@@ -31,12 +31,24 @@ static pthread_t owner; /* the thread that runs Lua */
 static volatile sig_atomic_t seen, prompt, cancelled;
 static struct timespec last; /* the Ctrl-C before; tv_sec 0 = none */
 
+/* Push the place of the script's line that is being done, whatever of the library that calls;
+ * without one, of what runs. */
+static void push_place(lua_State *L) {
+  lua_Debug at;
+  for (int level = 0; lua_getstack(L, level, &at); level++) { /* in a hook 0 is what it stopped */
+    if (!lua_getinfo(L, "Sl", &at) || at.currentline < 0 || host_is_library(L, at.source)) continue;
+    lua_pushfstring(L, "%s:%d: ", at.short_src, at.currentline);
+    return;
+  }
+  luaL_where(L, 0);
+}
+
 static void stop(lua_State *L, lua_Debug *ar) {
   (void)ar;
   lua_sethook(L, NULL, 0, 0);
   if (!sw_interrupted()) return;
   sw_interrupt_clear();
-  luaL_where(L, 0); /* in a hook level 0 is the function it stopped */
+  push_place(L);
   lua_pushliteral(L, "interrupted");
   lua_concat(L, 2);
   lua_error(L);

@@ -64,9 +64,12 @@ function cable.get(name)
     or "sw.cables() lists them"), 0)
 end
 
+-- An error gets the place of the script's line; Ctrl-C has it.
 local function placed(level, ok, ...)
-  if not ok then error(..., level) end
-  return ...
+  if ok then return ... end
+  local text = ...
+  local has = type(text) == "string" and text:find(": interrupted$")
+  error(text, has and 0 or level)
 end
 
 --- An own entry, from then on known by its name. Fields: `name`; `outer_diameter`

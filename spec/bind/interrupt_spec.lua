@@ -122,4 +122,11 @@ describe("Ctrl-C", function()
     assert.equal(130, code)
     assert.matches("script.lua:" .. line .. ": interrupted", err:match "[^\n]*")
   end)
+
+  it("names the script's line where it comes in a function of the library", function()
+    local _, err, code = program.script("local sw = require 'softworld'\n"
+      .. "while true do sw.cable 'GXL 1.5' end", nil, ONCE)
+    assert.equal(130, code)
+    assert.matches("^[^:]*script.lua:2: interrupted$", err:match "[^\n]*")
+  end)
 end)
