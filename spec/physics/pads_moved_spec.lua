@@ -176,3 +176,25 @@ describe("the largest margin", function()
     t.above(20, numbers, "steps with a margin")
   end)
 end)
+
+describe("pads that go to an opening", function()
+  it("tell of a cable that they press on with more than breaks it", function()
+    for share, told in pairs{ [0.98] = 1, [1] = 0 } do
+      local scene = sw.scene{}
+      local wire, radius = damped(scene, "H07V-K 10", { 0, 0, 0.05 }, { 0.2, 0, 0.05 }, 20)
+      scene:clamp(wire, { s = 0 })
+      scene:clamp(wire, { s = 0.2 })
+      local hand = scene:gripper{ name = "hand" }
+      scene:process(function()
+        hand:grasp(wire, { s = 0.1, approach = "plates", distance = 2 * radius * share })
+      end)
+      local run, found = t.fine(scene:run{ dt = 0.01 }), {}
+      for _, e in ipairs(run.events) do if e.kind == "overload" then found[#found + 1] = e end end
+      assert.equal(told, #found, "at a share of " .. share)
+      if told == 1 then
+        assert.matches("'hand' presses on wire 'wire1' with %d.%d%de%+04 N per finger", found[1].text)
+        t.near(hand:state().squeeze, found[1].value, 1, "its value")
+      end
+    end
+  end)
+end)

@@ -5,6 +5,7 @@ local mixed = require "softworld.grip.mixed"
 local process = require "softworld.run.process"
 local rows = require "softworld.rows"
 local stand = require "softworld.grip.stand"
+local tension = require "softworld.check.tension"
 
 local jaws = { methods = {} }
 local Methods = jaws.methods
@@ -74,6 +75,18 @@ local function give_up(self, order, wire, state, crushed, longest)
     self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
 end
 
+-- Pads that go to an opening press on a rod as on a solid section of its mean modulus: a hundredth of a
+-- cable's diameter takes kilonewtons, where its insulation would give way. More than breaks it is told.
+local function tell_overload(self, wire, state)
+  local rod = wire and (wire.model == "rod" or wire.model == "string")
+  local limit = rod and tension.limit{ object = wire }
+  if not limit or state.squeeze <= limit.value then return end
+  self.scene:tell{ kind = "overload", object = self.name, value = state.squeeze,
+    text = ("gripper '%s' presses on wire '%s' with %.3g N per finger, more than the %.3g N that break it: a "
+      .. "rod's section gives way as a solid one of its mean modulus; give force [N] too, or take a mesh")
+      :format(self.name, wire.name, state.squeeze, limit.value) }
+end
+
 -- Wait until the jaws are done; raises when they cannot do it.
 local function wait_for_jaws(self, p, order)
   local state, crushed
@@ -94,6 +107,7 @@ local function wait_for_jaws(self, p, order)
     if state.squeeze > 0 and state.opening < least then -- as they were told to
       note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
     end
+    tell_overload(self, wire, state)
     return state
   end
   give_up(self, order, wire, state, crushed, longest)
