@@ -62,8 +62,8 @@ rules.OPEN = { base = true, bind = true,
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
   read = { "frames.h" },
   force = { "force.h", "solid.h" }, link = { "hold.h", "joint.h", "spool.h" }, shape = { "tree.h" },
-  state = { "angle.h", "clamp.h", "crease.h", "field.h", "hinge.h", "mesh.h", "plan.h", "slide.h",
-    "state_tape.h", "tie.h", "web.h" },
+  state = { "angle.h", "clamp.h", "crease.h", "field.h", "first_stage.h", "hinge.h", "mesh.h", "plan.h",
+    "slide.h", "state_tape.h", "tie.h", "web.h" },
   solve = { "band3.h", "band4.h", "blocks.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 

@@ -22,8 +22,8 @@ void sw_hold_book(sw_scene *s, const sw_booking *b) {
     sw_hold *h = sw_scene_held_by(s, k);
     sw_hold_sums *sums = &h->sums;
     const sw_hold_load *now = &sw_scene_hold_loads(s)[k];
-    sums->force[b->stage] = booked(b, now->force, h->force, sums->force[0]);
-    sums->moment[b->stage] = booked(b, now->moment, h->moment, sums->moment[0]);
+    sums->force[b->stage] = booked(b, now->force, h->end_force, sums->force[0]);
+    sums->moment[b->stage] = booked(b, now->moment, h->end_moment, sums->moment[0]);
     sums->last = b->stage;
     sums->known = b->before == 0;
   }
@@ -51,7 +51,7 @@ double sw_hold_span(const sw_scene *s, int mean) {
 int sw_hold_jerked(const sw_scene *s, const sw_hold *h, sw_vec *force, sw_vec *moment) {
   sw_course *c = sw_scene_course(s);
   const sw_hold_sums *sums = &h->sums;
-  if (!sums->known || !(c->span > 0) || sw_hold_passes(h)) return 0;
+  if (!sums->known || !(c->span > 0)) return 0;
   const sw_vec mean = sw_scale(sums->force[sums->last], 1.0 / c->span);
   const double off = sw_norm(sw_sub(h->force, mean));
   const int sharp =

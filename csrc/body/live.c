@@ -95,6 +95,7 @@ sw_status sw_live_put(sw_scene *s, const sw_live *p, sw_error *err) {
   sw_course *c = sw_scene_course(s);
   sw_system *system = sw_scene_system(s);
   memcpy(system->state, p->state, p->state_size * sizeof(double));
+  system->first.x = NULL;
   const sw_status status = put_contact(s, p);
   if (status == SW_EINVAL)
     return sw_fail(err, SW_EFORMAT, "its contact does not go with its objects");

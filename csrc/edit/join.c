@@ -206,7 +206,8 @@ sw_status sw_scene_join_force(sw_scene *s, sw_handle h, size_t k, sw_vec *force,
   SW_TRY(sw_scene_build(s, err));
   sw_link_wire wires[SW_JOIN_ENDS];
   sw_scene_joint_wires(s, j, wires);
-  j->cls->joint->force(j, wires, k, force, moment);
+  j->cls->joint->force(j, wires, sw_scene_system(s)->x, k, force, moment);
+  if (j->evened) *force = j->bears[k];
   return SW_OK;
 }
 

@@ -26,7 +26,8 @@ static const sw_param rows[] = {
     SW_TIE_ROWS(tether_args),
 };
 
-enum { DISSIPATED, FATE, HISTORY = FATE + SW_TIE_FATE };
+/* BORNE: its last pull; EVENED: 1: that is not the one of its length now. */
+enum { DISSIPATED, BORNE, EVENED, FATE, HISTORY = FATE + SW_TIE_FATE };
 
 static size_t state_size(const sw_plan *plan) {
   (void)plan;
@@ -79,16 +80,29 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
+/* Its pull, of methods that find pulls that only hold against turning too large or too small;
+ * before: the last one, or NULL. */
+static double borne(const tether_args *a, const sw_field *f, const double *before, double pull) {
+  if (!f->first.x) return pull;
+  sw_field first = *f;
+  first.x = f->first.x;
+  const sw_vec then = {tied_of(a, &first).pull, 0, 0}, known = {before ? *before : 0, 0, 0};
+  return sw_even_force(&f->first, before ? &known : NULL, then, sw_v(pull, 0, 0)).x;
+}
+
 static double pull(const void *args, const sw_field *f, const double *h, double *bears) {
   const tether_args *a = args;
   *bears = h[FATE + SW_TIE_BROKEN] > 0 ? 0.0 : isnan(a->strength) ? HUGE_VAL : a->strength;
-  return *bears > 0 ? tied_of(a, f).pull : 0.0;
+  return *bears > 0 ? borne(a, f, h + BORNE, tied_of(a, f).pull) : 0.0;
 }
 
 static void commit(const void *args, const sw_field *f, double *h) {
   const tether_args *a = args;
   const tied t = tied_of(a, f);
-  if (!sw_tie_suffers(t.pull, a->strength, f->time, h + FATE)) return;
+  const double pulls = borne(a, f, h + BORNE, t.pull);
+  h[BORNE] = borne(a, f, NULL, t.pull);
+  h[EVENED] = f->first.x != NULL;
+  if (!sw_tie_suffers(pulls, a->strength, f->time, h + FATE)) return;
   h[DISSIPATED] += 0.5 * t.pull * t.pull / a->stiffness;
 }
 
@@ -104,7 +118,8 @@ static const char *const outputs[] = {
 
 static void read(const void *args, const sw_field *f, const double *h, double *out) {
   const tied t = tied_of(args, f);
-  const double *fate = h + FATE, tension = fate[SW_TIE_BROKEN] > 0 ? 0.0 : t.pull;
+  const double *fate = h + FATE, pulls = h[EVENED] > 0 ? h[BORNE] : t.pull;
+  const double tension = fate[SW_TIE_BROKEN] > 0 ? 0.0 : pulls;
   const sw_vec force = force_of(&t, tension);
   const double values[] = {t.distance,
                            tension,

@@ -32,8 +32,9 @@ static const sw_newton DYNAMIC_NEWTON = {
     .limit_rotation = 0.5,
 };
 
-sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, const sw_system *system) {
+sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, sw_system *system) {
   memset(p, 0, sizeof *p);
+  system->first.x = NULL; /* of a stepper that was */
   p->method = method;
   p->start = method->start ? sw_integrator_find(method->start) : method;
   p->n = system->freedoms;
@@ -232,6 +233,8 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
                          .first = row->x1,
                          .before = row->xp});
   }
+  if (!isnan(p->between.share))
+    sw_system_find_excess(s, h, p->first, p->y[0], p->strain_rate, p->between);
   find_mean(p, m, s, h);
   const size_t last = m->stages - 1;
   if (m->flags & SW_INTEGRATOR_ONWARDS) SW_TRY(go_onwards(p, m, s, t + h, err));
@@ -341,7 +344,7 @@ void sw_stepper_accept(sw_stepper *p, sw_system *s, double h) {
     if (isnan(p->between.share))
       sw_system_uneven(s);
     else
-      sw_system_even_out(s, h, p->first, p->between.share, p->between.behind);
+      sw_system_even_out(s, h, p->first, p->between);
   } else {
     sw_system_axial_from_state(s);
   }

@@ -37,12 +37,6 @@ typedef struct sw_stage_row {
 
 typedef struct sw_stepper sw_stepper;
 
-/* Between the axial forces of two stages: share of the last one's, or NAN: theirs are read out as
- * they are [-]; how long before the step's end that is [s]. */
-typedef struct sw_between {
-  double share, behind;
-} sw_between;
-
 typedef struct sw_integrator {
   const char *name;
   const char *summary;
@@ -107,7 +101,7 @@ struct sw_stepper {
 enum { SW_EXTRA = 6 };
 
 /* Work space for a system of this size. SW_ENOMEM. */
-sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method, const sw_system *system);
+sw_status sw_stepper_new(sw_stepper *stepper, const sw_integrator *method, sw_system *system);
 void sw_stepper_free(sw_stepper *stepper);
 
 /* Size of the history of a method, if it has one: xp and all after it (doubles). */

@@ -21,7 +21,7 @@ typedef struct place {
 sw_between sw_turning_step(const sw_integrator *m, double h, double last_h, double *kept) {
   const place before = {0.5 * last_h * last_h, kept[SW_TURN_LAG_BEFORE] - last_h};
   const double lag = kept[SW_TURN_LAG], at_start = 1.0 + kept[SW_TURN_EXCESS];
-  const sw_between none = {NAN, 0};
+  const sw_between none = {NAN, 0, 0};
   place y[SW_STAGES_MAX] = {{0, 0}, {0, 0}};
   double found[SW_STAGES_MAX] = {1, 1};
   kept[SW_TURN_LAG_BEFORE] = lag;
@@ -44,5 +44,6 @@ sw_between sw_turning_step(const sw_integrator *m, double h, double last_h, doub
   if (m->stages != 2 || fabs(found[1] - 1.0) < CLOSE) return none;
   const double apart = found[1] - found[0], share = (1.0 - found[0]) / apart;
   if (!(fabs(apart) > ALIKE && share > 0 && share < 1)) return none;
-  return (sw_between){share, (1.0 - share) * (m->rows[1].time - m->rows[0].time) * h};
+  const double apart_h = (m->rows[1].time - m->rows[0].time) * h;
+  return (sw_between){share, (1.0 - share) * apart_h, m->rows[0].time};
 }

@@ -14,6 +14,7 @@
 #include "link/spool.h"
 #include "state/hinge.h"
 #include "state/state_tape.h"
+#include "system/axial.h"
 
 static const sw_param rows[] = {
     {"s", SW_PARAM_NUMBER, "m", 0, 0, HUGE_VAL, 0, NULL, offsetof(sw_hold_args, s),
@@ -220,15 +221,12 @@ static double twisted(const sw_system *s, const sw_body *b, size_t clamp) {
 /* The guide's walls bear a force along the wire too: where it leaves them bent, each length
  * that is paid out takes up the energy of the bend at the drive's cost, and the walls push the
  * wire out with EI curvature^2 / 2 (Bigoni et al. 2015). The drive bears the rest. */
-static double drive(const sw_hold *h, const sw_link_wire *w, const double *x) {
+static double drive(const sw_hold *h, const sw_link_wire *w, const double *x, sw_vec force) {
   const sw_system *y = w->system;
   const sw_body *b = &y->bodies[w->body];
   const int number = (int)h->number;
-  double sum = 0;
-  for (size_t i = 0; i < y->held_count; i++)
-    if (y->held[i].hold == number)
-      sum += sw_dot(y->held[i].reaction, sw_load(y->directors_now + 3 * (2 * h->number + 1)));
-  sum *= h->feed.guide.outward;
+  double sum =
+      h->feed.guide.outward * sw_dot(force, sw_vec_at(y->directors_now, 2 * h->number + 1));
   for (size_t c = 0; c < b->plan->clamp_count; c++) {
     if (b->plan->clamps[c].hold != number) continue;
     const int grows = b->plan->clamps[c].side * h->feed.guide.outward;
@@ -239,10 +237,23 @@ static double drive(const sw_hold *h, const sw_link_wire *w, const double *x) {
 
 static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, const double *x) {
   const feed_now now = feed_at(h, t);
-  return (sw_hold_way){.way = now.fed,
-                       .speed = now.speed,
-                       .force = x ? drive(h, w, x) : h->feed.guide.drive,
-                       .slipped = slipped(&h->feed.slip, t)};
+  sw_hold_way way = {.way = now.fed,
+                     .speed = now.speed,
+                     .force = h->feed.guide.drive,
+                     .stage = h->feed.guide.stage,
+                     .slipped = slipped(&h->feed.slip, t)};
+  if (!x) return way;
+  const sw_system *s = w->system;
+  const sw_vec at = s->hold_states[h->number].pose.p, before = {h->feed.guide.drive, 0, 0};
+  sw_vec force, moment;
+  sw_system_reaction(s, (int)h->number, at, &force, &moment);
+  way.stage = way.obeys = drive(h, w, x, force);
+  sw_system_bears(s, (int)h->number, x, at, &force, &moment);
+  way.force = drive(h, w, x, force);
+  if (!s->first.x) return way;
+  const double first = (way.force - s->first.share * way.stage) / (1.0 - s->first.share);
+  way.obeys = sw_even_force(&s->first, &before, sw_v(first, 0, 0), sw_v(way.stage, 0, 0)).x;
+  return way;
 }
 
 static sw_guide *guide(sw_hold *h) { return &h->feed.guide; }
@@ -336,7 +347,7 @@ static void read(const sw_hold *h, double t, double *out) {
 void sw_tape_feed(sw_tape *t, sw_feed *x) {
   sw_guide *g = &x->guide;
   int shaped = g->shape.n > 0;
-  SW_TAPE_STRUCT(t, sw_feed, 368);
+  SW_TAPE_STRUCT(t, sw_feed, 376);
   sw_tape_int(t, &g->outward), GUIDE(label), DOUBLE(fed), DOUBLE(since), DOUBLE(speed);
   DOUBLE(start);
   sw_tape_motion(t, &x->motion);
@@ -344,7 +355,7 @@ void sw_tape_feed(sw_tape *t, sw_feed *x) {
   SLIP(push), SLIP(limit), SLIP(way), SLIP(way_before);
   sw_tape_bracket(t, &x->slip.found, "a feed");
   SLIP(slope), GUIDE(spare[0]), GUIDE(spare[1]), GUIDE(spare_fed[0]), GUIDE(spare_fed[1]);
-  GUIDE(size), GUIDE(drive);
+  GUIDE(size), GUIDE(drive), GUIDE(stage);
   sw_tape_int(t, &shaped);
   if (shaped) sw_tape_mesh(t, &g->shape, 1);
   if (!sw_tape_reads(t)) return;

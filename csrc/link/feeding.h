@@ -32,6 +32,7 @@ typedef struct sw_guide {
   double spare_fed[2]; /* fed at that time; the spare goes back to 0 over one edge's length [m] */
   double size;         /* edges beside the guide are made this long [m] */
   double drive;        /* force that moves the wire, outwards, last [N] */
+  double stage;        /* the same of the last stage, which the next step goes on from [N] */
   sw_mesh shape;       /* the wire with its unloaded shape, if it has frames */
 } sw_guide;
 

@@ -67,19 +67,21 @@ typedef struct sw_hold {
   int formed;        /* 1: between its ends the wire is as long without force as it lies */
   double s1, s2;     /* held interval, nodes of the mesh [m] */
   sw_drive drive;
-  size_t count;           /* held places */
-  double *s;              /* (count) arc lengths when taken hold of [m] */
-  double *local;          /* (count x 3) in the hold's frame [m] */
-  uint32_t *particle;     /* (count) which ones of a mesh; NULL on other wires */
-  sw_vec director[2];     /* arriving, leaving; in the hold's frame [-] */
-  sw_mesh_frame frame[2]; /* the wire's there, with directions as held; if it has frames */
-  sw_clamp_give give[2];  /* likewise */
-  sw_quat turn;           /* orientation that goes with the wire's twist, while not built */
-  size_t node, number;    /* first node in the wire's plan, among the system's; while built */
-  size_t rail;            /* among the system's rails, if its class has one; while built */
-  sw_feed feed;           /* of a class that feeds */
-  sw_slider slider;       /* of one with a rail */
-  sw_vec force, moment;   /* last, kept after release [N], [N m] */
+  size_t count;                 /* held places */
+  double *s;                    /* (count) arc lengths when taken hold of [m] */
+  double *local;                /* (count x 3) in the hold's frame [m] */
+  uint32_t *particle;           /* (count) which ones of a mesh; NULL on other wires */
+  sw_vec director[2];           /* arriving, leaving; in the hold's frame [-] */
+  sw_mesh_frame frame[2];       /* the wire's there, with directions as held; if it has frames */
+  sw_clamp_give give[2];        /* likewise */
+  sw_quat turn;                 /* orientation that goes with the wire's twist, while not built */
+  size_t node, number;          /* first node in the wire's plan, among the system's; while built */
+  size_t rail;                  /* among the system's rails, if its class has one; while built */
+  sw_feed feed;                 /* of a class that feeds */
+  sw_slider slider;             /* of one with a rail */
+  sw_vec force, moment;         /* last, kept after release [N], [N m] */
+  sw_vec end_force, end_moment; /* of the stage that the last step ended with, which the next one
+                                 * goes on from [N], [N m] */
   sw_hold_watch watch;
   sw_hold_sums sums; /* of the present step */
   sw_pose last_pose;
@@ -90,7 +92,9 @@ typedef struct sw_hold {
 typedef struct sw_hold_way {
   double way, speed; /* [m], [m/s] */
   double force;      /* that moves the wire along it [N] */
-  double slipped;    /* of the way, what was not asked for [m] */
+  double stage;   /* the same of the last stage, and what a drive that obeys a force is to obey, */
+  double obeys;   /* which differ where the method's are off (sw_system_bears) [N] */
+  double slipped; /* of the way, what was not asked for [m] */
 } sw_hold_way;
 
 /* What a user may ask of a hold at any time. */

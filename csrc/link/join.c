@@ -132,11 +132,10 @@ static sw_status add(sw_joint *j, const sw_link_wire *wires) {
 
 /* --- what it bears ------------------------------------------------------------------ */
 
-static void force(const sw_joint *j, const sw_link_wire *wires, size_t k, sw_vec *force,
-                  sw_vec *moment) {
+static void force(const sw_joint *j, const sw_link_wire *wires, const double *x, size_t k,
+                  sw_vec *force, sw_vec *moment) {
   const sw_link_wire *w = &wires[k];
   const struct sw_joins *all = w->system->joins;
-  const double *x = w->system->x;
   const uint32_t node = sw_joint_node(&j->ends[k], w);
   size_t nodes[2];
   arm_of(&j->ends[k], w, nodes);

@@ -27,6 +27,8 @@ typedef struct sw_joint {
   size_t spring;                     /* of a tie: its number in the system, while built */
   size_t count;
   sw_joint_end ends[SW_JOIN_ENDS];
+  int evened;                 /* 1: its ends bear these forces, not those of the state */
+  sw_vec bears[SW_JOIN_ENDS]; /* last, of a tie or if they are others than those of the state [N] */
 } sw_joint;
 
 /* What a joint does; wires: those of its ends. */
@@ -39,9 +41,9 @@ typedef struct sw_joint_acts {
   void (*measure)(sw_joint *joint, const sw_link_wire *wires);
   /* Into the new system. SW_ENOMEM. */
   sw_status (*add)(sw_joint *joint, const sw_link_wire *wires);
-  /* Force on end number k and moment about its place [N], [N m]. */
-  void (*force)(const sw_joint *joint, const sw_link_wire *wires, size_t k, sw_vec *force,
-                sw_vec *moment);
+  /* Force on end number k with nodes at x and moment about its place [N], [N m]. */
+  void (*force)(const sw_joint *joint, const sw_link_wire *wires, const double *x, size_t k,
+                sw_vec *force, sw_vec *moment);
   /* Pull with nodes at x, what it bears: 0 when it is broken, infinite when it never is; NULL:
    * joints of this class do not break [N]. */
   double (*pull)(const sw_joint *joint, const sw_system *system, const double *x, double *bears);

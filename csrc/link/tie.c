@@ -19,10 +19,9 @@ static sw_status add(sw_joint *j, const sw_link_wire *wires) {
   return SW_OK;
 }
 
-static void force(const sw_joint *j, const sw_link_wire *wires, size_t k, sw_vec *force,
-                  sw_vec *moment) {
-  const sw_system *s = wires->system;
-  const sw_vec f = sw_join_spring_force(&s->joins->springs[j->spring], s->x);
+static void force(const sw_joint *j, const sw_link_wire *wires, const double *x, size_t k,
+                  sw_vec *force, sw_vec *moment) {
+  const sw_vec f = sw_join_spring_force(&wires->system->joins->springs[j->spring], x);
   *force = k ? sw_neg(f) : f;
   *moment = sw_v(0, 0, 0);
 }
@@ -44,7 +43,7 @@ static void read(const sw_joint *j, const sw_link_wire *wires, double *out) {
   out[0] = s ? sw_dist(sw_vec_at(s->x, sw_joint_node(&j->ends[0], &wires[0])),
                        sw_vec_at(s->x, sw_joint_node(&j->ends[1], &wires[1])))
              : (double)NAN;
-  out[1] = s && j->alive ? pull(j, s, s->x, &bears) : 0.0;
+  out[1] = !s || !j->alive ? 0.0 : j->evened ? sw_norm(j->bears[0]) : pull(j, s, s->x, &bears);
   out[2] = j->fate[SW_TIE_PEAK];
   out[3] = j->fate[SW_TIE_BROKEN] > 0;
   out[4] = j->fate[SW_TIE_BROKEN_TIME], out[5] = j->fate[SW_TIE_BROKEN_FORCE];

@@ -162,6 +162,7 @@ static sw_status change_to_rod(sw_scene *s, const sw_exchange *x, const double *
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &at, err));
   h->force = out->force; /* until a step tells: what the pads did */
   h->moment = sw_sub(out->moment, sw_cross(sw_sub(at.pose.p, f->pose.p), out->force));
+  h->end_force = h->force, h->end_moment = h->moment;
   return SW_OK;
 }
 

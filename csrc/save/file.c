@@ -26,7 +26,7 @@ typedef struct head {
 } head;
 
 static const char MAGIC[16] = "SoftWorld scene";
-enum { VERSION = 15, ORDER = 0x01020304 };
+enum { VERSION = 16, ORDER = 0x01020304 };
 
 /* --- writing --------------------------------------------------------------------------- */
 

@@ -108,7 +108,7 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_hold, 1576); /* node, number and rail are found when it is built */
+  SW_TAPE_STRUCT(t, sw_hold, 1632); /* node, number and rail are found when it is built */
   UINT32(generation), INT(alive), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
@@ -124,7 +124,7 @@ void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   VEC(director[0]), VEC(director[1]);
   sw_tape_mesh_frame(t, &x->frame[0]), sw_tape_mesh_frame(t, &x->frame[1]);
   tape_give(t, &x->give[0]), tape_give(t, &x->give[1]);
-  QUAT(turn), VEC(force), VEC(moment), POSE(last_pose);
+  QUAT(turn), VEC(force), VEC(moment), VEC(end_force), VEC(end_moment), POSE(last_pose);
   SW_TAPE_STRUCT(t, sw_hold_watch, 56);
   INT(watch.looking), INT(watch.crashing), DOUBLE(watch.looked), DOUBLE(watch.given);
   DOUBLE(watch.crash.time), DOUBLE(watch.crash.depth), SIZE(watch.crash.obstacle);
@@ -195,12 +195,13 @@ void sw_tape_force(sw_tape *t, sw_scene_force *x) {
 
 void sw_tape_join(sw_tape *t, sw_joint *x) {
   int broken = x->fate[SW_TIE_BROKEN] > 0;
-  SW_TAPE_STRUCT(t, sw_joint, 800);
+  SW_TAPE_STRUCT(t, sw_joint, 1000);
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
   DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is found when it is built */
   if (sw_tape_reads(t)) x->cls = sw_joint_class(x->slack);
   sw_tape_int(t, &broken);
   x->fate[SW_TIE_BROKEN] = broken;
+  INT(evened);
   DOUBLE(fate[SW_TIE_BROKEN_TIME]), DOUBLE(fate[SW_TIE_BROKEN_FORCE]), DOUBLE(fate[SW_TIE_PEAK]);
   sw_tape_expect(t, x->count >= 2 && x->count <= SW_JOIN_ENDS, "a join");
   for (size_t k = 0; k < x->count && sw_tape_good(t); k++) {
@@ -208,6 +209,7 @@ void sw_tape_join(sw_tape *t, sw_joint *x) {
     sw_tape_size(t, &e->wire);
     sw_tape_double(t, &e->s), sw_tape_double(t, &e->asked), sw_tape_double(t, &e->scale);
     sw_tape_vec(t, &e->offset), sw_tape_vec(t, &e->rest);
+    sw_tape_vec(t, &x->bears[k]);
   }
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/status.h"
 #include "base/vec.h"
+#include "state/first_stage.h"
 #include "state/plan.h"
 
 /* Parts that an evaluation must compute. */
@@ -34,6 +35,7 @@ typedef struct sw_field {
   int statics;           /* stored tension may be negative in the stiffness */
   const double *x;       /* (n x 3) node positions [m] */
   const double *v;       /* (n x 3) node velocities [m/s] */
+  sw_first_stage first;  /* at a commit, of its nodes */
   const double *tension; /* (m) stored axial force of the mixed Newton, or NULL [N] */
   const double *gravity; /* (3) [m/s2] */
 

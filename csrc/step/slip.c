@@ -95,7 +95,7 @@ static int stops(sw_slip *f, double h) {
 static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int first) {
   const sw_plan *p = sw_scene_system(s)->bodies[h->wire].plan;
   const double *x = sw_scene_course(s)->stepper.trial_x;
-  const double drive = sw_hold_way_of(s, h, sw_scene_time(s), x).force;
+  const double drive = sw_hold_way_of(s, h, sw_scene_time(s), x).obeys;
   const double L = p->length;
   const double weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
   if (!isfinite(f->push) && f->way == 0) {

@@ -55,9 +55,9 @@ static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   const sw_worker *from = &sw_scene_books(s)->holds[k];
   const sw_hold_way now = sw_hold_way_of(s, h, t1, sw_scene_system(s)->x);
   const double length = now.way - from->fed, more = brought(s, k, length);
-  const bounds b = work_between(from->drive * length, now.force * length, changed);
+  const bounds b = work_between(from->drive * length, now.stage * length, changed);
   sw_step_energy *step = &sw_scene_books(s)->step;
-  step->slipping += fabs(0.5 * (from->drive + now.force) * (now.slipped - from->slipped));
+  step->slipping += fabs(0.5 * (from->drive + now.stage) * (now.slipped - from->slipped));
   step->feeds += b.mean + more;
   return b.most + more;
 }
@@ -169,7 +169,7 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
   sw_system *system = sw_scene_system(s);
   const sw_hold *h = sw_scene_held_by(s, k);
   sw_worker *w = &sw_scene_books(s)->holds[k];
-  *w = (sw_worker){system->hold_states[k].pose, h->force, h->moment, 0, 0, 0};
+  *w = (sw_worker){system->hold_states[k].pose, h->end_force, h->end_moment, 0, 0, 0};
   if (!logged) sw_system_reaction(system, (int)k, w->pose.p, &w->force, &w->moment);
   if (h->cls->hold->rail) {
     sw_rail rail;
@@ -179,7 +179,7 @@ static void note_hold(sw_scene *s, size_t k, int logged) {
   }
   if (!sw_hold_passes(h)) return;
   const sw_hold_way now = sw_hold_way_of(s, h, sw_scene_time(s), logged ? NULL : system->x);
-  w->fed = now.way, w->drive = now.force, w->slipped = now.slipped;
+  w->fed = now.way, w->drive = now.stage, w->slipped = now.slipped;
 }
 
 sw_status sw_ledger_note_workers(sw_scene *s, int logged) {

@@ -34,11 +34,27 @@ void sw_system_sum_pull(const sw_system *system, const double *tension, const do
 void sw_system_add_pull(const sw_system *system, const double *tension, const double *rate,
                         double share, double *sum);
 
+/* Where between both stages' axial forces of a step those are that hold: their share of the last
+ * stage's, NAN where these hold as they are, and how long before the step's end [-], [s]. */
+typedef struct sw_between {
+  double share, behind;
+  double first; /* time of the first stage, of the step [-] */
+} sw_between;
+
+/* Force and moment about point that hold k puts on its wire with nodes at x, of the last stage or
+ * the state it became: sw_system_reaction, but with the axial forces that are read out [N], [N m].
+ */
+void sw_system_bears(const sw_system *system, int hold, const double *x, sw_vec point,
+                     sw_vec *force, sw_vec *moment);
 /* Read-outs of the state, after a step h, are between the first stage's forces (edges) and those
- * of the state now, with this share of the latter, which is how it was `behind` ago, and go on
- * from there as they changed in the last step, if that was evened out too [s], [N], [-], [s]. */
-void sw_system_even_out(sw_system *system, double h, const double *first, double share,
-                        double behind);
+ * of the state now, and go on from there as they changed in the last step, if that was evened out
+ * too [s], [N]. */
+void sw_system_even_out(sw_system *system, double h, const double *first, sw_between at);
+/* The same at the end of a trial step, before it becomes the state: what the last stage's forces,
+ * with these rates of dashpots or NULL, are beyond those that would be read out; until the next
+ * stage. */
+void sw_system_find_excess(sw_system *system, double h, const double *first, const double *first_x,
+                           const double *rate, sw_between at);
 
 /* Room in the state for them, after the last term. SW_ENOMEM. */
 sw_status sw_system_add_even(sw_system *system);

@@ -40,16 +40,35 @@ void sw_system_add_pull(const sw_system *s, const double *tension, const double 
   }
 }
 
-void sw_system_even_out(sw_system *s, double h, const double *first, double share, double behind) {
-  const double apart = h - behind + s->turning[SW_TURN_BEHIND];
-  const double on = s->turning[SW_TURN_EVEN] > 0 && apart > 0 ? behind / apart : 0.0;
+/* Axial forces between those of both stages, as they were `behind` ago, and from there on. */
+typedef struct evened {
+  double between, now;
+} evened;
+
+static evened even_of(const sw_system *s, size_t e, double h, sw_between at, double first,
+                      double last) {
+  const double apart = h - at.behind + s->turning[SW_TURN_BEHIND];
+  const double on = s->turning[SW_TURN_EVEN] > 0 && apart > 0 ? at.behind / apart : 0.0;
+  const double between = first + at.share * (last - first), most = SMOOTH * fabs(between);
+  const double more = on * (between - s->between[e]);
+  return (evened){between, between + fmin(fmax(more, -most), most)};
+}
+
+void sw_system_find_excess(sw_system *s, double h, const double *first, const double *first_x,
+                           const double *rate, sw_between at) {
+  sw_system_sum_pull(s, s->tension, rate, s->excess);
+  for (size_t e = 0; e < s->edges; e++)
+    s->excess[e] -= even_of(s, e, h, at, first[e], s->excess[e]).now;
+  s->first = (sw_first_stage){first_x, at.share, at.first};
+}
+
+void sw_system_even_out(sw_system *s, double h, const double *first, sw_between at) {
   sw_system_sum_pull(s, s->tension, s->strain_rate, s->even);
   for (size_t e = 0; e < s->edges; e++) {
-    const double now = first[e] + share * (s->even[e] - first[e]), most = SMOOTH * fabs(now);
-    s->even[e] = now + fmin(fmax(on * (now - s->between[e]), -most), most);
-    s->between[e] = now;
+    const evened x = even_of(s, e, h, at, first[e], s->even[e]);
+    s->even[e] = x.now, s->between[e] = x.between;
   }
-  s->turning[SW_TURN_EVEN] = 1, s->turning[SW_TURN_BEHIND] = behind;
+  s->turning[SW_TURN_EVEN] = 1, s->turning[SW_TURN_BEHIND] = at.behind;
 }
 
 void sw_system_uneven(sw_system *s) { s->turning[SW_TURN_EVEN] = 0; }
@@ -66,4 +85,64 @@ const double *sw_system_pull(const sw_system *s, const sw_body *body) {
 const double *sw_system_elastic(const sw_system *s, const sw_body *body) {
   if (s->turning[SW_TURN_EVEN] > 0 && !(body->axial_time > 0)) return s->even + body->first_edge;
   return s->tension + body->first_edge;
+}
+
+/* Force at a node along a link to another one [N]. */
+static sw_vec along(const double *x, size_t node, size_t other, double pull) {
+  const sw_vec d = sw_sub(sw_vec_at(x, other), sw_vec_at(x, node));
+  const double l = sw_norm(d);
+  return l > 0 ? sw_scale(d, pull / l) : sw_v(0, 0, 0);
+}
+
+static void add_at(sw_hold_load *load, sw_vec force, sw_vec at, sw_vec point) {
+  load->force = sw_add(load->force, force);
+  load->moment = sw_add(load->moment, sw_cross(sw_sub(at, point), force));
+}
+
+/* The hold of a held particle. */
+static int hold_of(const sw_system *s, const sw_body *b, size_t node) {
+  for (size_t k = b->held; k; k = s->held[k - 1].next)
+    if (s->held[k - 1].node == node) return s->held[k - 1].hold;
+  return -1;
+}
+
+/* What the springs of a mesh pull held particles with beyond what is read out. */
+static void add_excess_of_web(const sw_system *s, const sw_body *b, const double *x, int hold,
+                              sw_vec point, sw_hold_load *out) {
+  const sw_plan *p = b->plan;
+  const double *excess = s->excess + b->first_edge;
+  for (size_t e = 0; e < p->web->links; e++) {
+    const size_t ends[2] = {p->web->link[e].a, p->web->link[e].b};
+    for (int i = 0; i < 2; i++) {
+      const size_t node = b->first_node + ends[i], other = b->first_node + ends[1 - i];
+      if (p->held[ends[i]] == SW_FREE || hold_of(s, b, node) != hold) continue;
+      add_at(out, along(x, node, other, excess[e]), sw_vec_at(x, node), point);
+    }
+  }
+}
+
+static void add_excess_of_line(const sw_system *s, const sw_held_node *h, const double *x,
+                               sw_vec point, sw_hold_load *out) {
+  const sw_body *b = &s->bodies[h->body];
+  const double *excess = s->excess + b->first_edge;
+  const size_t i = h->node - b->first_node;
+  const sw_vec at = sw_vec_at(x, h->node);
+  if (i > 0) add_at(out, along(x, h->node, h->node - 1, excess[i - 1]), at, point);
+  if (i < b->plan->edges) add_at(out, along(x, h->node, h->node + 1, excess[i]), at, point);
+}
+
+void sw_system_bears(const sw_system *s, int hold, const double *x, sw_vec point, sw_vec *force,
+                     sw_vec *moment) {
+  sw_system_reaction(s, hold, point, force, moment);
+  if (!s->first.x || s->loads_kept) return;
+  sw_hold_load more = {.force = {0, 0, 0}};
+  SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
+    if (h->hold != hold || s->bodies[h->body].plan->web) continue;
+    add_excess_of_line(s, h, x, point, &more);
+  }
+  SW_ITEMS(const sw_body, b, s->bodies, s->body_count) {
+    if (b->plan->web && b->held) add_excess_of_web(s, b, x, hold, point, &more);
+  }
+  *force = sw_add(*force, more.force);
+  *moment = sw_add(*moment, more.moment);
 }

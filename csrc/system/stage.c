@@ -342,7 +342,7 @@ static sw_status solve(sw_system *s, const sw_stage *stage, const sw_newton *new
 sw_status sw_system_stage(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                           sw_stage_report *report, sw_error *err) {
   *report = (sw_stage_report){0};
-  s->loads_kept = 0;
+  s->loads_kept = 0, s->first.x = NULL;
   if (stage->strain_past) sw_strain_begin_stage(s, stage);
   const sw_status status = solve(s, stage, newton, report, err);
   sw_strain_end_stage(s);

@@ -77,7 +77,7 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
       SW_ROOM(s->held, held), SW_ROOM(s->directors, 27 * hold_count),
       SW_ROOM(s->hold_states, hold_count), SW_ROOM(s->loads, hold_count),
       SW_ROOM(s->state, s->state_size),
-      {&s->work, 3 * s->freedoms + kept + s->edges + s->follow_size, sizeof *s->yhat}));
+      {&s->work, 3 * s->freedoms + kept + 2 * s->edges + s->follow_size, sizeof *s->yhat}));
   s->directors_now = s->directors + 6 * hold_count;
   s->normals = s->directors + 12 * hold_count;
   s->normals_now = s->directors + 18 * hold_count;
@@ -88,7 +88,8 @@ static sw_status new_arrays(sw_system *s, size_t hold_count) {
   s->velocity = s->delta + s->freedoms;
   s->factor_at = s->velocity + s->freedoms;
   s->tension_new = s->factor_at + kept;
-  s->aside = s->tension_new + s->edges;
+  s->excess = s->tension_new + s->edges;
+  s->aside = s->excess + s->edges;
   return SW_OK;
 }
 
@@ -147,10 +148,14 @@ sw_status sw_system_add_histories(sw_system *s) {
 
 void sw_system_commit(sw_system *s, double time) {
   for (size_t b = 0; b < s->body_count; b++) {
-    s->bodies[b].field.time = time;
+    sw_field *f = &s->bodies[b].field;
+    f->time = time;
+    f->first = s->first;
+    if (f->first.x) f->first.x += 3 * s->bodies[b].first_node;
     SW_ITEMS(const sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {
-      if (term->cls->commit) term->cls->commit(term->args, &s->bodies[b].field, term->history);
+      if (term->cls->commit) term->cls->commit(term->args, f, term->history);
     }
+    f->first.x = NULL;
   }
 }
 
@@ -203,7 +208,7 @@ static int is_kinked(const sw_body *b) {
 
 void sw_system_begin_step(sw_system *s) {
   s->fastest_turn = 0;
-  s->loads_kept = 0;
+  s->loads_kept = 0, s->first.x = NULL;
   s->factor_hbar = 0;
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].is_kinked = is_kinked(&s->bodies[b]);
   for (size_t b = 0; b < s->body_count; b++) s->bodies[b].web_factored = s->bodies[b].web_slow = 0;

@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "state/first_stage.h"
 #include "system/body.h"
 #include "system/coupling.h"
 
@@ -75,7 +76,9 @@ struct sw_system {
   /* (edges) axial forces as read out, where they are not those of the state, and between stages,
    * before they go on to the step's end [N] */
   double *even, *between;
-  double *turning; /* (SW_TURN_SIZE) */
+  double *excess;       /* (edges) of the last stage's axial forces over those read out, and [N] */
+  sw_first_stage first; /* with x till the next stage: they differ */
+  double *turning;      /* (SW_TURN_SIZE) */
   size_t span_count;
   size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
   double *aside;      /* (follow_size) room for them */

@@ -13,6 +13,7 @@
 #include "scene/events.h"
 #include "scene/parts.h"
 #include "scene/values.h"
+#include "system/axial.h"
 #include "system/system.h"
 #include "watch/wear.h"
 #include "watch/zone.h"
@@ -46,7 +47,8 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     const sw_vec point = h->cls->hold->rail
                              ? sw_vec_at(system->x, system->bodies[h->wire].first_node + h->node)
                              : at->pose.p;
-    sw_system_reaction(system, (int)k, point, &h->force, &h->moment);
+    sw_system_reaction(system, (int)k, point, &h->end_force, &h->end_moment);
+    sw_system_bears(system, (int)k, system->x, point, &h->force, &h->moment);
     SW_TRY(sw_hold_look_out(s, h, err));
     row[SW_LOG_TIME] = sw_scene_time(s);
     sw_vec force = h->force, moment = h->moment;
@@ -55,8 +57,10 @@ static sw_status log_holds(sw_scene *s, sw_error *err) {
     sw_store(row + SW_LOG_MOMENT, moment);
     sw_store(row + SW_LOG_POINT, point);
     row[SW_LOG_SPAN] = sw_hold_span(s, mean);
-    if (sw_hold_passes(h))
-      h->cls->hold->guide(h)->drive = sw_hold_way_of(s, h, sw_scene_time(s), system->x).force;
+    if (sw_hold_passes(h)) {
+      const sw_hold_way way = sw_hold_way_of(s, h, sw_scene_time(s), system->x);
+      h->cls->hold->guide(h)->drive = way.force, h->cls->hold->guide(h)->stage = way.stage;
+    }
     if (sw_log_add(&h->log, row, SW_LOG_SIZE) != SW_OK)
       return sw_fail(err, SW_ENOMEM, "out of memory for the series of '%s'", h->name);
   }

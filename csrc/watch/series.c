@@ -107,7 +107,8 @@ sw_status sw_watch_ties(sw_scene *s, sw_error *err) {
     if (!j->alive || !j->cls->joint->pull || !sw_scene_system(s)->joins) continue;
     sw_vec force, moment;
     const sw_link_wire w = sw_scene_link_wire(s, j->ends[0].wire);
-    j->cls->joint->force(j, &w, 0, &force, &moment);
+    j->cls->joint->force(j, &w, sw_scene_system(s)->x, 0, &force, &moment);
+    if (j->evened) force = j->bears[0];
     sw_store(row + 1, j->fate[SW_TIE_BROKEN] > 0 ? sw_v(0, 0, 0) : force);
     SW_TRY(add(s, OF_TIE, (sw_handle){(uint32_t)k, j->generation}, row, j->name, err));
   }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
 #include <math.h>
+#include <string.h>
 
+#include "body/join.h"
 #include "contact/contact.h"
 #include "link/joint.h"
 #include "scene/course.h"
@@ -11,23 +13,16 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken. A body's own
- * field may still name the places of a trial that is gone [N]. */
-static double pull_of(const sw_body *b, const sw_term *term, const double *x, double *bears) {
+/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken; of the last
+ * stage: x is where that left them. A body's own field may still name the places of a trial that is
+ * gone [N]. */
+static double pull_of(const sw_system *s, const sw_body *b, const sw_term *term, const double *x,
+                      int last, double *bears) {
   sw_field at = b->field;
   at.x = x + 3 * b->first_node;
+  at.first = s->first;
+  at.first.x = last && s->first.x ? s->first.x + 3 * b->first_node : NULL;
   return term->cls->pull(term->args, &at, term->history, bears);
-}
-
-static sw_status check_terms(const sw_body *b, const double *x, sw_error *err) {
-  SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
-    if (!term->cls->pull) continue;
-    double bears;
-    const double pull = pull_of(b, term, x, &bears);
-    if (bears > 0 && sw_tie_breaks_early(pull, bears))
-      return sw_fail(err, SW_ENOCONV, "a tie breaks within the step");
-  }
-  return SW_OK;
 }
 
 static int breakable(const sw_scene *s, size_t joint) {
@@ -37,6 +32,47 @@ static int breakable(const sw_scene *s, size_t joint) {
 static double pull_of_joint(const sw_scene *s, size_t joint, const double *x, double *bears) {
   return sw_scene_join_in(s, joint)->cls->joint->pull(sw_scene_join_in(s, joint),
                                                       sw_scene_system(s), x, bears);
+}
+
+/* The same of the last stage, of methods that find pulls that only hold against turning too large
+ * or too small (integrate/turning.h). */
+static double pull_now(const sw_scene *s, size_t joint, const double *x, double *bears) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_vec now = {pull_of_joint(s, joint, x, bears), 0, 0};
+  if (!system->first.x) return now.x;
+  const sw_vec first = {pull_of_joint(s, joint, system->first.x, bears), 0, 0};
+  const sw_vec before = {sw_norm(sw_scene_join_in(s, joint)->bears[0]), 0, 0};
+  return sw_even_force(&system->first, &before, first, now).x;
+}
+
+/* What its ends bear; of a tie it is known from step to step. */
+static void keep_borne(const sw_scene *s, sw_joint *j) {
+  const sw_system *system = sw_scene_system(s);
+  const int tie = j->cls->joint->pull != NULL;
+  sw_link_wire wires[SW_JOIN_ENDS];
+  j->evened = system->first.x != NULL;
+  if (!j->evened && !tie) {
+    memset(j->bears, 0, sizeof j->bears);
+    return;
+  }
+  sw_scene_joint_wires(s, j, wires);
+  for (size_t k = 0; k < j->count; k++) {
+    sw_vec moment = {0, 0, 0}, first = moment, now = moment;
+    j->cls->joint->force(j, wires, system->x, k, &now, &moment);
+    if (j->evened) j->cls->joint->force(j, wires, system->first.x, k, &first, &moment);
+    j->bears[k] = sw_even_force(&system->first, NULL, first, now);
+  }
+}
+
+static sw_status check_terms(const sw_system *s, const sw_body *b, const double *x, sw_error *err) {
+  SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
+    if (!term->cls->pull) continue;
+    double bears;
+    const double pull = pull_of(s, b, term, x, 1, &bears);
+    if (bears > 0 && sw_tie_breaks_early(pull, bears))
+      return sw_fail(err, SW_ENOCONV, "a tie breaks within the step");
+  }
+  return SW_OK;
 }
 
 int sw_scene_may_break(const sw_scene *s) {
@@ -51,7 +87,7 @@ int sw_scene_may_break(const sw_scene *s) {
     const sw_body *body = &system->bodies[b];
     SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       bears = 0;
-      if (term->cls->pull) pull_of(body, term, system->x, &bears);
+      if (term->cls->pull) pull_of(system, body, term, system->x, 0, &bears);
       if (bears > 0 && isfinite(bears)) return 1;
     }
   }
@@ -63,13 +99,13 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
   for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
     double bears;
     if (!breakable(s, k)) continue;
-    const double pull = pull_of_joint(s, k, x, &bears);
+    const double pull = pull_now(s, k, x, &bears);
     if (bears > 0 && sw_tie_breaks_early(pull, bears))
       return sw_fail(err, SW_ENOCONV, "tie '%s' breaks within the step",
                      sw_scene_join_in(s, k)->name);
   }
   for (size_t b = 0; sw_scene_force_slots(s) && b < system->body_count; b++)
-    SW_TRY(check_terms(&system->bodies[b], x, err));
+    SW_TRY(check_terms(system, &system->bodies[b], x, err));
   return SW_OK;
 }
 
@@ -105,8 +141,8 @@ static int snap_at(const sw_scene *s, const double *x, sw_snap *snap) {
     const sw_plan *const plans[SW_JOIN_ENDS] = {body->plan};
     SW_ITEMS(const sw_term, term, body->terms, body->term_count) {
       if (!term->cls->pull) continue;
-      const double before = pull_of(body, term, system->x, &bears);
-      any |= note_snap(s, before, pull_of(body, term, x, &bears), plans, snap);
+      const double before = pull_of(system, body, term, system->x, 0, &bears);
+      any |= note_snap(s, before, pull_of(system, body, term, x, 0, &bears), plans, snap);
     }
   }
   return any;
@@ -128,7 +164,7 @@ static void tell_of_terms(sw_scene *s, size_t body) {
   SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
     double bears;
     if (!term->cls->pull) continue;
-    const double pull = pull_of(b, term, system->x, &bears);
+    const double pull = pull_of(system, b, term, system->x, 1, &bears);
     if (!(bears > 0 && pull > bears)) continue;
     sw_course_jump(sw_scene_course(s)); /* its force is gone, the state's accelerations have it */
     sw_scene_tell(s, "tie", sw_scene_wire_in(s, body)->name, NAN, pull,
@@ -143,10 +179,13 @@ void sw_scene_watch_ties(sw_scene *s) {
   for (size_t k = 0; k < sw_scene_join_slots(s); k++) {
     sw_joint *j = sw_scene_join_in(s, k);
     double bears;
+    const double pull = breakable(s, k) ? pull_now(s, k, system->x, &bears) : 0.0;
+    if (j->alive) keep_borne(s, j);
     if (!breakable(s, k)) continue;
-    const double pull = pull_of_joint(s, k, system->x, &bears);
     if (!sw_tie_suffers(pull, bears, sw_scene_time(s), j->fate)) continue;
     j->cls->joint->breaks(j, system);
+    memset(j->bears, 0, sizeof j->bears);
+    memset(j->bears, 0, sizeof j->bears);
     sw_course_jump(sw_scene_course(s));
     sw_scene_renumber(s);
     sw_scene_tell(s, "tie", j->name, NAN, pull, "tie '%s' breaks at %.4g N; it bears %.4g N",
