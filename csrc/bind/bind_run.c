@@ -23,12 +23,13 @@ static int mod_begin_run(lua_State *L) {
   return 0;
 }
 
-/* core.window(scene or obstacle) -> that of the scene's last run [s]. */
+/* core.window(scene, obstacle or clamp) -> that of the scene's last run [s]. */
 static int mod_window(lua_State *L) {
-  const int obstacle = lsw_test(L, 1, &lsw_class_obstacle) != NULL;
-  const sw_scene *scene =
-      obstacle ? lsw_check_self(L, &lsw_class_obstacle).scene : lsw_check_scene(L);
-  lua_pushnumber(L, sw_scene_window(scene));
+  const lsw_class *const classes[] = {&lsw_class_obstacle, &lsw_class_clamp};
+  const sw_scene *scene = NULL;
+  for (size_t k = 0; !scene && k < sizeof classes / sizeof *classes; k++)
+    if (lsw_test(L, 1, classes[k])) scene = lsw_check_self(L, classes[k]).scene;
+  lua_pushnumber(L, sw_scene_window(scene ? scene : lsw_check_scene(L)));
   return 1;
 }
 

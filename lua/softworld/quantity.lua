@@ -45,6 +45,11 @@ quantity.known = {
   hold = {
     force = { unit = "N", of = function(h) return h:force() end },
     moment = { unit = "N m", of = function(h) return h:moment() end },
+    peak_force = { unit = "N", plain = true, named = true, of = over_at "peak_force" },
+    mean_force = { unit = "N", named = true, of = over "mean_force" },
+    peak_moment = { unit = "N m", plain = true, named = true, of = over_at "peak_moment" },
+    mean_moment = { unit = "N m", named = true, of = over "mean_moment" },
+    impulse = { unit = "N s", named = true, of = over "impulse" },
   },
   gripper = {
     force = { unit = "N", of = function(g) return g:force() end },

@@ -6,6 +6,7 @@ local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
 local rows = require "softworld.rows"
 local vec = require "softworld.vec"
+local loads = require "softworld.run.loads"
 local window = require "softworld.run.window"
 
 local Measures = {}
@@ -128,8 +129,6 @@ local function records(self)
   return list
 end
 
-local function norm(r, first) return (r[first] ^ 2 + r[first + 1] ^ 2 + r[first + 2] ^ 2) ^ 0.5 end
-
 -- Did a gripper without pads hold nothing at this time?
 local function is_gap(self, t)
   if self.tool then return false end
@@ -137,12 +136,6 @@ local function is_gap(self, t)
     if t >= span.from and (not span.to or t <= span.to) then return false end
   end
   return true
-end
-
--- Moment of a row about a fixed point.
-local function moment_about(r, at)
-  if not at then return { r[4], r[5], r[6] } end
-  return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
 end
 
 local over = rows.call("gripper:over", "t1, t2, {...}",
@@ -163,34 +156,6 @@ local function over_options(options)
   return over:read(options)
 end
 
--- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
--- trapezoids; of the step after a mean, whose start is not known, the end counts for all of it.
-local function add_up(self, m, list, t1, t2)
-  local force_time, moment_time, before = 0, 0, nil
-  local function add(h, r)
-    m.duration = m.duration + h
-    force_time, moment_time = force_time + h * norm(r, 1), moment_time + h * vec.norm(r.moment)
-    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * r[k] end
-  end
-  for _, r in ipairs(list) do
-    if r.span > 0 then
-      local h = math.min(r.t, t2) - math.max(r.t - r.span, t1)
-      if h > 0 then add(h, r) end
-      before = r.t >= t1 and r.t <= t2 and r or nil
-    elseif r.t >= t1 and r.t <= t2 then
-      if before and not is_gap(self, 0.5 * (before.t + r.t)) then
-        local share = before.span > 0 and 0 or 0.5
-        add(share * (r.t - before.t), before)
-        add((1 - share) * (r.t - before.t), r)
-      end
-      before = r
-    end
-  end
-  m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
-  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
-  m.impulse_size = vec.norm(m.impulse)
-end
-
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
 -- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
 -- peaks. Means are over the time in which it holds something, of the magnitudes. Peaks are of means
@@ -207,30 +172,21 @@ function Measures:over(t1, t2, options)
     end
   end
   local width = window.of(self.scene, options.window, "gripper:over", 3)
-  local m = { impulse = { 0, 0, 0 }, duration = 0, window = width }
-  local list, forces, moments, margins, last = records(self), {}, {}, {}, -math.huge
-  for _, r in ipairs(list) do
-    r.moment = moment_about(r, options.at)
-    if r.t >= t1 and r.t <= t2 then
-      local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
-      forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
-      moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }
-      last = r.t
-      if r.squeeze then
-        m.peak_squeeze = math.max(m.peak_squeeze or 0, r.squeeze)
-        local held = r.margin == r.margin
-        margins[#margins + 1] = { t0 = t0, t1 = r.t, held and r.margin or 0, 0, 0 }
-        margins.held, m.slip = margins.held or held, r.slip
-      end
-    end
-  end
-  window.fill(m, "peak_force", window.peak(forces, width), "N")
-  window.fill(m, "peak_moment", window.peak(moments, width), "N m")
+  local margins, squeeze, slip = {}, nil, nil
+  local m = loads.over(records(self), { t1 = t1, t2 = t2, width = width, at = options.at,
+    is_gap = function(t) return is_gap(self, t) end,
+    each = function(r, t0)
+      if not r.squeeze then return end
+      local held = r.margin == r.margin
+      squeeze, slip = math.max(squeeze or 0, r.squeeze), r.slip
+      margins[#margins + 1] = { t0 = t0, t1 = r.t, held and r.margin or 0, 0, 0 }
+      margins.held = margins.held or held
+    end })
+  m.peak_squeeze, m.slip = squeeze, slip
   if margins.held then
     local p = window.largest(margins, width)
     m.peak_margin, m.peak_margin_time, m.raw_peak_margin = p.value, p.time, p.raw
   end
-  add_up(self, m, list, t1, t2)
   return m
 end
 

@@ -1,0 +1,105 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+--- Loads of what holds wires between two times, from forces and moments of single steps: of holds, and of
+-- grippers. See help "peaks".
+-- @module softworld.run.loads
+local core = require "softworld.core"
+local build = require "softworld.scene.build"
+local checks = require "softworld.checks"
+local rows = require "softworld.rows"
+local vec = require "softworld.vec"
+local window = require "softworld.run.window"
+
+local loads = {}
+
+local WIDTH = 10 -- numbers in a row of a hold's log
+
+--- What hold:log gave as a list of { t =, span =, fx, fy, fz, mx, my, mz, at = point } [s], [N], [N m],
+-- [m]. span: above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end
+-- it is the force, 0 at an equilibrium.
+function loads.list(log, count, spans)
+  local list = {}
+  for i = 0, count - 1 do
+    local b = WIDTH * i
+    list[i + 1] = { t = log[b + 1], span = spans[i + 1], table.unpack(log, b + 2, b + 7) }
+    list[i + 1].at = { log[b + 8], log[b + 9], log[b + 10] }
+  end
+  return list
+end
+
+-- Moment of a row about a fixed point.
+local function moment_about(r, at)
+  if not at then return { r[4], r[5], r[6] } end
+  return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
+end
+
+-- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
+-- trapezoids; of the step after a mean, whose start is not known, the end counts for all of it.
+local function add_up(m, list, o)
+  local force_time, moment_time, before = 0, 0, nil
+  local function add(h, r)
+    m.duration = m.duration + h
+    force_time, moment_time = force_time + h * (r[1] ^ 2 + r[2] ^ 2 + r[3] ^ 2) ^ 0.5,
+      moment_time + h * vec.norm(r.moment)
+    for k = 1, 3 do m.impulse[k] = m.impulse[k] + h * r[k] end
+  end
+  for _, r in ipairs(list) do
+    if r.span > 0 then
+      local h = math.min(r.t, o.t2) - math.max(r.t - r.span, o.t1)
+      if h > 0 then add(h, r) end
+      before = r.t >= o.t1 and r.t <= o.t2 and r or nil
+    elseif r.t >= o.t1 and r.t <= o.t2 then
+      if before and not (o.is_gap and o.is_gap(0.5 * (before.t + r.t))) then
+        local share = before.span > 0 and 0 or 0.5
+        add(share * (r.t - before.t), before)
+        add((1 - share) * (r.t - before.t), r)
+      end
+      before = r
+    end
+  end
+  m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
+  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  m.impulse_size = vec.norm(m.impulse)
+end
+
+--- Measures of such a list. o: t1, t2 [s]; width of the window [s]; at, a point that moments are about, or
+-- nil; is_gap(t): did it hold nothing then? each(r, t0): called of each row in between, which is of the
+-- time from t0 on [s].
+-- @treturn table of gripper:over, without what pads have
+function loads.over(list, o)
+  local m = { impulse = { 0, 0, 0 }, duration = 0, window = o.width }
+  local forces, moments, last = {}, {}, -math.huge
+  for _, r in ipairs(list) do
+    r.moment = moment_about(r, o.at)
+    if r.t >= o.t1 and r.t <= o.t2 then
+      local t0 = math.max(r.t - math.abs(r.span), math.min(last, r.t))
+      forces[#forces + 1] = { t0 = t0, t1 = r.t, r[1], r[2], r[3] }
+      moments[#moments + 1] = { t0 = t0, t1 = r.t, table.unpack(r.moment) }
+      last = r.t
+      if o.each then o.each(r, t0) end
+    end
+  end
+  window.fill(m, "peak_force", window.peak(forces, o.width), "N")
+  window.fill(m, "peak_moment", window.peak(moments, o.width), "N m")
+  add_up(m, list, o)
+  return m
+end
+
+local over = rows.call("clamp:over", "t1, t2, {...}",
+  "its loads between two times [s], which may be left out", {
+  gives = "peak_force, mean_force [N], peak_moment, mean_moment [N m], impulse, impulse_size [N s], "
+    .. "duration, times of the peaks [s]; raw_peak_force, ... of single steps; see help 'peaks'",
+  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
+  { "at", "vector", "m", "point that moments are about", usual = "where it holds, at that time" },
+})
+
+--- The same of a clamp, pin, grip, feed or slider; also after its release.
+function core.class.clamp.over(hold, t1, t2, options)
+  if core.type(hold) ~= "clamp" then error("clamp:over is a method: call it with a colon", 2) end
+  options = options == nil and {} or over:read(options)
+  return loads.over(loads.list(build.call(3, hold.log, hold)), {
+    t1 = t1 == nil and -math.huge or checks.number("clamp:over: t1", t1, -math.huge, " s", 3),
+    t2 = t2 == nil and math.huge or checks.number("clamp:over: t2", t2, -math.huge, " s", 3),
+    width = window.of(hold, options.window, "clamp:over", 3), at = options.at })
+end
+
+return loads
