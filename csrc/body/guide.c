@@ -350,7 +350,6 @@ static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted
 }
 
 sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) {
-  sw_kept_contact *kept = sw_scene_kept(s);
   sw_system *system = sw_scene_system(s);
   *changed = 0;
   SW_TRY(tend_all(s, t, NULL, changed, err));
@@ -364,8 +363,6 @@ sw_status sw_feed_make_room(sw_scene *s, double t, int *changed, sw_error *err) 
     axes[2 * k + 1] = sw_vec_at(system->normals_now, 2 * k + 1);
   }
   sw_status status = sw_scene_unbuild(s);
-  /* a shift may have put nodes a little way into what they touch: let out slowly, not thrown */
-  if (status == SW_OK && !kept->fresh) kept->fresh = SW_CONTACT_EMERGING;
   if (status == SW_OK) status = tend_all(s, t, axes, changed, err);
   if (status == SW_ENOMEM) return sw_fail(err, status, "feed: out of memory");
   if (status != SW_OK) return status;
