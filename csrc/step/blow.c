@@ -42,10 +42,11 @@ void sw_blow_refused(sw_scene *s, double part) {
   course->blow_until = fmin(course->blow_until, course->blow_since + LONGEST_BLOW);
 }
 
-/* Nodes that go into a guide press on what is beside it by no blow, and jump from step to step. */
-static int any_feed(const sw_scene *s) {
+/* A drive that obeys a force gives way to a blow, at a speed that is found for steps in which it hardly
+ * changes; in shorter ones it is not. */
+static int any_gives_way(const sw_scene *s) {
   SW_EACH(hold, h, s)
-    if (h->alive && sw_hold_passes(h)) return 1;
+    if (h->alive && h->cls->hold->slips && h->cls->hold->slips(h)) return 1;
   return 0;
 }
 
@@ -90,7 +91,7 @@ int sw_blow_begins(sw_scene *s, double h) {
   sw_course *course = sw_scene_course(s);
   const int followed = sw_scene_time(s) < course->blow_until;
   if (sw_scene_wire_slots(s) > MOST_WIRES || sw_coarse_is_bundle(s) || sw_scene_grains(s) ||
-      (!followed && !(h > 1.01 * SHORTEST_PART)) || any_feed(s))
+      (!followed && !(h > 1.01 * SHORTEST_PART)) || any_gives_way(s))
     return 0;
   const double jolt = jolt_of(s, followed);
   if (!(jolt > 0)) return 0;
