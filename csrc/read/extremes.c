@@ -195,38 +195,17 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
-/* Was the step that led here one that smears blows? */
-static int is_coarse(const sw_scene *s) {
-  return sw_scene_course(s)->span >= (1 - 1e-9) * SW_WINDOW;
-}
-
-/* A step has a jerk if an axial force at its end is off the mean over it by so much of the larger
- * of both: in one that begins from rest a force that grows evenly is off by half, one of a blow by
- * more; in smooth motion they differ by some hundredths [-]. */
-static const double JERK = 0.25;
-
-static int is_jerked(const sw_body *b, const double *mean, const double *end) {
-  double off = 0, size = 0;
-  for (size_t e = 0; e < sw_plan_axial(b->plan); e++) {
-    off = fmax(off, fabs(mean[e] - end[e]));
-    size = fmax(size, fmax(fabs(mean[e]), fabs(end[e])));
-  }
-  return off > JERK * size;
-}
-
-/* A coarse step, and one with a jerk, counts with its mean over time, where the method tells it:
- * the force at its end says nothing of an impulse. That of a feed that stops was up to three times
- * too large at all steps, for it grows as these get shorter. */
-static const double *mean_tension(const sw_scene *s, const sw_body *b) {
+/* A step counts with its mean over time, where the method tells it: the axial force at its end is
+ * as good for a steady pull, but says nothing of an impulse. Where a feed stops at once it was up
+ * to three times too large at all steps, for it grows as these get shorter. */
+static const double *mean_tension(const sw_scene *s) {
   sw_course *course = sw_scene_course(s);
-  if (!(course->span > 0) || !course->stepper.mean) return NULL;
-  const double *mean = course->stepper.mean + b->first_edge;
-  return is_coarse(s) || is_jerked(b, mean, sw_system_pull(sw_scene_system(s), b)) ? mean : NULL;
+  return course->span > 0 ? course->stepper.mean : NULL;
 }
 
 const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
-  const double *mean = mean_tension(s, b);
-  return mean ? mean : sw_system_pull(sw_scene_system(s), b);
+  const double *mean = mean_tension(s);
+  return mean ? mean + b->first_edge : sw_system_pull(sw_scene_system(s), b);
 }
 
 /* NULL: of a mesh, or at rest, there are only those of the state. */
@@ -267,11 +246,10 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &sw_scene_wire_in(s, w)->window;
-  const sw_body *b = &sw_scene_system(s)->bodies[w];
-  const int counted = isfinite(run->raw.value) && mean_tension(s, b) != NULL;
+  const int counted = isfinite(run->raw.value) && mean_tension(s);
   if (!counted && now->tension.value > run->raw.value)
     run->raw = now->tension, run->raw_span = sw_scene_course(s)->span;
-  const int fits = window->marks && window->edges == watched_edges(b);
+  const int fits = window->marks && window->edges == watched_edges(&sw_scene_system(s)->bodies[w]);
   const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
   if (!fits && (missing || !counted))
     keep_largest(&run->tension, &now->tension);

@@ -89,7 +89,7 @@ describe("a cable between pads", function()
   for name, build in pairs(ways) do
     for _, cable in ipairs{ "GXL 1.5", "FLRY-B 0.5", "H07V-K 10" } do
       it(("%s, %s, is the same at all steps"):format(cable, name), function()
-        local fine = outcome(build, cable, { dt = 5e-4 })
+        local fine = outcome(build, cable, { dt = 2e-4 })
         for _, options in ipairs{ { dt = 0.02 }, { dt = 0.01 }, { dt = 0.005 }, { tolerance = 1e-4 } } do
           local at, got = options.dt and options.dt .. " s" or "tolerance", outcome(build, cable, options)
           for _, key in ipairs{ "tension", "bend", "force", "moment", "met" } do

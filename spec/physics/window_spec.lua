@@ -172,33 +172,41 @@ local function rod(scene, radius, to, segments)
 end
 
 describe("the largest tension", function()
+  -- By hand: of the forces at the ends of steps by trapezoids, which are 1/12 dt^2 T'' off the mean over a
+  -- step: 6e-5 of the largest one here at 1 ms and six times that at 2.5 ms.
   it("is the largest mean of any edge, as by hand", function()
-    for _, dt in ipairs{ 1e-3, 2.5e-3 } do
+    for dt, allowed in pairs{ [1e-3] = 2e-4, [2.5e-3] = 1.2e-3 } do
       local s = sw.scene{}
       local w = rod(s, 0.003, { 0.4, 0, 0 }, 8)
       s:clamp(w, { s = 0 })
       local seen, n = {}, math.floor(W / dt + 0.5)
+      local function look()
+        local row = {}
+        for e = 1, 8 do row[e] = w:tension(0.05 * (e - 0.5)) end
+        return row
+      end
       s:process(function(p)
+        seen[0] = look()
         for i = 1, math.floor(0.3 / dt + 0.5) do
           p:wait(dt)
-          seen[i] = {}
-          for e = 1, 8 do seen[i][e] = w:tension(0.05 * (e - 0.5)) end
+          seen[i] = look()
         end
       end)
       t.fine(s:run{ dt = dt })
       local best, place, raw = -math.huge, nil, -math.huge
       for i = 1, #seen do
         for e = 1, 8 do
-          raw = math.max(raw, seen[i][e])
+          local function mean(k) return 0.5 * (seen[k - 1][e] + seen[k][e]) end
+          raw = math.max(raw, mean(i))
           local sum = 0
-          for k = math.max(1, i - n + 1), i do sum = sum + seen[k][e] end
+          for k = math.max(1, i - n + 1), i do sum = sum + mean(k) end
           if i >= n and sum / n > best then best, place = sum / n, 0.05 * (e - 0.5) end
         end
       end
       local value, at = w:max_tension()
-      t.share(best, value, 1e-9, "mean")
+      t.share(best, value, allowed, "mean")
       t.near(place, at, 1e-12, "place")
-      t.share(raw, w:max_tension{ raw = true }, 1e-12, "raw")
+      t.share(raw, w:max_tension{ raw = true }, allowed, "raw")
       t.above(value * 1.005, raw, "they differ")
     end
   end)
