@@ -198,19 +198,26 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
 /* A step counts with its mean over time, where the method tells it: the axial force at its end is
  * as good for a steady pull, but says nothing of an impulse. Where a feed stops at once it was up
  * to three times too large at all steps, for it grows as these get shorter. */
-static const double *mean_tension(const sw_scene *s) {
-  sw_course *course = sw_scene_course(s);
-  return course->span > 0 ? course->stepper.mean : NULL;
+static const double *mean_tension(const sw_scene *s, const sw_body *b) {
+  const sw_course *course = sw_scene_course(s);
+  return course->span > 0 && course->stepper.mean ? course->stepper.mean + b->first_edge : NULL;
+}
+
+/* Was the step that led here one that smears blows? */
+static int is_coarse(const sw_scene *s) {
+  return sw_scene_course(s)->span >= (1 - 1e-9) * SW_WINDOW;
 }
 
 const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
-  const double *mean = mean_tension(s);
-  return mean ? mean + b->first_edge : sw_system_pull(sw_scene_system(s), b);
+  const double *mean = is_coarse(s) ? mean_tension(s, b) : NULL;
+  return mean ? mean : sw_system_pull(sw_scene_system(s), b);
 }
 
 /* NULL: of a mesh, or at rest, there are only those of the state. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
-  return b->plan->web || !(sw_scene_course(s)->span > 0) ? NULL : sw_scene_step_tension(s, b);
+  if (b->plan->web || !(sw_scene_course(s)->span > 0)) return NULL;
+  const double *mean = mean_tension(s, b);
+  return mean ? mean : sw_system_pull(sw_scene_system(s), b);
 }
 
 /* The step that led here, with these values, or NULL: those that are in the window's room. */
@@ -246,7 +253,7 @@ static void keep_tension(sw_scene *s, size_t w, const sw_wire_extremes *now) {
 void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *now,
                           sw_wire_extremes *run) {
   const sw_window *window = &sw_scene_wire_in(s, w)->window;
-  const int counted = isfinite(run->raw.value) && mean_tension(s);
+  const int counted = isfinite(run->raw.value) && mean_tension(s, &sw_scene_system(s)->bodies[w]);
   if (!counted && now->tension.value > run->raw.value)
     run->raw = now->tension, run->raw_span = sw_scene_course(s)->span;
   const int fits = window->marks && window->edges == watched_edges(&sw_scene_system(s)->bodies[w]);

@@ -20,7 +20,8 @@ void sw_scene_reset_extremes(sw_scene *scene);
 /* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
  * are. */
 int sw_scene_is_averaged(const sw_scene *scene);
-/* Axial forces of the edges of a line in that step (edges) [N]. */
+/* Axial forces of the edges of a line that wear goes by (edges): at that step's end, or of a coarse
+ * one the means over it [N]. */
 const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
 /* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
 sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
