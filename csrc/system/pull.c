@@ -5,6 +5,7 @@
 #include "base/each.h"
 #include "system/arrays.h"
 #include "system/axial.h"
+#include "system/rail.h"
 
 /* Relative changes in a step above this are blows, which do not last [-]. */
 static const double SMOOTH = 0.1;
@@ -121,14 +122,24 @@ static void add_excess_of_web(const sw_system *s, const sw_body *b, const double
   }
 }
 
+/* A node that goes along its rail bears nothing along it. */
+static sw_vec across_rail(const sw_system *s, const sw_held_node *h, sw_vec force) {
+  const sw_rail *rail = h->rail ? &s->rails[h->rail - 1] : NULL;
+  if (!rail || rail->state != SW_RAIL_GOES) return force;
+  const sw_vec along = sw_unit_or(rail->along, sw_v(0, 0, 0));
+  return sw_madd(force, along, -sw_dot(force, along));
+}
+
 static void add_excess_of_line(const sw_system *s, const sw_held_node *h, const double *x,
                                sw_vec point, sw_hold_load *out) {
   const sw_body *b = &s->bodies[h->body];
   const double *excess = s->excess + b->first_edge;
   const size_t i = h->node - b->first_node;
   const sw_vec at = sw_vec_at(x, h->node);
-  if (i > 0) add_at(out, along(x, h->node, h->node - 1, excess[i - 1]), at, point);
-  if (i < b->plan->edges) add_at(out, along(x, h->node, h->node + 1, excess[i]), at, point);
+  sw_vec pull = {0, 0, 0};
+  if (i > 0) pull = sw_add(pull, along(x, h->node, h->node - 1, excess[i - 1]));
+  if (i < b->plan->edges) pull = sw_add(pull, along(x, h->node, h->node + 1, excess[i]));
+  add_at(out, across_rail(s, h, pull), at, point);
 }
 
 void sw_system_bears(const sw_system *s, int hold, const double *x, sw_vec point, sw_vec *force,

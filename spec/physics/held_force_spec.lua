@@ -35,6 +35,20 @@ describe("what holds a cable that swings", function()
     end
   end)
 
+  it("bears nothing along a rail that it slides on", function()
+    for _, integrator in ipairs{ "tr-bdf2", "sdirk2" } do
+      local scene = sw.scene{}
+      local wire, weight = damped(scene, "GXL 1.5", { 0, 0, 0 }, { 0.2, 0, -0.2 }, 20)
+      local slider, across = scene:slider(wire, { s = 0, direction = { 1, 0, 0 } }), 0
+      for _ = 1, 10 do
+        t.fine(scene:run{ duration = 0.02, dt = 1e-3, integrator = integrator })
+        t.near(0, slider:force()[1], 1e-9, integrator .. ", along it")
+        across = math.max(across, slider:force()[3])
+      end
+      t.above(2 * weight, across, integrator .. ", across it")
+    end
+  end)
+
   -- A tie pulls along it: beside the first edge's tension its place, half an edge heavy, has its own weight
   -- and the shear of the first edges: 0.04 of the cable's weight on average. By sdirk2 it was
   -- 0.17 at a point; where another cable gives way it is half as large again as it should be.
