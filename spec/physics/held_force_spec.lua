@@ -51,7 +51,7 @@ describe("what holds a cable that swings", function()
 
   -- A tie pulls along it: beside the first edge's tension its place, half an edge heavy, has its own weight
   -- and the shear of the first edges: 0.04 of the cable's weight on average. By sdirk2 it was
-  -- 0.17 at a point; where another cable gives way it is half as large again as it should be.
+  -- 0.17 at a point. A tie that turns on another cable is wrong with it: help "peaks".
   local function hung(kind)
     local scene = sw.scene{}
     local wire, weight, link
