@@ -106,7 +106,7 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
 static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_grip_end ends[2],
                       sw_freeze_report *out, sw_error *err) {
   const sw_link_class *cls = sw_link_find("grip");
-  sw_hold_args args;
+  sw_hold_args args = {0};
   sw_params_default(&cls->params, &args);
   out->s1 = ends[0].s, out->s2 = ends[1].s;
   args.s = 0.5 * (out->s1 + out->s2);
