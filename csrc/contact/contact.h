@@ -95,6 +95,11 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
+/* What is booked so far in the step for an obstacle that is there, by the owner's number: impulse
+ * and moment of impulse of the wires on it, about a point; without those of impacts [N s], [N m s].
+ */
+void sw_contact_gained(const sw_contact *contact, int id, sw_vec about, sw_vec *force,
+                       sw_vec *moment);
 
 /* The owner's number of obstacle number k; what it remembers of an accepted step. */
 int sw_contact_id(const sw_contact *contact, size_t k);

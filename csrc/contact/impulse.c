@@ -50,6 +50,13 @@ void sw_contact_book(void *contact, const sw_booking *b) {
   if (b->own != 0) add_now(c, b->own, b->stage ? second_of : first_of);
 }
 
+void sw_contact_gained(const sw_contact *c, int id, sw_vec about, sw_vec *force, sw_vec *moment) {
+  const size_t o = sw_contact_index(c, id);
+  const sw_contact_load all = c->loads[o].stage[c->last_stage];
+  *force = all.force;
+  *moment = sw_add(all.moment, sw_cross(sw_sub(c->now[o].pivot, about), all.force));
+}
+
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse) {
   const sw_vec arm = sw_sub(point, c->start[obstacle].pivot);
   sw_contact_load *to = &c->loads[obstacle].blows;

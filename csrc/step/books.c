@@ -85,7 +85,7 @@ sw_status sw_ledger_open(sw_scene *s, sw_error *err) {
   if (b->known) return SW_OK;
   sw_energies e;
   weigh(s);
-  sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), &e);
+  sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), NULL, &e);
   b->has_powers = sw_system_has_powers(system);
   if (b->has_powers) SW_TRY(sw_system_powers(system, sw_scene_time(s), &b->powers, err));
   const double contact = sw_ledger_contact(s), now = e.kinetic + sw_ledger_potential(&e, contact);
@@ -231,7 +231,7 @@ sw_status sw_ledger_pose(sw_scene *s, int jumped, sw_error *err) {
   sw_books *b = sw_scene_books(s);
   sw_step_energy *step = &b->step;
   *step = (sw_step_energy){.steady = 1};
-  sw_system_energies(sw_scene_system(s), 0, &step->to);
+  sw_system_energies(sw_scene_system(s), 0, NULL, &step->to);
   step->to.kinetic = 0;
   step->contact = sw_ledger_contact(s);
   step->friction += sw_scene_rubbed(s);

@@ -135,7 +135,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   double most = step->obstacles;
   sw_system_look_at(system, &glance, c->stepper.trial_x, c->stepper.trial_v,
                     c->stepper.strain_rate);
-  sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), &step->to);
+  sw_committed committed = {.time = t1};
+  sw_system_energies(system, sw_course_lumps(sw_scene_course(s)), &committed, &step->to);
   step->contact = sw_ledger_contact(s);
   step->touching |= b->contact != 0 || step->contact != 0; /* ties that are taut too */
   most += sw_ledger_work(s, t1, changed);
@@ -147,7 +148,8 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (changed) step->let_out += jolt(s, step);
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
   most += step->let_out;
-  step->gain = step->to.kinetic + sw_ledger_potential(&step->to, step->contact) - before - most;
+  const double after = step->to.kinetic + sw_ledger_potential(&step->to, step->contact);
+  step->gain = after + committed.lost - before - most;
   return status;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work of holds, feeds and moving obstacles over a step: force times way and moment times turn, by
- * the trapezoid between the step's ends. */
+/* Work of holds, feeds and moving obstacles over a step: force times way and moment times turn. Of
+ * holds and obstacles by their impulse on the wire in the step, where the method tells that, as
+ * stages may be off at the step's ends; else by the trapezoid between these. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -35,6 +36,14 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
   const sw_vec turn = sw_quat_log(sw_quat_mul(to->q, sw_quat_conj(from->pose.q)));
   return work_between(sw_dot(from->force, way) + sw_dot(from->moment, turn),
                       sw_dot(force, way) + sw_dot(moment, turn), changed);
+}
+
+/* The mean by the impulses in a step of size h. */
+static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_vec force,
+                         sw_vec moment, double h) {
+  b.mean = work_of(from, to, sw_scale(force, 1.0 / h), sw_scale(moment, 1.0 / h), 1).mean;
+  b.most = fmax(b.most, b.mean);
+  return b;
 }
 
 /* Energy of the wire that a feed has let in from a spool: its speed and its height. In mid-wire it
@@ -78,6 +87,19 @@ static void rub_on_rail(sw_scene *s, size_t k) {
   if (rail->friction > 0) b->step.friction += fmax(0.0, -0.5 * (from->drive + rail->rubs) * way);
 }
 
+static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
+  sw_system *system = sw_scene_system(s);
+  const sw_pose *to = &system->hold_states[k].pose;
+  const sw_worker *from = &sw_scene_books(s)->holds[k];
+  const sw_hold_sums *sums = &sw_scene_held_by(s, k)->sums;
+  sw_vec force, moment;
+  sw_system_reaction(system, (int)k, to->p, &force, &moment);
+  /* a stage's load within the step is its mean already */
+  bounds b = work_of(from, to, force, moment, changed || system->loads_kept);
+  if (!sums->known || !(h > 0)) return b;
+  return by_impulse(b, from, to, sums->force[sums->last], sums->moment[sums->last], h);
+}
+
 static double work_of_holds(sw_scene *s, double t1, int changed) {
   sw_system *system = sw_scene_system(s);
   double most = 0;
@@ -86,11 +108,7 @@ static double work_of_holds(sw_scene *s, double t1, int changed) {
     if (sw_hold_passes(sw_scene_held_by(s, k))) most += work_of_feed(s, k, t1, changed);
     if (sw_scene_held_by(s, k)->cls->hold->rail) rub_on_rail(s, k);
     if (same_pose(&sw_scene_books(s)->holds[k].pose, to)) continue;
-    sw_vec force, moment;
-    sw_system_reaction(system, (int)k, to->p, &force, &moment);
-    /* a stage's load within the step is its mean already */
-    const bounds b =
-        work_of(&sw_scene_books(s)->holds[k], to, force, moment, changed || system->loads_kept);
+    const bounds b = work_of_hold(s, k, t1 - sw_scene_time(s), changed);
     sw_scene_books(s)->step.holds += b.mean;
     most += b.most;
   }
@@ -102,7 +120,18 @@ static sw_vec about(sw_vec moment, sw_vec force, sw_vec place) {
   return sw_sub(moment, sw_cross(place, force));
 }
 
-static double work_of_obstacles(sw_scene *s, int changed) {
+static bounds work_of_obstacle(sw_scene *s, size_t k, const sw_worker *from, const sw_pose *to,
+                               double h, int changed) {
+  const sw_contact *contact = sw_scene_contact(s);
+  sw_vec force, moment;
+  sw_contact_force(contact, (int)k, to->p, &force, &moment);
+  const bounds b = work_of(from, to, sw_neg(force), sw_neg(moment), changed);
+  if (!(h > 0)) return b;
+  sw_contact_gained(contact, (int)k, to->p, &force, &moment);
+  return by_impulse(b, from, to, sw_neg(force), sw_neg(moment), h);
+}
+
+static double work_of_obstacles(sw_scene *s, double h, int changed) {
   sw_contact *contact = sw_scene_contact(s);
   double most = 0;
   if (!contact || !sw_contact_moves(contact)) return 0;
@@ -111,14 +140,12 @@ static double work_of_obstacles(sw_scene *s, int changed) {
   for (size_t i = 0; i < count; i++) {
     const size_t k = (size_t)sw_contact_id(contact, (size_t)movers[i]);
     sw_worker from = sw_scene_books(s)->obstacles[k];
-    sw_vec force, moment;
     sw_pose to;
     if (!sw_scene_obstacle_in(s, k)->alive || !sw_contact_poses(contact, (int)k, &from.pose, &to))
       continue;
     if (same_pose(&from.pose, &to)) continue;
-    sw_contact_force(contact, (int)k, to.p, &force, &moment);
     from.moment = about(from.moment, from.force, from.pose.p);
-    const bounds b = work_of(&from, &to, sw_neg(force), sw_neg(moment), changed);
+    const bounds b = work_of_obstacle(s, k, &from, &to, h, changed);
     sw_scene_books(s)->step.obstacles += b.mean;
     most += b.most;
   }
@@ -126,7 +153,7 @@ static double work_of_obstacles(sw_scene *s, int changed) {
 }
 
 double sw_ledger_work(sw_scene *s, double t1, int changed) {
-  return work_of_holds(s, t1, changed) + work_of_obstacles(s, changed);
+  return work_of_holds(s, t1, changed) + work_of_obstacles(s, t1 - sw_scene_time(s), changed);
 }
 
 static sw_status make_room(sw_scene *s) {

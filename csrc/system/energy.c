@@ -53,18 +53,34 @@ static double *place_of(const sw_force_class *cls, sw_energies *out) {
   return strcmp(cls->name, "gravity") == 0 ? &out->gravity : &out->stored;
 }
 
-void sw_system_energies(sw_system *s, int lumped, sw_energies *out) {
+/* The term as it is once it is committed. */
+static void commit_aside(const sw_system *s, sw_body *b, sw_term *term, sw_committed *end) {
+  sw_field *f = &b->field;
+  double *room = s->trial_history;
+  memcpy(room, term->history, term->cls->state_size(b->plan) * sizeof *room);
+  f->time = end->time;
+  f->first = s->first;
+  if (f->first.x) f->first.x += 3 * b->first_node;
+  term->cls->commit(term->args, f, room);
+  f->first.x = NULL;
+  end->lost += room[0] - term->history[0];
+  term->history = room;
+}
+
+void sw_system_energies(sw_system *s, int lumped, sw_committed *end, sw_energies *out) {
   sw_error ignored;
   *out = (sw_energies){.kinetic = sw_system_kinetic(s, lumped)};
+  if (end) end->lost = 0;
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     aim(s, b, lumped);
     b->field.want = SW_WANT_ENERGY;
     for (size_t i = 0; i < b->term_count; i++) {
       const sw_force_class *cls = b->terms[i].cls;
       if (has_power(cls)) continue;
+      sw_term term = b->terms[i];
+      if (end && cls->commit) commit_aside(s, b, &term, end);
       b->field.energy = b->field.bending = 0;
-      if (sw_term_eval(&b->terms[i], &b->field, &ignored) == SW_OK)
-        *place_of(cls, out) += b->field.energy;
+      if (sw_term_eval(&term, &b->field, &ignored) == SW_OK) *place_of(cls, out) += b->field.energy;
     }
   }
 }

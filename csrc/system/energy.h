@@ -22,9 +22,15 @@ typedef struct sw_energies {
   double loads;                    /* potential of dead loads, which counts as outside work [J] */
 } sw_energies;
 
+/* A trial as it is once it is committed. */
+typedef struct sw_committed {
+  double time; /* at its end [s] */
+  double lost; /* what forces with a history dissipate by that, not set before [J] */
+} sw_committed;
+
 /* All but those of contact and joins. lumped: masses of explicit methods, whose axial forces come
- * from the edges' lengths alone. */
-void sw_system_energies(sw_system *system, int lumped, sw_energies *out);
+ * from the edges' lengths alone. committed: of a trial; NULL: of the state. */
+void sw_system_energies(sw_system *system, int lumped, sw_committed *committed, sw_energies *out);
 
 /* Of what sw_system_dissipated counts, what friction took [J]. */
 double sw_system_rubbed(const sw_system *system);

@@ -30,7 +30,8 @@ void sw_system_free(sw_system *system) {
   sw_bridges_free(system);
   sw_joins_free(system);
   SW_FREE_ALL(system->bodies, system->held, system->rails, system->rail_room, system->directors,
-              system->hold_states, system->loads, system->state, system->pull_block, system->work);
+              system->hold_states, system->loads, system->state, system->pull_block, system->work,
+              system->trial_history);
   memset(system, 0, sizeof *system);
 }
 
@@ -128,14 +129,18 @@ sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_clas
 
 sw_status sw_system_add_histories(sw_system *s) {
   double *next;
-  size_t size = 0;
+  size_t size = 0, largest = 0;
   SW_TRY(sw_system_add_strains(s));
   SW_TRY(sw_system_add_even(s));
   for (size_t b = 0; b < s->body_count; b++)
-    for (size_t k = 0; k < s->bodies[b].term_count; k++)
-      if (s->bodies[b].terms[k].cls->state_size)
-        size += s->bodies[b].terms[k].cls->state_size(s->bodies[b].plan);
+    SW_ITEMS(const sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {
+      const size_t own = term->cls->state_size ? term->cls->state_size(s->bodies[b].plan) : 0;
+      size += own;
+      if (own > largest) largest = own;
+    }
   if (!size) return SW_OK;
+  s->trial_history = sw_alloc(largest, sizeof *s->trial_history);
+  if (!s->trial_history) return SW_ENOMEM;
   SW_TRY(sw_system_grow_state(s, size, &next));
   for (size_t b = 0; b < s->body_count; b++)
     SW_ITEMS(sw_term, term, s->bodies[b].terms, s->bodies[b].term_count) {

@@ -80,8 +80,9 @@ struct sw_system {
   sw_first_stage first; /* with x till the next stage: they differ */
   double *turning;      /* (SW_TURN_SIZE) */
   size_t span_count;
-  size_t follow_size; /* of twist, turn and frames, if there is twist or a frame: else 0 */
-  double *aside;      /* (follow_size) room for them */
+  size_t follow_size;    /* of twist, turn and frames, if there is twist or a frame: else 0 */
+  double *aside;         /* (follow_size) room for them */
+  double *trial_history; /* room for the longest history of a force, NULL without any */
 
   /* The trial that was accepted last, until sw_system_refresh: fields that are judged are of it and
    * need no measuring. NULL at any other time. */
