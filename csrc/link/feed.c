@@ -218,6 +218,11 @@ static double twisted(const sw_system *s, const sw_body *b, size_t clamp) {
   return 0;
 }
 
+/* In which wire is paid out. */
+static sw_vec direction_of(const sw_hold *h, const sw_system *s) {
+  return sw_scale(sw_vec_at(s->directors_now, 2 * h->number + 1), h->feed.guide.outward);
+}
+
 /* The guide's walls bear a force along the wire too: where it leaves them bent, each length
  * that is paid out takes up the energy of the bend at the drive's cost, and the walls push the
  * wire out with EI curvature^2 / 2 (Bigoni et al. 2015). The drive bears the rest. */
@@ -225,8 +230,7 @@ static double drive(const sw_hold *h, const sw_link_wire *w, const double *x, sw
   const sw_system *y = w->system;
   const sw_body *b = &y->bodies[w->body];
   const int number = (int)h->number;
-  double sum =
-      h->feed.guide.outward * sw_dot(force, sw_vec_at(y->directors_now, 2 * h->number + 1));
+  double sum = sw_dot(force, direction_of(h, y));
   for (size_t c = 0; c < b->plan->clamp_count; c++) {
     if (b->plan->clamps[c].hold != number) continue;
     const int grows = b->plan->clamps[c].side * h->feed.guide.outward;
@@ -247,6 +251,7 @@ static sw_hold_way passes(const sw_hold *h, const sw_link_wire *w, double t, con
   const sw_vec at = s->hold_states[h->number].pose.p, before = {h->feed.guide.drive, 0, 0};
   sw_vec force, moment;
   sw_system_reaction(s, (int)h->number, at, &force, &moment);
+  way.direction = direction_of(h, s);
   way.stage = way.obeys = drive(h, w, x, force);
   sw_system_bears(s, (int)h->number, x, at, &force, &moment);
   way.force = drive(h, w, x, force);

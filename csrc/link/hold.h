@@ -95,6 +95,7 @@ typedef struct sw_hold_way {
   double stage;   /* the same of the last stage, and what a drive that obeys a force is to obey, */
   double obeys;   /* which differ where the method's are off (sw_system_bears) [N] */
   double slipped; /* of the way, what was not asked for [m] */
+  sw_vec direction; /* in which that force acts, where the wire's place is known [-] */
 } sw_hold_way;
 
 /* What a user may ask of a hold at any time. */

@@ -59,12 +59,34 @@ static double brought(sw_scene *s, size_t k, double length) {
   return 0.5 * mass * sw_norm2(at->v) + height;
 }
 
+/* The drive's mean force in a step of size h by the hold's impulse. What the guide's walls bear of
+ * it hardly changes in a step; where the guide turns, it points as in the middle of the step. */
+static double mean_drive(sw_scene *s, size_t k, const sw_hold_way *now, double h) {
+  sw_system *system = sw_scene_system(s);
+  const sw_hold_sums *sums = &sw_scene_held_by(s, k)->sums;
+  const sw_pose *to = &system->hold_states[k].pose;
+  const sw_quat back = sw_quat_mul(sw_scene_books(s)->holds[k].pose.q, sw_quat_conj(to->q));
+  const sw_vec before = sw_rotate(back, now->direction);
+  sw_vec force, moment;
+  sw_system_reaction(system, (int)k, to->p, &force, &moment);
+  const double walls = sw_dot(force, now->direction) - now->stage;
+  const sw_vec middle = sw_unit_or(sw_add(before, now->direction), now->direction);
+  const double axial = sw_dot(sums->force[sums->last], middle) / h;
+  const sw_body *b = &system->bodies[sw_scene_held_by(s, k)->wire];
+  return axial - 0.5 * axial * axial / (axial > 0 ? b->EA_push : b->EA) - walls;
+}
+
 static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
-  const sw_hold *h = sw_scene_held_by(s, k);
+  const sw_hold *hold = sw_scene_held_by(s, k);
+  const double h = t1 - sw_scene_time(s);
   const sw_worker *from = &sw_scene_books(s)->holds[k];
-  const sw_hold_way now = sw_hold_way_of(s, h, t1, sw_scene_system(s)->x);
+  const sw_hold_way now = sw_hold_way_of(s, hold, t1, sw_scene_system(s)->x);
   const double length = now.way - from->fed, more = brought(s, k, length);
-  const bounds b = work_between(from->drive * length, now.stage * length, changed);
+  bounds b = work_between(from->drive * length, now.stage * length, changed);
+  if (hold->sums.known && h > 0 && now.slipped == from->slipped) {
+    b.mean = mean_drive(s, k, &now, h) * length;
+    b.most = fmax(b.most, b.mean);
+  }
   sw_step_energy *step = &sw_scene_books(s)->step;
   step->slipping += fabs(0.5 * (from->drive + now.stage) * (now.slipped - from->slipped));
   step->feeds += b.mean + more;
@@ -87,6 +109,12 @@ static void rub_on_rail(sw_scene *s, size_t k) {
   if (rail->friction > 0) b->step.friction += fmax(0.0, -0.5 * (from->drive + rail->rubs) * way);
 }
 
+static sw_vec held_place(sw_scene *s, size_t k) {
+  const sw_hold *h = sw_scene_held_by(s, k);
+  const sw_system *system = sw_scene_system(s);
+  return sw_vec_at(system->x, system->bodies[h->wire].first_node + h->node);
+}
+
 static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   sw_system *system = sw_scene_system(s);
   const sw_pose *to = &system->hold_states[k].pose;
@@ -97,7 +125,10 @@ static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   /* a stage's load within the step is its mean already */
   bounds b = work_of(from, to, force, moment, changed || system->loads_kept);
   if (!sums->known || !(h > 0)) return b;
-  return by_impulse(b, from, to, sums->force[sums->last], sums->moment[sums->last], h);
+  sw_vec gained = sums->moment[sums->last];
+  if (sw_scene_held_by(s, k)->cls->hold->rail) /* booked about the wire's place */
+    gained = sw_add(gained, sw_cross(sw_sub(held_place(s, k), to->p), sums->force[sums->last]));
+  return by_impulse(b, from, to, sums->force[sums->last], gained, h);
 }
 
 static double work_of_holds(sw_scene *s, double t1, int changed) {
