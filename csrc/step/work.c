@@ -76,6 +76,12 @@ static double mean_drive(sw_scene *s, size_t k, const sw_hold_way *now, double h
   return axial - 0.5 * axial * axial / (axial > 0 ? b->EA_push : b->EA) - walls;
 }
 
+/* A drive that slips at its limit lets the wire's speed jump within the step, and with it the
+ * impulse; one that pushes by a force is moved by that force. */
+static int slips_off(const sw_hold *h, const sw_hold_way *now, const sw_worker *from) {
+  return now->slipped != from->slipped && !isfinite(h->feed.slip.push);
+}
+
 static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   const sw_hold *hold = sw_scene_held_by(s, k);
   const double h = t1 - sw_scene_time(s);
@@ -83,7 +89,7 @@ static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   const sw_hold_way now = sw_hold_way_of(s, hold, t1, sw_scene_system(s)->x);
   const double length = now.way - from->fed, more = brought(s, k, length);
   bounds b = work_between(from->drive * length, now.stage * length, changed);
-  if (hold->sums.known && h > 0 && now.slipped == from->slipped) {
+  if (hold->sums.known && h > 0 && !slips_off(hold, &now, from)) {
     b.mean = mean_drive(s, k, &now, h) * length;
     b.most = fmax(b.most, b.mean);
   }
