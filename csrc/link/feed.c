@@ -79,18 +79,14 @@ static double slipped(const sw_slip *slip, double t) {
 static feed_now feed_at(const sw_hold *h, double t) {
   const sw_feed *f = &h->feed;
   const sw_slip *slip = &f->slip;
-  const double u = t - slip->since;
-  feed_now now = {.fed = f->fed + slipped(slip, t),
-                  .speed = f->speed + slip->speed + slip->growth * u,
+  feed_now now = {.fed = f->fed + slipped(slip, t) + f->speed * (t - f->since),
+                  .speed = f->speed + slip->speed + slip->growth * (t - slip->since),
                   .acceleration = slip->growth};
-  now.fed += f->speed * (t - f->since);
   if (f->motion) {
     sw_motion_state m;
     sw_error ignored; /* a motion between two points calls no function */
     if (sw_motion_eval(f->motion, t - f->start, &m, &ignored) != SW_OK) return now;
-    now.fed += m.pose.p.x;
-    now.speed += m.v.x;
-    now.acceleration += m.a.x;
+    now.fed += m.pose.p.x, now.speed += m.v.x, now.acceleration += m.a.x;
   }
   return now;
 }
