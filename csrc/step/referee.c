@@ -18,6 +18,9 @@
 /* A step of this size may make so much of the kinetic energy, of the weight times the radius and of
  * the work, by the errors of the method and of the work's quadrature [s], [-]. */
 static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WORK = 0.01;
+/* What a history loses is known better than the forces at the ends of the step that pay for it [-].
+ */
+static const double OF_LOST = 0.1;
 /* And of EI / L, as axial forces and bends are only known to rounding [-]. */
 static const double OF_BENDING = 1e-9;
 /* Energies are sums of large terms, known to this share of these [-]. */
@@ -149,6 +152,7 @@ sw_status sw_ledger_judge(sw_scene *s, double t1, double h, int changed, sw_erro
   if (has_pads(s)) step->let_out += fmax(0.0, step->contact - b->contact);
   most += step->let_out;
   const double after = step->to.kinetic + sw_ledger_potential(&step->to, step->contact);
+  most += OF_LOST * committed.lost;
   step->gain = after + committed.lost - before - most;
   return status;
 }

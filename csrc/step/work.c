@@ -38,11 +38,11 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
                       sw_dot(force, way) + sw_dot(moment, turn), changed);
 }
 
-/* The mean by the impulses in a step of size h. */
+/* The mean by the impulses in a step of size h. What it may have been at most stays that of the
+ * ends: in a blow the impulse is far above them, and its work is not that on the way. */
 static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_vec force,
                          sw_vec moment, double h) {
   b.mean = work_of(from, to, sw_scale(force, 1.0 / h), sw_scale(moment, 1.0 / h), 1).mean;
-  b.most = fmax(b.most, b.mean);
   return b;
 }
 
@@ -91,7 +91,6 @@ static double work_of_feed(sw_scene *s, size_t k, double t1, int changed) {
   bounds b = work_between(from->drive * length, now.stage * length, changed);
   if (hold->sums.known && h > 0 && !slips_off(hold, &now, from)) {
     b.mean = mean_drive(s, k, &now, h) * length;
-    b.most = fmax(b.most, b.mean);
   }
   sw_step_energy *step = &sw_scene_books(s)->step;
   step->slipping += fabs(0.5 * (from->drive + now.stage) * (now.slipped - from->slipped));
