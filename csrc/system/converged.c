@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "system/factors.h"
+#include "system/join.h"
 #include "system/part.h"
 #include "system/rail.h"
 
@@ -28,6 +29,12 @@ static const double ROUNDING = 2.3e-16; /* [-] */
 /* Accepted error of an axial force, of the wire's weight or bending force [-]. */
 static const double FORCE_NOISE = 1e-3;
 
+/* A body's weight or bending force [N]. */
+static double usual_force(const sw_system *s, const sw_body *b) {
+  const double L = b->plan->length, EI = b->plan->beam.EI;
+  return fmax(b->plan->beam.mass * L * sw_norm(sw_load(s->gravity)), EI / (L * L));
+}
+
 /* Largest shift with which the axial forces of a body can still be trusted [m]. */
 static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, int statics) {
   const sw_plan *p = b->plan;
@@ -35,8 +42,7 @@ static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, i
   const double ka = b->EA / l;
   const double inertia = statics || !isfinite(hbar) ? 0.0 : p->beam.mass * l / (hbar * hbar);
   const double kb = 12.0 * p->beam.EI / (l * l * l) + inertia;
-  const double force = fmax(p->beam.mass * L * sw_norm(sw_load(s->gravity)), p->beam.EI / (L * L));
-  return FORCE_NOISE * force * kb / (ROUNDING * ka * ka);
+  return FORCE_NOISE * usual_force(s, b) * kb / (ROUNDING * ka * ka);
 }
 
 static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int statics) {
@@ -90,6 +96,25 @@ static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_new
   return 0;
 }
 
+static double usual_force_at(const sw_system *s, size_t node) {
+  return usual_force(s, &s->bodies[sw_system_body_of(s, node)]);
+}
+
+/* The solve took some tie's pull for one that its new places do not have: it was slack before, or
+ * turned too far. */
+static int mistakes_ties(const sw_system *s, const double *y) {
+  const size_t first = sw_part_node(s, s->part), end = sw_part_node(s, s->part_end);
+  for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {
+    const sw_join_spring *tie = &s->joins->springs[k];
+    if (!tie->tie || !(tie->k > 0) || tie->i < first || tie->i >= end) continue;
+    const sw_vec now = sw_join_spring_force(tie, y);
+    const double off = sw_dist(now, sw_join_tie_expected(tie, y, s->delta));
+    const double usual = fmin(usual_force_at(s, tie->i), usual_force_at(s, tie->j));
+    if (off > FORCE_NOISE * fmax(usual, sw_norm(now))) return 1;
+  }
+  return 0;
+}
+
 int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                        const sw_stage_report *report, double rate2) {
   /* contact is told of rough updates too: the next iteration goes on from what it finds */
@@ -99,7 +124,7 @@ int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *new
       !s->coupling.settled || s->coupling.settled(s->coupling.user, s, stage->y, s->delta);
   if (!settled || s->rough) return 0;
   if (newton->statics && largest_shift(s) > newton->accept_shift) return 0;
-  if (!sw_rails_settled(s)) return 0;
+  if (!sw_rails_settled(s) || mistakes_ties(s, stage->y)) return 0;
   if (drowned_in_rounding(s, stage, newton->statics)) return 0;
   for (size_t b = s->part; b < s->part_end; b++)
     if ((s->bodies[b].is_explicit || s->bodies[b].is_kinked) &&

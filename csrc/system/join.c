@@ -96,21 +96,37 @@ static sw_status add_block(sw_system *s, uint32_t i, uint32_t j, const double k[
   return SW_OK;
 }
 
-sw_vec sw_join_spring_force(const sw_join_spring *p, const double *x) {
-  const sw_vec apart = sw_sub(sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j)), p->offset);
-  if (!p->tie) return sw_scale(apart, -p->k);
+static sw_vec apart_at(const sw_join_spring *p, const double *x) {
+  return sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j));
+}
+
+static sw_vec force_at(const sw_join_spring *p, sw_vec apart) {
+  if (!p->tie) return sw_scale(sw_sub(apart, p->offset), -p->k);
   const double d = sw_norm(apart);
   return d > p->slack ? sw_scale(apart, -sw_tie_pull(p->k, p->slack, d) / d) : sw_v(0, 0, 0);
 }
 
+sw_vec sw_join_spring_force(const sw_join_spring *p, const double *x) {
+  return force_at(p, apart_at(p, x));
+}
+
 /* Of the nodes' difference, times a sign. */
 static void spring_stiffness(const sw_join_spring *p, const double *x, double sign, double out[9]) {
-  const sw_vec apart = sw_sub(sw_vec_at(x, p->i), sw_vec_at(x, p->j));
+  const sw_vec apart = apart_at(p, x);
   memset(out, 0, 9 * sizeof *out);
   if (!p->tie)
     out[0] = out[4] = out[8] = sign * p->k;
   else if (sw_norm(apart) > p->slack)
     sw_tie_stiffness(p->k, p->slack, apart, sign, out);
+}
+
+sw_vec sw_join_tie_expected(const sw_join_spring *p, const double *x, const double *update) {
+  const sw_vec more = apart_at(p, update), before = sw_sub(apart_at(p, x), more);
+  const double d = sw_norm(before), across = p->k * (1.0 - p->slack / d);
+  if (!(d > p->slack)) return sw_v(0, 0, 0);
+  const sw_vec n = sw_scale(before, 1.0 / d);
+  const double along = (p->k - across) * sw_dot(n, more);
+  return sw_sub(force_at(p, before), sw_madd(sw_scale(more, across), n, along));
 }
 
 static sw_status eval_spring(sw_system *s, const sw_join_spring *p, const double *y) {

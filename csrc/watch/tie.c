@@ -41,8 +41,7 @@ static double pull_now(const sw_scene *s, size_t joint, const double *x, double 
   const sw_vec now = {pull_of_joint(s, joint, x, bears), 0, 0};
   if (!system->first.x) return now.x;
   const sw_vec first = {pull_of_joint(s, joint, system->first.x, bears), 0, 0};
-  const sw_vec before = {sw_norm(sw_scene_join_in(s, joint)->bears[0]), 0, 0};
-  return sw_even_force(&system->first, &before, first, now).x;
+  return sw_even_force(&system->first, NULL, first, now).x;
 }
 
 /* What its ends bear; of a tie it is known from step to step. */
@@ -184,7 +183,6 @@ void sw_scene_watch_ties(sw_scene *s) {
     if (!breakable(s, k)) continue;
     if (!sw_tie_suffers(pull, bears, sw_scene_time(s), j->fate)) continue;
     j->cls->joint->breaks(j, system);
-    memset(j->bears, 0, sizeof j->bears);
     memset(j->bears, 0, sizeof j->bears);
     sw_course_jump(sw_scene_course(s));
     sw_scene_renumber(s);
