@@ -2,19 +2,21 @@
 /* Two-stage singly diagonally implicit Runge-Kutta method with
  * gamma = 1 - 1/sqrt 2 (Alexander 1977): second order, L-stable, needs no
  * acceleration at the start, so it takes the steps after discontinuities. Its error is
- * (1/6 - 3 gamma^2 + 2 gamma^3) h^3 times the third derivative, that of the velocities at the start
- * and of both stages: 1/6 less the third-order term of (1 + (1 - 2 gamma) z) / (1 - gamma z)^2. */
+ * (1/6 - 3 gamma^2 + 2 gamma^3) h^3 times the third derivative. That is found from the velocities
+ * at the start and of both stages. The first stage is of first order: of v' = z v the stages see
+ * (1 - 2 gamma) / (1 - gamma) of it. */
 #include "integrate/integrate.h"
 
 #define GAMMA 0.29289321881345248 /* 1 - 1/sqrt 2 */
 #define K ((1.0 - GAMMA) / GAMMA)
-#define E (2.0 * (1.0 / 6.0 - 3.0 * GAMMA * GAMMA + 2.0 * GAMMA * GAMMA * GAMMA))
+#define SEEN ((1.0 - 2.0 * GAMMA) / (1.0 - GAMMA))
+#define E (2.0 * (1.0 / 6.0 - 3.0 * GAMMA * GAMMA + 2.0 * GAMMA * GAMMA * GAMMA) / SEEN)
 
 const sw_integrator sw_integrator_sdirk2 = {
     .name = "sdirk2",
     .summary = "two equal implicit stages: second order, L-stable, starts from rest or shocks",
     .order = 2,
-    .flags = SW_INTEGRATOR_IMPLICIT,
+    .flags = SW_INTEGRATOR_IMPLICIT | SW_INTEGRATOR_EMBEDDED,
     .stages = 2,
     .rows = {{.time = GAMMA, .hbar = GAMMA, .xn = 1},
              {.time = 1, .hbar = GAMMA, .xn = 1.0 - K, .x1 = K}},

@@ -59,7 +59,7 @@ describe("bench.row", function()
   end)
 
   it("tells refused arguments", function()
-    local row = bench.row(benchcases.release, { segments = 5, integrator = "sdirk2", dt = 0.01,
+    local row = bench.row(benchcases.release, { segments = 5, integrator = "bdf2", dt = 0.01,
       tolerance = 1e-3 })
     assert.equal("refused", row.status)
     assert.truthy(row.reason:find "no error estimate")

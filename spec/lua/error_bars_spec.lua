@@ -145,12 +145,12 @@ describe("a run with error bars", function()
       return scene, wire, left, log
     end
     local scene, wire, left, log = build_scene(24)
-    local r = t.fine(scene:run{ dt = 0.01, integrator = "sdirk2",
+    local r = t.fine(scene:run{ dt = 0.01, integrator = "bdf2",
       tolerance = { ["left.peak_force"] = 0.5, tip = 3e-3 } })
     local k = #r.levels
     assert.are.equal(k, #log) -- the function ran once per level
     local plain, plain_wire, plain_left = build_scene(6 << (k - 1))
-    t.fine(plain:run{ dt = 0.01 / 2 ^ (k - 3), integrator = "sdirk2", parts = false })
+    t.fine(plain:run{ dt = 0.01 / 2 ^ (k - 3), integrator = "bdf2", parts = false })
     assert.are.same(state(plain, plain_wire), state(scene, wire))
     assert.are.equal(plain_left.peak_force, left.peak_force)
     assert.are.equal(left.peak_force, r.quantities["left.peak_force"].value)
@@ -256,7 +256,7 @@ describe("a run with error bars", function()
       select(2, pcall(function() return r.quantities.tip end)))
     assert.same({}, r:frames())
     assert.same(before, state(scene, wire))
-    r = scene:run{ duration = 0.1, tolerance = { tip = 0.01 }, model = "auto", integrator = "sdirk2" }
+    r = scene:run{ duration = 0.1, tolerance = { tip = 0.01 }, model = "auto", integrator = "bdf2" }
     assert.is_false(r.ok)
     assert.matches("no equilibrium to begin with", r.reason)
     r = scene:run{ duration = 0.1, check = { trial = true, limits = { max_tension = 5 } } }

@@ -58,7 +58,8 @@ describe("a rigid join", function()
       local one, two = sw.scene{}, sw.scene{}
       local w, b = whole(one), halves(two)
       for _, s in ipairs{ one, two } do
-        assert.is_true(s:run{ duration = 0.3, dt = 2e-3, integrator = integrator }.ok)
+        -- whole steps: parts would be those of a wire's length
+        assert.is_true(s:run{ duration = 0.3, dt = 2e-3, integrator = integrator, parts = false }.ok)
       end
       for i = 1, 3 do assert.is_near(w:position(0.5)[i], b:position(0.25)[i], 1e-6) end
       assert.is_near(one:energy().total, two:energy().total, 1e-6 * 0.5 * MASS * G * 0.5)

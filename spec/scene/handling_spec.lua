@@ -208,7 +208,7 @@ describe("what a run draws and writes besides", function()
         assert.is_not_nil(tie.broken)
         assert.equal(0, pull[last])
       else
-        assert.near(tie.peak_force, most, 1e-9)
+        assert.near(tie.raw_peak_force, most, 1e-9)
         assert.near(tie:force()[3], column(run, "t1.force_z")[last], 1e-9)
         assert.is_true(most > 0.1)
       end

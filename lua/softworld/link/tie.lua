@@ -11,7 +11,9 @@
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local fixing = require "softworld.link.fixing"
+local loads = require "softworld.run.loads"
 local rows = require "softworld.rows"
+local window = require "softworld.run.window"
 local vec = require "softworld.vec"
 
 local properties = {}
@@ -41,9 +43,18 @@ rows.calls{
   { "tie:release", "", "cuts it" },
   { "tie.name", nil, "name in messages" },
   { "tie:exists", "", "is it still in the scene", "true or false" },
-  { "tie.peak_force", nil, "largest pull so far", "N" },
+  { "tie.peak_force", nil, "largest mean of its pull over the run's window, so far", "N" },
+  { "tie.raw_peak_force", nil, "largest pull of a single step so far: what its strength is compared with",
+    "N" },
   { "tie.broken", nil, "how it broke", "nil, or time [s], force [N]" },
 }
+
+local over = rows.call("tie:over", "t1, t2, {...}",
+  "its pull between two times [s], which may be left out", {
+  gives = "peak_force, mean_force [N], impulse, impulse_size [N s], duration, times of the peaks [s]; "
+    .. "raw_peak_force, ... of single steps; see help 'peaks'",
+  { "window", "number", "s", "of the mean whose peak is looked for", min = 0, usual = "that of the run" },
+})
 
 local function place(what, wire, s, whose)
   if s > wire.length * (1 + 1e-12) then
@@ -118,8 +129,21 @@ end
 --- Cut it.
 function Tie:release() self.object:release() end
 
---- Largest pull so far [N].
-function properties.peak_force(self) return reading(self).peak end
+--- Its pull between two times; see help "peaks".
+function Tie:over(t1, t2, options)
+  fixing.check(self)
+  options = options == nil and {} or over:read(options)
+  return loads.over(loads.forces(self.object:log()), {
+    t1 = t1 == nil and -math.huge or checks.number("tie:over: t1", t1, -math.huge, " s", 2),
+    t2 = t2 == nil and math.huge or checks.number("tie:over: t2", t2, -math.huge, " s", 2),
+    width = window.of(self.scene, options.window, "tie:over", 2), forces_only = true })
+end
+
+--- Largest mean of its pull over the run's window so far [N].
+function properties.peak_force(self) return self:over().peak_force end
+
+--- Largest pull of a single step so far: what its strength is compared with [N].
+function properties.raw_peak_force(self) return reading(self).peak end
 
 --- { time = [s], force = [N] } once it broke, or nil.
 function properties.broken(self)
@@ -133,7 +157,8 @@ function Tie:report(add)
   if broken then
     add(self.name .. ": BROKE at", broken.force, "N", nil, broken.time)
   else
-    add(self.name .. ": largest pull", self.peak_force, "N", self.s)
+    local m = self:over()
+    add(self.name .. ": largest pull", m.peak_force, "N", self.s, m.peak_force_time, m.peak_force_note)
   end
 end
 

@@ -26,6 +26,18 @@ function loads.list(log, count, spans)
   return list
 end
 
+--- The same of a series of forces alone: t, fx, fy, fz of each step's end [s], [N].
+function loads.forces(log, count)
+  local list = {}
+  for i = 1, count do
+    local b = 4 * (i - 1)
+    list[i] = { t = log[b + 1], span = i > 1 and log[b - 3] - log[b + 1] or 0, log[b + 2], log[b + 3],
+      log[b + 4], 0, 0, 0 }
+  end
+  if count > 1 then list[1].span = list[2].span end -- a step's too: it is not known when that began
+  return list
+end
+
 -- Moment of a row about a fixed point.
 local function moment_about(r, at)
   if not at then return { r[4], r[5], r[6] } end
@@ -57,13 +69,15 @@ local function add_up(m, list, o)
     end
   end
   m.mean_force = m.duration > 0 and force_time / m.duration or m.raw_peak_force
-  m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  if not o.forces_only then
+    m.mean_moment = m.duration > 0 and moment_time / m.duration or m.raw_peak_moment
+  end
   m.impulse_size = vec.norm(m.impulse)
 end
 
 --- Measures of such a list. o: t1, t2 [s]; width of the window [s]; at, a point that moments are about, or
--- nil; is_gap(t): did it hold nothing then? each(r, t0): called of each row in between, which is of the
--- time from t0 on [s].
+-- nil; forces_only: no moments; is_gap(t): did it hold nothing then? each(r, t0): called of each row in
+-- between, which is of the time from t0 on [s].
 -- @treturn table of gripper:over, without what pads have
 function loads.over(list, o)
   local m = { impulse = { 0, 0, 0 }, duration = 0, window = o.width }
@@ -79,7 +93,7 @@ function loads.over(list, o)
     end
   end
   window.fill(m, "peak_force", window.peak(forces, o.width), "N")
-  window.fill(m, "peak_moment", window.peak(moments, o.width), "N m")
+  if not o.forces_only then window.fill(m, "peak_moment", window.peak(moments, o.width), "N m") end
   add_up(m, list, o)
   return m
 end
