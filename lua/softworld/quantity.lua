@@ -66,6 +66,11 @@ quantity.known = {
     mean_force = { unit = "N", named = true, of = over "mean_force" },
     impulse = { unit = "N s", named = true, of = over "impulse" },
   },
+  tie = {
+    peak_force = { unit = "N", plain = true, named = true, of = over_at "peak_force" },
+    mean_force = { unit = "N", named = true, of = over "mean_force" },
+    impulse = { unit = "N s", named = true, of = over "impulse" },
+  },
   scene = {
     energy = { unit = "J", of = function(s) return s:energy().total end },
     penetration = { unit = "m", plain = true, vanishes = true, of = function(s)
@@ -90,6 +95,11 @@ local function objects_of(scene)
     if not theirs[h.object] then add("hold", h) end
   end
   for _, o in ipairs(data.obstacles) do add("obstacle", o) end
+  for _, f in ipairs(data.fixings) do
+    if checks.kind(f.fixing) == "tie" and f.fixing:exists() then
+      list[#list + 1] = { kind = "tie", name = f.name, object = f.fixing }
+    end
+  end
   list[#list + 1] = { kind = "scene", object = scene }
   return list
 end

@@ -224,6 +224,14 @@ local cases = {
   retention_used = function()
     return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 0.25, 0.01
   end,
+  -- it hangs by the tie: its weight of 0.0981 N of 0.3924 N
+  strength_used = function()
+    local scene = sw.scene{}
+    local wire = scene:wire{ EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02, radius = 0.002,
+      from = { 0, 0, 0 }, to = { 0, 0, -0.5 }, segments = 10 }
+    scene:tie(wire, { s = 0, to = { 0, 0, 0 }, strength = 0.3924 })
+    return scene:run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 0.25, 0.01
+  end,
   seated = function() return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 1, 0 end,
   pad_load = function() return lifted(0.1), {}, 0.1 / 0.02, 0.01 end,
   opening = function() return lifted(0.1), {}, 2 * RADIUS, 0.01 end, -- they are closed on it

@@ -68,7 +68,7 @@ describe("a tie that snaps taut", function()
 
   -- The pull of one step is that of a place on a stiff spring: up to 40 % with the step. Means agree.
   it("pulls as hard as in fine steps, and as much in all", function()
-    for i, case in ipairs(falls) do
+    for _, case in ipairs(falls) do
       for _, beam in ipairs{ false, true } do
         local _, _, tie = fall(case, 2.5e-4, { beam = beam })
         local fine, whole = tie:over(), tie:over(0, 0.8, { window = 0.8 })

@@ -66,11 +66,12 @@ local function context_of(run, args)
     c.wires[i] = { name = w.name, object = w.object, number = i, use = core.data(w.object).use }
   end
   for i, g in ipairs(data.grippers) do c.grippers[i] = { name = g.name, object = g } end
-  local clips = {}
+  local clips, ties = {}, {}
   for _, f in ipairs(fixing.all(run.scene)) do
-    if checks.kind(f) == "clip" then clips[#clips + 1] = { name = f.name, object = f } end
+    local list = ({ clip = clips, tie = ties })[checks.kind(f)]
+    if list then list[#list + 1] = { name = f.name, object = f } end
   end
-  c.objects = { wire = c.wires, gripper = c.grippers, clip = clips, run = { { object = run } } }
+  c.objects = { wire = c.wires, gripper = c.grippers, clip = clips, tie = ties, run = { { object = run } } }
   return c
 end
 

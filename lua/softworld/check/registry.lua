@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What run:check looks at, in the order of its rows: one file per check, one line here.
 --
--- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper", "clip" or "run",
+-- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper", "clip", "tie" or "run",
 -- asked =, missing =, value =, limit =, reference =, wanted = }. asked: only where the script gives a limit,
 -- or wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the
 -- object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
@@ -16,7 +16,7 @@ local files = { "bend_radius", "end_bend_radius", "tension", "strain", "stress",
   "ovalisation", "fatigue", "friction_work", "wear_depth", "landing", "clearance", "max_temperature",
   "min_temperature", "frequency_gap", "vibration_amplitude",
   "peak_force", "peak_moment", "mean_force", "slip", "pad_load", "opening",
-  "insertion_force", "retention_used", "seated",
+  "insertion_force", "retention_used", "seated", "strength_used",
   "penetration", "kinks", "spoilt", "cycle_time" }
 
 registry.list, registry.by_name = {}, {}

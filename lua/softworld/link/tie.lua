@@ -17,7 +17,7 @@ local window = require "softworld.run.window"
 local vec = require "softworld.vec"
 
 local properties = {}
-local Tie = fixing.class("tie", properties, { "other" })
+local Tie = fixing.class("tie", properties, { "other", "strength" })
 local STIFFNESS = 1e5 -- of a nylon tie round a few millimetres [N/m]
 
 local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a point or at another wire", {
@@ -46,6 +46,7 @@ rows.calls{
   { "tie.peak_force", nil, "largest mean of its pull over the run's window, so far", "N" },
   { "tie.raw_peak_force", nil, "largest pull of a single step so far: what its strength is compared with",
     "N" },
+  { "tie.strength", nil, "pull at which it breaks", "N, or nil: never" },
   { "tie.broken", nil, "how it broke", "nil, or time [s], force [N]" },
 }
 
@@ -94,7 +95,7 @@ end
 --- scene:tie(wire, { s =, to = {x, y, z} or { wire, s = }, slack =, strength = }): see help "tie".
 fixing.made(Tie, function(scene, wire, given)
   local a = checked(scene, wire, given)
-  local self = { name = a.name, wire = wire, s = a.s, other = a.other }
+  local self = { name = a.name, wire = wire, s = a.s, other = a.other, strength = a.strength }
   if a.other then
     self.object = scene:join{ ends = { { wire, s = a.s }, { a.other, s = a.other_s } }, slack = a.slack,
       stiffness = a.stiffness, strength = a.strength, name = a.name }
