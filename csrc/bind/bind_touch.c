@@ -42,9 +42,9 @@ int lsw_scene_touches(lua_State *L) {
   size_t count = 0;
   LSW_DO(L, sw_scene_wire_touch_count, scene, &count);
   lua_createtable(L, (int)count, 0);
-  for (size_t k = 0; k < count; k++) {
-    sw_wire_touch t;
-    sw_scene_wire_touch(scene, k, &t);
+  size_t next[2] = {0, 0};
+  sw_wire_touch t;
+  for (size_t k = 0; sw_scene_next_touch(scene, next, &t); k++) {
     lua_createtable(L, 0, 7);
     lua_createtable(L, 2, 0);
     for (int i = 0; i < 2; i++) {

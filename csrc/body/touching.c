@@ -241,7 +241,7 @@ static size_t places_of(const sw_mutual *m) {
 
 size_t sw_scene_places(const sw_scene *s) { return places_of(s->pairs) + places_of(s->grains); }
 
-sw_pair_place sw_scene_place(const sw_scene *s, size_t k) {
-  const size_t pairs = places_of(s->pairs);
-  return k < pairs ? sw_mutual_place(s->pairs, k) : sw_mutual_place(s->grains, k - pairs);
+int sw_scene_next_place(const sw_scene *s, size_t body, size_t next[2], sw_pair_place *out) {
+  if (s->pairs && sw_mutual_next_place(s->pairs, body, &next[0], out)) return 1;
+  return s->grains && sw_mutual_next_place(s->grains, body, &next[1], out);
 }

@@ -44,8 +44,9 @@ enum { SW_SCENE_PRESSES = 3 };
 size_t sw_scene_presses(const sw_scene *scene, sw_presses list[SW_SCENE_PRESSES]);
 double sw_scene_contact_energy(const sw_scene *scene); /* [J] */
 double sw_scene_rubbed(const sw_scene *scene);         /* lost by friction in the step [J] */
-/* How many places there are where bodies press on each other, and number k of them. */
+/* How many places there are where bodies press on each other, and the next of them: of this body of
+ * the system, or SIZE_MAX: of any; 0: there are no more. next: {0, 0} for the first one. */
 size_t sw_scene_places(const sw_scene *scene);
-sw_pair_place sw_scene_place(const sw_scene *scene, size_t k);
+int sw_scene_next_place(const sw_scene *scene, size_t body, size_t next[2], sw_pair_place *out);
 
 #endif

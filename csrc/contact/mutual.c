@@ -356,11 +356,7 @@ sw_presses sw_mutual_presses(const sw_mutual *m) {
   return SW_PRESSES(sw_meet, m->touches, m->touch_count);
 }
 
-sw_pair_place sw_mutual_place(const sw_mutual *m, size_t number) {
-  size_t i = 0;
-  for (size_t left = number + 1; i < m->touch_count; i++)
-    if (m->touches[i].press.normal_force > 0 && --left == 0) break;
-  const sw_meet *t = &m->touches[i];
+static sw_pair_place place_of(const sw_meet *t) {
   return (sw_pair_place){.body = {t->of.body[0], t->of.body[1]},
                          .node = {t->of.node[0], t->of.node[1]},
                          .end = {t->of.end[0], t->of.end[1]},
@@ -370,6 +366,17 @@ sw_pair_place sw_mutual_place(const sw_mutual *m, size_t number) {
                          .friction = t->press.tangential,
                          .slip = t->press.slip,
                          .gap = t->press.gap_after - t->forgiven};
+}
+
+int sw_mutual_next_place(const sw_mutual *m, size_t body, size_t *next, sw_pair_place *out) {
+  while (*next < m->touch_count) {
+    const sw_meet *t = &m->touches[(*next)++];
+    const int is_of = body == SIZE_MAX || t->of.body[0] == body || t->of.body[1] == body;
+    if (!is_of || !(t->press.normal_force > 0)) continue;
+    *out = place_of(t);
+    return 1;
+  }
+  return 0;
 }
 
 double sw_mutual_penetration(const sw_mutual *m, size_t *node) {

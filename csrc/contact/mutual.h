@@ -88,8 +88,10 @@ typedef struct sw_pair_place {
   double gap;             /* [m] */
 } sw_pair_place;
 
-/* Place number k of those with a force; their number is sw_presses_count (contact/tally.h). */
-sw_pair_place sw_mutual_place(const sw_mutual *mutual, size_t k);
+/* The next place with a force, from touch *next on (0 to begin with), of this body of the system,
+ * or SIZE_MAX: of any; 0: there are no more. There are sw_presses_count of any (contact/tally.h).
+ */
+int sw_mutual_next_place(const sw_mutual *mutual, size_t body, size_t *next, sw_pair_place *out);
 double sw_mutual_penetration(const sw_mutual *mutual, size_t *node); /* [m] */
 /* As those of sw_contact. */
 struct sw_presses sw_mutual_presses(const sw_mutual *mutual);

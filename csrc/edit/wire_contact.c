@@ -103,9 +103,11 @@ static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
                          .gap = p.gap};
 }
 
-void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
-  const sw_pair_place p = loose_first(s, sw_scene_place(s, number));
+int sw_scene_next_touch(sw_scene *s, size_t next[2], sw_wire_touch *out) {
+  sw_pair_place p;
   sw_vec at[2];
+  if (!sw_scene_is_built(s) || !sw_scene_next_place(s, SIZE_MAX, next, &p)) return 0;
+  p = loose_first(s, p);
   for (int k = 0; k < 2; k++) {
     at[k] = touched_at(s, &p, k, &out->s[k]);
     memcpy(out->wire[k], sw_scene_wire_in(s, p.body[k])->name, SW_NAME_SIZE);
@@ -116,4 +118,5 @@ void sw_scene_wire_touch(sw_scene *s, size_t number, sw_wire_touch *out) {
   out->force = sw_madd(p.friction, p.normal, p.normal_force);
   out->normal_force = p.normal_force;
   out->friction = p.friction;
+  return 1;
 }

@@ -84,9 +84,10 @@ typedef struct sw_wire_touch {
   double normal_force;  /* [N] */
 } sw_wire_touch;
 
-/* How many such places the accepted state has; number k of them. */
+/* How many such places the accepted state has, and the next of them, 0: there are no more; next:
+ * {0, 0} for the first one. */
 sw_status sw_scene_wire_touch_count(sw_scene *scene, size_t *count, sw_error *err);
-void sw_scene_wire_touch(sw_scene *scene, size_t k, sw_wire_touch *out);
+int sw_scene_next_touch(sw_scene *scene, size_t next[2], sw_wire_touch *out);
 
 /* The free nodes of a line get the speed with which they came from where they were (count x 3) [m]
  * a span ago [s]: after poses, which have none. */

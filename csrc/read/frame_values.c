@@ -111,11 +111,10 @@ static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place
 }
 
 static void press_wires(const sw_scene *s, const sw_body *b, float *out) {
-  const size_t count = sw_scene_places(s);
-  for (size_t k = 0; k < count; k++) {
-    const sw_pair_place p = sw_scene_place(s, k);
+  size_t next[2] = {0, 0};
+  sw_pair_place p;
+  while (sw_scene_next_place(s, (size_t)(b - sw_scene_system(s)->bodies), next, &p))
     press_place(s, b, &p, out);
-  }
 }
 
 void sw_scene_node_values(sw_scene *s, size_t w, size_t n, float *out) {

@@ -39,12 +39,13 @@ static void rub_obstacles(const sw_scene *s, const sw_body *b, sw_wear *w) {
 
 /* Places where two bodies press on each other wear both. */
 static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
-  const size_t count = sw_scene_places(s);
-  for (size_t k = 0; k < count; k++) {
-    const sw_pair_place p = sw_scene_place(s, k);
+  const size_t body = (size_t)(b - sw_scene_system(s)->bodies);
+  size_t next[2] = {0, 0};
+  sw_pair_place p;
+  while (sw_scene_next_place(s, body, next, &p)) {
     const double slid = p.normal_force * sw_norm(p.slip), work = -sw_dot(p.friction, p.slip);
     for (int i = 0; i < 2; i++) {
-      if (&sw_scene_system(s)->bodies[p.body[i]] != b) continue;
+      if (p.body[i] != body) continue;
       rub(w, b, p.node[i], 1 - p.at[i], work, slid);
       if (p.at[i] > 0) rub(w, b, p.end[i], p.at[i], work, slid);
     }

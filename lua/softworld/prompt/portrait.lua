@@ -8,6 +8,8 @@ local number = require "softworld.output.number"
 
 local portrait = {}
 
+local STRAIGHT = 1e5 -- radius of what counts as straight, of a wire's length [-]
+
 local function value_of(fine, ...)
   if fine then return ... end
   if checks.is_interrupt(...) then error((...), 0) end
@@ -39,7 +41,7 @@ function portrait.wire(wire)
     lines[#lines + 1] = ("from %s to %s m"):format(vector(from), vector(to))
   end
   local radius, s, t = try(wire.min_bend_radius, wire)
-  if radius and radius < math.huge then
+  if radius and radius < STRAIGHT * wire.length then
     lines[#lines + 1] = ("smallest bend radius so far %s%s"):format(number.text(radius, "m"), at(s, t))
   end
   local tension, ts, tt = try(wire.max_tension, wire)
