@@ -92,19 +92,12 @@ static void push_columns(lua_State *L, const double *rows, size_t count, size_t 
   }
 }
 
-/* clamp:log() -> flat rows of 10: t, force, moment, point [s, N, N m, m], the
- * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s].
- * clamp:log(first) starts at that row. */
+/* clamp:log(t1, t2) -> flat rows of 10: t, force, moment, point [s, N, N m, m], the
+ * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s]; see
+ * lsw_log_rows. */
 static int meth_log(lua_State *L) {
   const double *rows;
-  size_t count;
-  const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
-  const lua_Integer first =
-      lua_isnoneornil(L, 2) ? 1 : lsw_integer(L, 2, "clamp:log: the first row");
-  LSW_DO(L, sw_scene_log, c.scene, SW_OF_HOLD, c.id, &rows, &count);
-  const size_t past = first > 1 ? (size_t)(first - 1) : 0, skip = past < count ? past : count;
-  const size_t n = count - skip;
-  if (skip) rows += skip * SW_LOG_SIZE;
+  const size_t n = lsw_log_rows(L, &lsw_class_clamp, SW_LOG_SIZE, &rows);
   push_columns(L, rows, n, 0, SW_LOG_SPAN);
   lua_pushinteger(L, (lua_Integer)n);
   push_columns(L, rows, n, SW_LOG_SPAN, 1);

@@ -73,11 +73,44 @@ int lsw_follow(lua_State *L, const lsw_class *cls, const char *mover) {
   return 1;
 }
 
-int lsw_log(lua_State *L, const lsw_class *c, size_t size) {
-  const double *rows;
+/* How many of the rows, in the order of their times, are of times up to t; or, if before, less. */
+static size_t rows_until(const double *rows, size_t count, size_t size, double t, int before) {
+  size_t low = 0, high = count;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    const double at = rows[middle * size];
+    if (before ? at < t : at <= t)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static double time_at(lua_State *L, int at, const lsw_class *c, double usual) {
+  if (lua_isnoneornil(L, at)) return usual;
+  const double t = lua_isnumber(L, at) ? lua_tonumber(L, at) : (double)NAN;
+  if (isnan(t))
+    luaL_error(L, "%s:log: t%d must be a time [s], got %s", c->name, at - 1, lsw_describe(L, at));
+  return t;
+}
+
+size_t lsw_log_rows(lua_State *L, const lsw_class *c, size_t size, const double **rows) {
   size_t count;
   const lsw_self child = lsw_check_self(L, c);
-  LSW_DO(L, sw_scene_log, child.scene, c->kind, child.id, &rows, &count);
+  const double from = time_at(L, 2, c, -HUGE_VAL), to = time_at(L, 3, c, HUGE_VAL);
+  LSW_DO(L, sw_scene_log, child.scene, c->kind, child.id, rows, &count);
+  if (!count) return 0;
+  const size_t first = rows_until(*rows, count, size, from, 1), skip = first ? first - 1 : 0;
+  const size_t end = rows_until(*rows, count, size, to, 0);
+  *rows += skip * size;
+  if (end < count) count = end + 1;
+  return count > skip ? count - skip : 0;
+}
+
+int lsw_log(lua_State *L, const lsw_class *c, size_t size) {
+  const double *rows;
+  const size_t count = lsw_log_rows(L, c, size, &rows);
   lsw_push_flat(L, rows, count * size);
   lua_pushinteger(L, (lua_Integer)count);
   return 2;

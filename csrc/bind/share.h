@@ -29,7 +29,10 @@ int lsw_pose(lua_State *L, const lsw_class *cls);
  * mover: what messages about the trajectory begin with. */
 int lsw_follow(lua_State *L, const lsw_class *cls, const char *mover);
 
-/* object:log() -> flat rows of size numbers; how many rows. */
+/* Of object:log(t1, t2): its rows of size numbers from the last one before t1 to the first one
+ * after t2 [s], which may be left out; how many. */
+size_t lsw_log_rows(lua_State *L, const lsw_class *c, size_t size, const double **rows);
+/* object:log(t1, t2) -> these as one flat list; how many rows. */
 int lsw_log(lua_State *L, const lsw_class *c, size_t size);
 
 #endif

@@ -127,7 +127,7 @@ describe("methods", function()
     local function call(name, method, ...) return objects[name][method](objects[name], ...) end
     says("channel:moment takes one table of parameters, got number", call, "channel", "moment", 5)
     says("scene:frame: the number of the frame must be an integer, got 0.5", call, "scene", "frame", 0.5)
-    says("clamp:log: the first row must be an integer, got string", call, "clamp", "log", "x")
+    says("clamp:log: t1 must be a time [s], got string", call, "clamp", "log", "x")
     says("run:save expects the name of a .csv or .json file, got nil", call, "run", "save")
     says("run:chart takes one table of parameters, got number", call, "run", "chart", 5)
     says("run:chart: path must be a string, got a table", call, "run", "chart", { path = {} })

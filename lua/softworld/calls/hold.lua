@@ -17,7 +17,7 @@ rows.calls{
   { "clamp:get", "", "values of its rows, as it is now", "a table" },
   { "clamp:set", "{...}", "those that may be changed, such as a slider's friction, from now on" },
   { "clamp:read", "", "all that its kind has to tell, by name", "a table" },
-  { "clamp:log", "", "every step of the run",
+  { "clamp:log", "t1, t2", "steps, between two times and one more on each side",
     "{ t, force, moment, point, t, ... } [s], [N], [N m], [m]; count" },
 }
 for kind, list in pairs{

@@ -53,5 +53,6 @@ rows.calls{
   { "wire:frequencies", "{ modes =, shapes =, alone = }", "natural frequencies about the present equilibrium",
     "{ f1, f2, ... } [Hz], see help 'vibration'" },
   { "wire:remodel", "{ model =, ... }", "another model or other edges from now on", "see help 'remodel'" },
-  { "wire:log", "", "every step of the run", "{ t, tension, curvature, t, ... } [s], [N], [1/m], count" },
+  { "wire:log", "t1, t2", "steps, between two times and one more on each side",
+    "{ t, tension, curvature, t, ... } [s], [N], [1/m], count" },
 }

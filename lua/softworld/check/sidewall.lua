@@ -12,7 +12,7 @@ local tension = require "softworld.check.tension"
 
 -- Largest product of both over the steps of the run [N/m].
 local function bound(entry, start)
-  local rows, count = entry.object:log()
+  local rows, count = entry.object:log(start)
   local most = 0
   for i = 0, count - 1 do
     if rows[3 * i + 1] >= start then most = math.max(most, rows[3 * i + 2] * rows[3 * i + 3]) end

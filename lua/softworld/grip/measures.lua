@@ -94,8 +94,8 @@ end
 
 -- Every recorded step: t, span, force, moment; of a tool also opening, squeeze, margin, slip. span:
 -- above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end it
--- is the force, 0 at an equilibrium.
-local function records(self)
+-- is the force, 0 at an equilibrium. t1, t2: not those that are further from these times than one step.
+local function records(self, t1, t2)
   local list = {}
   local function add(log, count, spans, wanted, jaws)
     local width = spans and 10 or 15
@@ -112,15 +112,15 @@ local function records(self)
   end
   for i, hold in ipairs(self.past) do
     local carried = self.spans[i].carried
-    local log, count, spans = build.call(3, hold.log, hold)
+    local log, count, spans = build.call(3, hold.log, hold, t1, t2)
     add(log, count, spans, carried and function(t) return t < carried end)
   end
   if self.carrier then
-    local log, count = build.call(3, self.carrier.log, self.carrier)
+    local log, count = build.call(3, self.carrier.log, self.carrier, t1, t2)
     add(log, count, nil, function(t) return carried_at(self, t) end)
   end
   if self.tool then
-    local log, count = build.call(3, self.tool.log, self.tool)
+    local log, count = build.call(3, self.tool.log, self.tool, t1, t2)
     add(log, count, nil, nil, true)
   end
   if #self.past > 1 or self.tool and #self.past > 0 then
@@ -173,7 +173,7 @@ function Measures:over(t1, t2, options)
   end
   local width = window.of(self.scene, options.window, "gripper:over", 3)
   local margins, squeeze, slip = {}, nil, nil
-  local m = loads.over(records(self), { t1 = t1, t2 = t2, width = width, at = options.at,
+  local m = loads.over(records(self, t1, t2), { t1 = t1, t2 = t2, width = width, at = options.at,
     is_gap = function(t) return is_gap(self, t) end,
     each = function(r, t0)
       if not r.squeeze then return end

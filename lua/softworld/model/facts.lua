@@ -14,7 +14,7 @@ function facts.percent(share) return ("%.2g %%"):format(100 * share) end
 function facts.rubbing(scene, start)
   local names = {}
   for _, o in ipairs(build.data(scene).obstacles) do
-    local rows, count = o.object:log()
+    local rows, count = o.object:log(start)
     local rubs = o.object:get().friction > 0
     for i = 0, rubs and count - 1 or -1 do
       local pressed = rows[5 * i + 2] ~= 0 or rows[5 * i + 3] ~= 0 or rows[5 * i + 4] ~= 0

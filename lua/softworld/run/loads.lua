@@ -110,9 +110,9 @@ local over = rows.call("clamp:over", "t1, t2, {...}",
 function core.class.clamp.over(hold, t1, t2, options)
   if core.type(hold) ~= "clamp" then error("clamp:over is a method: call it with a colon", 2) end
   options = options == nil and {} or over:read(options)
-  return loads.over(loads.list(build.call(3, hold.log, hold)), {
-    t1 = t1 == nil and -math.huge or checks.number("clamp:over: t1", t1, -math.huge, " s", 3),
-    t2 = t2 == nil and math.huge or checks.number("clamp:over: t2", t2, -math.huge, " s", 3),
+  t1 = t1 == nil and -math.huge or checks.number("clamp:over: t1", t1, -math.huge, " s", 3)
+  t2 = t2 == nil and math.huge or checks.number("clamp:over: t2", t2, -math.huge, " s", 3)
+  return loads.over(loads.list(build.call(3, hold.log, hold, t1, t2)), { t1 = t1, t2 = t2,
     width = window.of(hold, options.window, "clamp:over", 3), at = options.at })
 end
 

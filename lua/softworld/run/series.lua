@@ -48,7 +48,7 @@ local function add_vectors(one, vectors)
 end
 
 local function add_hold(list, name, object, run)
-  local rows, count = object:log()
+  local rows, count = object:log(run.start, run.time)
   if count == 0 then return end
   local at, times = places(rows, count, 10, run)
   add_vectors(source(list, name, times), {
@@ -59,7 +59,7 @@ end
 -- All grasps of a gripper as one.
 local function add_gripper(list, gripper, run)
   local rows, times, from, to = {}, {}, run.start, run.time
-  for _, r in ipairs(measures.records(gripper)) do
+  for _, r in ipairs(measures.records(gripper, run.start, run.time)) do
     if r.t >= from and r.t <= to then rows[#rows + 1], times[#times + 1] = r, r.t end
   end
   if #rows == 0 then return end
@@ -74,7 +74,7 @@ local function add_gripper(list, gripper, run)
 end
 
 local function add_obstacle(list, entry, run)
-  local rows, count = entry.object:log()
+  local rows, count = entry.object:log(run.start, run.time)
   local at, times = places(rows, count, 5, run)
   local one = source(list, entry.name, times)
   add(one, "contact_force", "N", function(i)
@@ -84,7 +84,7 @@ end
 
 -- Clips, ties.
 local function add_fixing(list, it, run)
-  local rows, count = it.object:log()
+  local rows, count = it.object:log(run.start, run.time)
   if count == 0 then return end
   local at, times = places(rows, count, 4, run)
   add_vectors(source(list, it.name, times),
@@ -92,7 +92,7 @@ local function add_fixing(list, it, run)
 end
 
 local function add_wire(list, wire, name, run)
-  local rows, count = wire:log()
+  local rows, count = wire:log(run.start, run.time)
   if count == 0 then return end
   local at, times = places(rows, count, 3, run)
   local one = source(list, name, times)

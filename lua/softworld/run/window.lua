@@ -67,6 +67,7 @@ local function largest_mean(steps, width)
 end
 
 local FEW = 3 -- steps in the window of a peak tell a blow to 15 % (make stability: laying, drops, pegs) [-]
+local NEAR = 3 -- more than so many windows before a peak nothing is of its blow [-]
 local SHARP = 0.55 -- before a blow there is less than this share of its mean [-]
 
 -- A blow that is told by few steps: with shorter ones it may be another.
@@ -156,9 +157,9 @@ end
 --- The same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".
 function window.text(p, unit) return ("%s (%s)"):format(short(p.value, unit), window.note(p, unit)) end
 
--- Its largest tension in each step: what a series has.
-local function tension_steps(wire)
-  local rows, count = wire:log()
+-- Its largest tension in each step between two times [s]: what a series has.
+local function tension_steps(wire, from, to)
+  local rows, count = wire:log(from, to)
   local steps, before = {}, nil
   for i = 0, count - 1 do
     local t = rows[3 * i + 1]
@@ -174,8 +175,9 @@ function window.tension(scene, wire)
   local raw, _, _, span = wire:max_tension{ raw = true }
   local p = { value = value, time = t, raw = raw, raw_span = span, width = core.window(scene) }
   if p.width > 0 and value > 0 and span > 0 then
-    local steps = tension_steps(wire)
+    local steps = tension_steps(wire, t - p.width, t)
     p.span = longest(steps, t, p.width)
+    steps = tension_steps(wire, t - NEAR * math.max(p.width, p.span), t)
     p.coarse = p.span > 0 and is_coarse(steps, p, p.width) or nil
   end
   return value, s, t, window.note(p, "N")
@@ -201,12 +203,12 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
   if core.type(obstacle) ~= "obstacle" then
     error("obstacle:over is a method: call it with a colon", 2)
   end
-  local rows, count = build.call(3, obstacle.log, obstacle)
   options = options or {}
   checks.keys("obstacle:over", options, over_keys, 3)
   t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
   t2 = t2 == nil and math.huge or checks.number("obstacle:over: t2", t2, -math.huge, " s", 3)
   local width = window.of(obstacle, options.window, "obstacle:over", 3)
+  local rows, count = build.call(3, obstacle.log, obstacle, t1, t2)
   local m, steps = { impulse = { 0, 0, 0 }, duration = 0, window = width }, {}
   local sum, before = 0, nil
   local function add(h, s)
