@@ -275,6 +275,18 @@ double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, s
   return p->trial_h * sqrt(largest);
 }
 
+double sw_stepper_defect(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
+  const unsigned flags = p->method->flags;
+  double largest = 0;
+  if (!(flags & SW_INTEGRATOR_IMPLICIT) || flags & SW_INTEGRATOR_EMBEDDED) return 0;
+  for (size_t i = first; i < end; i++) {
+    const sw_vec way = sw_sub(sw_vec_at(p->trial_x, i), sw_vec_at(s->x, i));
+    const sw_vec sum = sw_add(sw_vec_at(p->trial_v, i), sw_vec_at(s->v, i));
+    largest = fmax(largest, sw_norm2(sw_madd(way, sum, -0.5 * p->trial_h)));
+  }
+  return sqrt(largest);
+}
+
 double sw_stepper_error_of_mean(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
   const double *shares = shares_of_error(p);
   if (!shares || !(end > first)) return 0;

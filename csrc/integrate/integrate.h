@@ -120,7 +120,12 @@ int sw_stepper_order(const sw_stepper *stepper);
  * has none [m]. */
 double sw_stepper_error(const sw_stepper *stepper, const sw_system *system, size_t first,
                         size_t end);
-/* The same of the mean place of these nodes [m]. */
+/* Of implicit methods without an estimate: how far the way of the last trial is from the trapezoid
+ * of its velocities, which is their error but for a factor; the largest of these nodes. 0 of
+ * others, and of the implicit midpoint rule, whose way that is [m]. */
+double sw_stepper_defect(const sw_stepper *stepper, const sw_system *system, size_t first,
+                         size_t end);
+/* Error of the last trial of the mean place of these nodes [m]. */
 double sw_stepper_error_of_mean(const sw_stepper *stepper, const sw_system *system, size_t first,
                                 size_t end);
 /* What the last trial would be off by as a step of implicit Euler, which has no estimate: half the

@@ -2,6 +2,7 @@
 #include "step/coarse.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "contact/mutual.h"
 #include "scene/course.h"
@@ -95,6 +96,20 @@ static double allowed_of(const sw_body *b, const double *x) {
   return fmin(share * p->length, OF_RADIUS * p->beam.radius);
 }
 
+/* What steps are off by as a share of what is allowed, of methods without an estimate [-]. */
+static double defect_of(const sw_scene *s) {
+  const sw_system *system = sw_scene_system(s);
+  const sw_stepper *stepper = &sw_scene_course(s)->stepper;
+  double over = 0;
+  SW_ITEMS(const sw_body, b, system->bodies, system->body_count) {
+    if (b->plan->web) continue;
+    const size_t first = b->first_node, end = first + b->plan->nodes;
+    const double allowed = allowed_of(b, stepper->trial_x);
+    over = fmax(over, sw_stepper_defect(stepper, system, first, end) / allowed);
+  }
+  return over;
+}
+
 static double over_of(const sw_scene *s, double tolerance) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -115,18 +130,32 @@ static double power_of(const sw_scene *s) {
   return 1.0 + sw_stepper_order(&sw_scene_course(s)->stepper);
 }
 
-/* A bundle says so from this error on: half the step would have an eighth of it [-]. */
+/* Steps that are taken whole say so from this error on: of a second-order method half the step
+ * would have an eighth of it [-]. */
 static const double TOLD = 8.0;
 
-void sw_coarse_tell(sw_scene *s, double h) {
-  if (!sw_coarse_is_bundle(s)) return;
-  const double over = over_of(s, HUGE_VAL);
+static void tell(sw_scene *s, double h, double over, const char *of) {
   if (!(over > TOLD)) return;
-  sw_scene_tell(
-      s, "coarse", "", NAN, over,
-      "a step of %.3g ms is too long for %d wires and more that touch each other: peaks may "
-      "be wrong; compare them with those of dt = %.2g s",
-      1e3 * h, MOST_NEAR + 1, h * exp2(-ceil(log2(over) / power_of(s))));
+  sw_scene_tell(s, "coarse", "", NAN, over,
+                "a step of %.3g ms is too long for %s: peaks may be wrong; compare them with those "
+                "of dt = %.2g s",
+                1e3 * h, of, h * exp2(-ceil(log2(over) / power_of(s))));
+}
+
+void sw_coarse_tell(sw_scene *s, double h) {
+  char of[96];
+  if (sw_coarse_is_bundle(s)) {
+    snprintf(of, sizeof of, "%d wires and more that touch each other", MOST_NEAR + 1);
+    tell(s, h, over_of(s, HUGE_VAL), of);
+  } else if (sw_scene_wire_slots(s) > MOST_WIRES) {
+    snprintf(of, sizeof of, "how a wire moves (with more than %d none is taken in parts)",
+             MOST_WIRES);
+    tell(s, h, over_of(s, HUGE_VAL), of);
+  } else {
+    snprintf(of, sizeof of, "how a wire moves (by %s none is taken in parts)",
+             sw_scene_course(s)->stepper.method->name);
+    tell(s, h, defect_of(s), of);
+  }
 }
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }

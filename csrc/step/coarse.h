@@ -13,7 +13,8 @@ int sw_coarse_is_bundle(const sw_scene *scene);
 /* Error of the last trial, by the method's estimate, as a share of what a wire is allowed: up to 1
  * is fine; 0: the method has no estimate. No more than the tolerance is allowed [-], [m]. */
 double sw_coarse_of(const sw_scene *scene, double tolerance);
-/* A trial of size h is taken. If it is coarse, of a bundle, the run says so. */
+/* A trial of size h is taken. If it is coarse, and of a bundle, of many wires or by a method without
+ * an estimate, which are not taken in parts, the run says so. */
 void sw_coarse_tell(sw_scene *scene, double h);
 /* The part that is to be taken instead of one of size h with such an error, in a run of steps
  * dt [s]. */

@@ -113,7 +113,7 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   k->done += k->part;
   k->struck = 0, k->unfollowed = 0;
   k->longest = fmax(k->longest, k->part);
-  if (!k->rough) sw_coarse_tell(p->s, k->part);
+  if (!k->rough || (p->args->parts && !sw_coarse_applies(p->s))) sw_coarse_tell(p->s, k->part);
   sw_ladder_accept(p, k->part, k->done < k->h ? k->t0 + k->done : k->t1);
   if (p->redo != SW_AS_IS) sw_blow_refused(p->s, k->part);
   SW_TRY(sw_ladder_record(p, k->part, err));

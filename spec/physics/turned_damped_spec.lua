@@ -46,7 +46,9 @@ local function turned(case, dt, method)
   for i, time in ipairs(TIMES) do
     local run = scene:run{ duration = time - scene.time, dt = dt, integrator = method }
     t.fine(run)
-    if not case.tells then assert.are.equal(0, #run.events) end
+    local events = 0 -- but that steps of another method, which takes no parts, are long
+    for _, e in ipairs(run.events) do events = events + (method and e.kind == "coarse" and 0 or 1) end
+    if not case.tells then assert.are.equal(0, events) end
     local moment, ledger = hand:moment(), run:ledger()
     list[i] = moment[1] * axis[1] + moment[2] * axis[2] + moment[3] * axis[3]
     if not case.tells then t.below(0.05, ledger.gap / ledger.play, "gap") end

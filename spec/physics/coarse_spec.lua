@@ -1,0 +1,56 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Steps that are taken whole though wires move too fast in them are told of: by methods without an estimate
+-- of their error, and of more than 32 wires. (Bundles: met_spec.)
+package.path = "./?.lua;" .. package.path
+local sw = require "softworld"
+local t = require "spec.physics.tools"
+
+-- Cables that hang from clamps; the first one is whipped by so much within 0.2 s. Its largest tension, and
+-- what was told of coarse steps.
+local function whipped(o)
+  local scene, wire, hold, found = sw.scene{}, nil, nil, {}
+  for i = o.count or 1, 1, -1 do
+    wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0.1 * i, 0 }, to = { 0.3, 0.1 * i, 0 }, segments = 15 }
+    scene:force{ kind = "damping", on = wire, mass = 1, stiffness = 1e-3 }
+    hold = scene:clamp(wire, { s = 0 })
+  end
+  t.fine(scene:settle())
+  hold:follow{ points = { { 0, 0, 0 }, { 0, 0, o.by } }, duration = 0.2, relative = true }
+  local run = t.fine(scene:run{ duration = 0.3, dt = o.dt, integrator = o.method, parts = o.parts })
+  for _, e in ipairs(run.events) do
+    if e.kind == "coarse" then found[#found + 1] = e.text end
+  end
+  local most = wire:max_tension()
+  scene:close()
+  return found, most
+end
+
+describe("steps taken whole that are too long", function()
+  for _, method in ipairs{ "implicit-euler", "bdf2" } do
+    it("are told of, with a step to compare with: " .. method, function()
+      local found, most = whipped{ method = method, by = 0.2, dt = 0.02 }
+      local _, fine = whipped{ by = 0.2, dt = 2.5e-4 }
+      t.above(0.05, math.abs(most / fine - 1), "off by")
+      assert.is_true(#found >= 1)
+      assert.is_truthy(found[1]:find("by " .. method .. " none is taken in parts", 1, true), found[1])
+      local dt = tonumber(found[1]:match "compare them with those of dt = ([%d.e-]+) s$")
+      assert.is_true(dt < 0.02)
+    end)
+  end
+
+  it("are told of where there are more than 32 wires, not of 32", function()
+    local found = whipped{ by = 0.2, dt = 0.02, count = 33 }
+    assert.is_true(#found >= 1)
+    assert.is_truthy(found[1]:find("with more than 32 none is taken in parts", 1, true), found[1])
+    assert.same({}, (whipped{ by = 0.2, dt = 0.02, count = 32 }))
+  end)
+
+  it("are not told of where they are short enough, or asked for", function()
+    for _, method in ipairs{ "implicit-euler", "bdf2" } do
+      assert.same({}, (whipped{ method = method, by = 0.01, dt = 0.002 }))
+      assert.same({}, (whipped{ method = method, by = 0.2, dt = 0.02, parts = false }))
+    end
+    assert.same({}, (whipped{ by = 0.01, dt = 0.01, count = 33 }))
+    assert.same({}, (whipped{ by = 0.2, dt = 0.02 }))
+  end)
+end)
