@@ -176,9 +176,10 @@ describe("handles", function()
     fails("has been released", clamp.follow, clamp, nil)
     fails("has been released", clamp.pose, clamp, { 0, 0, 0 })
     assert.are.equal(2, select(2, clamp:log()))
-    -- rows from beyond its end are none, however far; of one that has no rows too
+    -- beyond its end is one row, the last one before that time; none of one that has no rows
     local fresh = scene:clamp(wire, { s = 0.1 })
-    for first, count in pairs{ [-5] = 2, [2] = 1, [3] = 0, [math.maxinteger] = 0, [math.mininteger] = 2 } do
+    for first, count in pairs{ [-5] = 2, [0.015] = 2, [0.03] = 1, [math.maxinteger] = 1, [math.huge] = 1,
+      [math.mininteger] = 2 } do
       assert.are.equal(count, select(2, clamp:log(first)))
       assert.are.equal(0, select(2, fresh:log(first)))
     end

@@ -109,6 +109,7 @@ local over = rows.call("clamp:over", "t1, t2, {...}",
 --- The same of a clamp, pin, grip, feed or slider; also after its release.
 function core.class.clamp.over(hold, t1, t2, options)
   if core.type(hold) ~= "clamp" then error("clamp:over is a method: call it with a colon", 2) end
+  build.call(3, core.window, hold) -- says so if it is gone
   options = options == nil and {} or over:read(options)
   t1 = t1 == nil and -math.huge or checks.number("clamp:over: t1", t1, -math.huge, " s", 3)
   t2 = t2 == nil and math.huge or checks.number("clamp:over: t2", t2, -math.huge, " s", 3)

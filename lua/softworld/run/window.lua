@@ -203,6 +203,7 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
   if core.type(obstacle) ~= "obstacle" then
     error("obstacle:over is a method: call it with a colon", 2)
   end
+  build.call(3, core.window, obstacle) -- says so if it is gone
   options = options or {}
   checks.keys("obstacle:over", options, over_keys, 3)
   t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
