@@ -101,6 +101,18 @@ function remarks.on(kind, what, args)
   end
 end
 
+local JERK = 10 -- a tie that pulls harder when it is made is hardly meant to [N]
+
+--- A tie between places that are so far apart [m]; args: slack [m], stiffness [N/m], strength [N].
+function remarks.tie(what, apart, args)
+  local pull = args.stiffness * (apart - args.slack)
+  if pull <= math.min(JERK, args.strength or JERK) or not remarks.wanted() then return end
+  local breaks = args.strength and pull > args.strength and ", and breaks at once" or ""
+  tell("tie", ("%s: the places are %.4g mm apart and the slack is %.4g mm: it jerks them together with "
+    .. "%.3g N%s; without `slack` it begins as long as the places are apart"):format(what, 1e3 * apart,
+      1e3 * args.slack, pull, breaks))
+end
+
 local MOST_GRAVITY = 50 -- [m/s2]
 
 --- Gravity as a vector [m/s2].

@@ -31,6 +31,9 @@ describe("remarks", function()
     { "local g = s:gripper{ at = {0, 0, 0} } g:move{ by = {0, 0, 1}, speed = 200 }",
       "did you mean sw.units.mm_per_s(200)?" },
     { "s:clip{ at = {0, 0, 0}, width = 8, insertion = 5, retention = 9 }", "sw.units.mm(8)" },
+    { "local w = " .. wire(good)
+      .. " s:tie(w, { s = 0.5, to = {0.5, 0, 0.15}, slack = 0.02, strength = 50 })",
+      "the places are 50 mm apart and the slack is 20 mm: it jerks them together with 3e+03 N, and breaks" },
     { "local w = " .. wire("E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}")
       .. " w:remodel{ model = 'composite' }", "wire 'wire1' as composite has 33375 particles" },
     { wire "model = 'radial', E = 5e7, density = 1500, radius = 0.001, from = {0,0,1}, to = {0.4,0,1}",
@@ -49,6 +52,14 @@ describe("remarks", function()
       assert.equal(0, code)
     end)
   end
+
+  it("are not made of ties that are slack, or as long as the places are apart", function()
+    local _, err = script(start .. "local w = " .. wire(good) .. [[
+
+      s:tie(w, { s = 0.5, to = { 0.5, 0, 0.15 } }) s:tie(w, { s = 0.2 })
+      s:tie(w, { s = 0.3, to = { 0.3, 0, 0.15 }, slack = 0.06 })]])
+    assert.equal("", err)
+  end)
 
   it("are made once for a line", function()
     local _, err = script(start

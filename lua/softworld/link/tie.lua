@@ -12,6 +12,7 @@ local checks = require "softworld.checks"
 local core = require "softworld.core"
 local fixing = require "softworld.link.fixing"
 local loads = require "softworld.run.loads"
+local remarks = require "softworld.remarks"
 local rows = require "softworld.rows"
 local window = require "softworld.run.window"
 local vec = require "softworld.vec"
@@ -88,7 +89,9 @@ local function checked(scene, wire, args)
     args.to = checks.vector(what .. ": to", args.to == nil and here or args.to, "m", 0)
     there = args.to
   end
-  args.slack = args.slack or vec.norm(vec.add(here, there, -1))
+  local apart = vec.norm(vec.add(here, there, -1))
+  args.slack = args.slack or apart
+  remarks.tie(what, apart, args)
   return args
 end
 
