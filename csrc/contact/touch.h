@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of the contact room. */
+/* Contact of wires with obstacles, for the files of this room. Candidate: a node or segment and an
+ * obstacle that may touch in the step. Touch: a place of it where an iterate lets them press. */
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
@@ -9,77 +10,77 @@
 
 struct sw_contact {
   sw_contact_obstacle *obstacles;
-  sw_contact_loads *loads; /* (count) zero but for those in busy */
+  sw_contact_loads *loads; /* (count) impulses in the step; zero but for those in busy */
   int *busy;               /* (busy_count) obstacles near wires in this step, or pressed before */
   size_t busy_count;
-  int informed; /* 1: the owner has told what obstacles remember and which may move */
+  int informed; /* 1: the scene has told what obstacles remember and which of them may move */
   sw_broad broad;
-  int last_stage; /* that was booked in this trial */
+  int last_stage; /* number of the last stage whose loads were booked in this trial */
   size_t count;
-  sw_contact_place place;
+  sw_contact_place place; /* places an obstacle at a time, with user */
   void *user;
-  sw_contact_at *start, *now; /* (count) at the step's start and at the stage */
+  sw_contact_at *start, *now; /* (count) places at the step's start and at the stage */
   int *flat;                  /* (count) 1: a half space, no segment contacts */
   int *straight;              /* (count) 1: its faces meet at right angles */
-  int *pads;                  /* (pad_count) those of grippers */
+  int *pads;                  /* (pad_count) numbers of the pads of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;    /* (count) 1: it has faces, edges and corners */
   double *round; /* (count) radius of its round side; 0: it has none [m] */
-  int *wound;    /* (count) number + 1 of the last body that went round it in this step */
-  int *dense;    /* (count) 1: particles of the body at hand lie close, likewise */
-  double *sunk;  /* (3 nodes) how far contact sees a node further in, or NULL: nowhere [m] */
+  int *wound;    /* (count) number + 1 of the last body that goes round it in this step */
+  int *dense;    /* (count) 1: particles of the body at hand lie close to each other */
+  double *sunk;  /* (3 nodes) shift of a node by which contact finds it deeper; NULL: none [m] */
   size_t sunk_capacity;
-  sw_ahead *ahead; /* (2 ahead_count) of the touches; and room for the next ones */
+  sw_ahead *ahead; /* (2 ahead_count) statics: states that the search has for touches, then room */
   size_t ahead_count, ahead_capacity; /* 0: there is no search */
-  int softer;    /* stage of the search in which touches are softer than they are; 0: no more [-] */
+  int softer;    /* stage of the search, in which touches are softened; 0: no more [-] */
   int passes;    /* of touches looking for their states at one place [-] */
-  double *reach; /* (nodes) widest gap that may close in the step, but for obstacles' moving [m] */
+  double *reach; /* (nodes) widest gap to an obstacle at rest that may close in the step [m] */
   size_t reach_capacity;
-  double *spaced; /* (count) farthest that samples of the body at hand may be apart; 0: none [m] */
+  /* candidates and touches */
+  double *spaced; /* (count) largest distance of samples of the body at hand; 0: no samples [m] */
   sw_bounds *bounds; /* (count) at the step's start, world axes */
   sw_candidate *candidates;
   size_t candidate_count, candidate_capacity;
   sw_touch *touches, *last; /* of this iterate and of the one before */
   size_t touch_count, touch_capacity, last_count, last_capacity;
   sw_pressed *pressed; /* touches with a force at the end of a stage of this trial */
-  size_t pressed_count, pressed_capacity, pressed_before; /* of earlier stages */
+  size_t pressed_count, pressed_capacity, pressed_before; /* the last: of earlier stages */
   sw_turn *turns;                                         /* (pressed_count) of a review */
   size_t turn_capacity;
-  sw_memory *memory, *next_memory;
+  sw_memory *memory, *next_memory; /* of touches, from step to step */
   size_t memory_count, memory_capacity, next_count, next_capacity;
-  /* impacts and barriers by their nodes: number of each node's last one + 1, or 0, and of the one
-   * before it */
-  uint32_t *impact_at, *barrier_at; /* (places) */
+  /* impacts and barriers */
+  uint32_t *impact_at, *barrier_at; /* (places) number + 1 of a node's last one, or 0 */
   size_t places, place_capacity;
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
   sw_impact *impacts;
   size_t impact_count, impact_capacity;
-  sw_mark *marks;
+  sw_mark *marks; /* touches of the last iterate, to tell whether another one would change any */
   size_t mark_count, mark_capacity;
-  sw_contact_parts parts;
-  double *room; /* of an iterate's refinement: solutions of a wire's equations */
+  sw_contact_parts parts; /* bodies that are solved by themselves */
+  double *room;           /* of an iterate's refinement: solutions of a wire's equations */
   size_t room_capacity;
   int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
   int looked;        /* 1: touches are those of the iterate to be evaluated next */
-  size_t stage;      /* number of the stage, counted all along */
+  size_t stage;      /* number of the stage; it grows from step to step */
   double first;      /* share of the step's first stage in what this one begins from [-] */
   double time, h;    /* of the step [s] */
   double stage_time; /* that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
-  double asked;      /* the part that it was to be taken in, before any was refused [s] */
+  double asked;      /* the part of it that was first tried, before any was refused [s] */
   sw_contact_regime regime;
-  int plastic;     /* 1: the step is one that does not bounce */
-  int hasty;       /* 1: friction of a wire that strikes is not agreed on in this trial */
-  int careful;     /* 1: none of that in this step */
-  double soonest;  /* rebound that is not at the step's start, after it [s] */
+  int plastic;     /* 1: impacts of this step do not rebound */
+  int hasty;       /* 1: this trial ends before friction of a wire that strikes is settled */
+  int careful;     /* 1: no trial of this step does that */
+  double soonest;  /* time after the step's start of the first rebound that is not at it [s] */
   double least;    /* rebounds sooner than this after the start are at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
-  int updates;     /* of the stage so far [-] */
-  int made;        /* of those, that positions took [-] */
-  double widening; /* of the reserve for flight, when nodes went further [-] */
+  int updates;     /* of touches in the stage so far [-] */
+  int made;        /* updates that positions took too [-] */
+  double widening; /* of the reserve for flight, when nodes went further than it [-] */
 };
 
 /* Force scale of a wire's touches: much smaller forces do not matter [N]. Touches are in the order
@@ -140,9 +141,9 @@ void sw_contact_match(const sw_contact *c, sw_glance *at);
 
 /* The memory of the candidate's touch nearest to this place, or NULL. */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
-/* A place along a candidate as a mean of nodes. */
 /* The obstacle with the owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
+/* A place along a candidate as a mean of nodes. */
 sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
 struct sw_place;
@@ -190,8 +191,7 @@ typedef struct sw_levers {
   sw_vec arm[2];      /* shift per turn [m] */
 } sw_levers;
 
-/* With the tangents of the last evaluation: of a touch at a node or on a segment that begins there.
- */
+/* Of a touch at a node or on a segment that begins there, with the last evaluation's tangents. */
 sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
 static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
   if (!s->bodies[t->body].roll_block) return (sw_levers){0};
