@@ -100,8 +100,8 @@ static double usual_force_at(const sw_system *s, size_t node) {
   return usual_force(s, &s->bodies[sw_system_body_of(s, node)]);
 }
 
-/* The solve took some tie's pull for one that its new places do not have: it was slack before, or
- * turned too far. */
+/* Is the pull of some tie at the new places another one than the linearised one that the solve went
+ * by? It is where the tie was slack before the update, or turned far in it. */
 static int mistakes_ties(const sw_system *s, const double *y) {
   const size_t first = sw_part_node(s, s->part), end = sw_part_node(s, s->part_end);
   for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {

@@ -122,9 +122,10 @@ static void spring_stiffness(const sw_join_spring *p, const double *x, double si
 
 sw_vec sw_join_tie_expected(const sw_join_spring *p, const double *x, const double *update) {
   const sw_vec more = apart_at(p, update), before = sw_sub(apart_at(p, x), more);
-  const double d = sw_norm(before), across = p->k * (1.0 - p->slack / d);
+  const double d = sw_norm(before);
   if (!(d > p->slack)) return sw_v(0, 0, 0);
   const sw_vec n = sw_scale(before, 1.0 / d);
+  const double across = p->k * (1.0 - p->slack / d);
   const double along = (p->k - across) * sw_dot(n, more);
   return sw_sub(force_at(p, before), sw_madd(sw_scale(more, across), n, along));
 }

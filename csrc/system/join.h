@@ -50,7 +50,8 @@ sw_status sw_joins_eval(sw_system *system, const double *y);
 /* Force of a spring on its node i at x [N]. */
 sw_vec sw_join_spring_force(const sw_join_spring *spring, const double *x);
 
-/* That of a tie after an update to x, as its stiffness before has it [m], [N]. */
+/* Force of a tie on its node i at x, linearised about the places before the last update [m], [N].
+ */
 sw_vec sw_join_tie_expected(const sw_join_spring *tie, const double *x, const double *update);
 
 /* Moment of a hub on its arm at x, about any point [N m]. */
