@@ -111,9 +111,11 @@ local function records(self, t1, t2)
     end
   end
   for i, hold in ipairs(self.past) do
-    local carried = self.spans[i].carried
-    local log, count, spans = build.call(3, hold.log, hold, t1, t2)
-    add(log, count, spans, carried and function(t) return t < carried end)
+    local held = self.spans[i]
+    if not (t1 and held.to and held.to < t1) then
+      local log, count, spans = build.call(3, hold.log, hold, t1, t2)
+      add(log, count, spans, held.carried and function(t) return t < held.carried end)
+    end
   end
   if self.carrier then
     local log, count = build.call(3, self.carrier.log, self.carrier, t1, t2)
