@@ -138,7 +138,7 @@ function corpus.scene()
   local other = scene:wire { E = 1e7, density = 1e3, radius = 1e-3, from = { 0, 0.1, 0.1 },
     to = { 0.1, 0.1, 0.1 }, segments = 4 }
   scene:clamp(other, { s = 0 })
-  scene:tie(wire, { s = 0.2, to = { 0.2, 0, 0.05 }, slack = 0.01 })
+  scene:tie(wire, { s = 0.2, to = { 0.2, 0, 0.05 }, slack = 0.05 })
   local hand = scene:gripper { name = "hand" }
   scene:process(function(p)
     p:step("grasp", function() hand:grasp(wire, { s = 0.03 }) end)
