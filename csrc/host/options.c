@@ -44,6 +44,10 @@ static int usage(const char *what, const char *word) {
   return HOST_USAGE;
 }
 
+static int is_help(const char *word) {
+  return strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0;
+}
+
 /* Read the option at argv[*at]; *at ends on its last word. */
 static int read_option(host_options *o, int *at) {
   const char *word = o->argv[*at];
@@ -63,7 +67,7 @@ static int read_option(host_options *o, int *at) {
     o->check = 1;
   } else if (strcmp(word, "-v") == 0 || strcmp(word, "--version") == 0) {
     o->version = 1;
-  } else if (strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0) {
+  } else if (is_help(word)) {
     o->help = 1;
   } else {
     return usage("there is no option", word);
@@ -90,6 +94,7 @@ int host_options_read(host_options *o, int argc, char **argv) {
     if (status != HOST_OK) return status;
   }
   o->command = i == 1 && i < argc && is_command(argv[i]) ? i : 0;
+  if (o->command && i + 1 < argc && is_help(argv[i + 1])) o->help = 1;
   o->script = i < argc && !o->command ? i : 0;
   if (o->view && !o->script && (o->codes || o->version || o->interactive))
     return usage("a script is missing after", "--view");

@@ -44,7 +44,8 @@ require "softworld.scene.settle"   -- scene:settle with error bars
 require "softworld.scene.changes"  -- get and set of scenes and grippers
 require "softworld.scene.leave"    -- scene:remove
 require "softworld.scene.zone"     -- scene:zone
-local save = require "softworld.scene.save" -- scene:save, scene:resume, scene:find
+require "softworld.scene.find"     -- scene:find, scene:names, scene:wires, ...
+local save = require "softworld.scene.save" -- scene:save, scene:resume
 
 --- A new scene. { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)

@@ -48,11 +48,26 @@ describe("softworld new", function()
     assert.truthy(err:find("a.lua is there already", 1, true), err)
     assert.equal("mine", program.read(folder .. "/a.lua"))
     for words, wanted in pairs { [""] = { 2, "wants a name" }, ["a b"] = { 2, "one name" },
-      ["no/b"] = { 1, "No such file" }, ["'x\ny'"] = { 2, "control characters" } } do
+      ["no/b"] = { 1, "No such file" }, ["'x\ny'"] = { 2, "control characters" },
+      ["-x"] = { 2, "no option '-x'" }, ["--"] = { 2, "no option '--'" } } do
       _, err, code = run(folder, "new " .. words)
       assert.equal(wanted[1], code)
       assert.truthy(err:find(wanted[2], 1, true), err)
     end
+  end)
+end)
+
+describe("softworld new, doc, lint", function()
+  after_each(program.clean)
+
+  it("show the program's help where it is asked for, and write nothing", function()
+    local folder = program.folder()
+    for _, words in ipairs { "new --help", "new -h", "doc --help", "lint -h" } do
+      local out, err, code = run(folder, words)
+      assert.same({ 0, "" }, { code, err })
+      assert.truthy(out:find("usage: softworld", 1, true))
+    end
+    for name in lfs.dir(folder) do assert.truthy(name == "." or name == "..", name) end
   end)
 end)
 
