@@ -9,9 +9,11 @@
 
 /* Declares a pointer to what a call finds; returns SW_EDEAD from the function where it finds none.
  */
+/* NOLINTBEGIN(bugprone-macro-parentheses): a type and a declared name take none */
 #define SW_FIND(type, name, call) \
   type *name = (call);            \
   if (!name) return SW_EDEAD
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 sw_hold *sw_scene_find_hold(const sw_scene *scene, sw_handle h, sw_error *err);
 /* The same of a hold that has not been released. */
