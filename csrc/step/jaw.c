@@ -20,13 +20,12 @@ enum { MOST_TRIALS = 10 };            /* the last one is taken as it is [-] */
 enum { MOST_FIRST = 20 };             /* the same, until there is a force for the first time [-] */
 enum { MOST_RESTS = 12 };             /* the same for equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
-static const double TELLS = 1e-7;        /* openings nearer to each other than this give no
-                                            stiffness [m] */
+static const double TELLS =
+    1e-7;                  /* openings nearer to each other than this give no stiffness [m] */
 enum { BEFORE_JUMPS = 4 }; /* later trials are near a jump of the force, if there is one [-] */
-static const double BEYOND = 1.3; /* a guess goes further than the slope predicts by this factor
-                                     [-] */
+static const double BEYOND = 1.3; /* a guess is the slope's prediction times this [-] */
 static const double WIDER =
-    4.0; /* and by this factor more after every trial that was too short [-] */
+    4.0; /* and times this once more after every trial that was too short [-] */
 
 /* 1 if this step may end with another force than that of its first guess. */
 static int yields(const sw_jaw *j) {
