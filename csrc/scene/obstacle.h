@@ -18,8 +18,8 @@ typedef struct sw_scene_obstacle {
   int off; /* 1: contact is off, wires pass through it */
   sw_contact_past past;
   sw_log log;
-  size_t logged; /* number of the scene's contact steps that the log has or that came before this
-                    log */
+  size_t
+      logged; /* count of the scene's contact steps that are in its log or came before its start */
 } sw_scene_obstacle;
 
 #endif
