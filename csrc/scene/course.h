@@ -25,7 +25,7 @@ typedef struct sw_course {
    * (substeps) of blow_part until blow_until [s]. */
   double blow_part, blow_since, blow_until;
   double snap;    /* hardest pull so far of ties whose snap was followed in parts [N] */
-  double slap;    /* hardest force so far of wires that struck each other, followed likewise [N] */
+  double slap;    /* the same for the force of wires that struck each other [N] */
   double part;    /* part that a step of fixed size begins with; 0: it is tried whole [s] */
   double next_dt; /* next step of an adaptive run; 0 = not known [s] */
   size_t parts;   /* parts taken since the last check for collapsed steps [-] */

@@ -23,8 +23,8 @@ void sw_coarse_tell(sw_scene *scene, double h);
 double sw_coarse_part(const sw_scene *scene, double h, double dt, double over);
 /* Returns the shortest part that coarse motion may ask for [s]. */
 double sw_coarse_shortest(double dt);
-/* As sw_coarse_part, for a part in which a tie goes taut: returns half of h, because only the half
- * with the snap is coarse [s]. */
+/* As sw_coarse_part, for a part in which a tie goes taut: half of h, because only the half with the
+ * snap is coarse; h if half is too short [s]. */
 double sw_coarse_half(double h, double dt);
 /* 1 if a shorter part was worth taking: its error is `over`, that of the longer part was
  * `before`. */
