@@ -19,7 +19,7 @@ sw_status sw_scene_draw(sw_scene_wire *wire, size_t segments, sw_mesh *out, sw_e
 /* SW_EINVAL when the wire, as given, does not go with the scene's forces and rules. */
 sw_status sw_scene_check_rules(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                sw_error *err);
-/* SW_EINVAL when the wire must not touch others, but rules of contact say so. */
+/* SW_EINVAL when rules of contact ask the wire to touch others, and it cannot. */
 sw_status sw_scene_check_touched(const sw_scene *scene, size_t wire, const sw_scene_wire *as,
                                  sw_error *err);
 /* Free what these slots own. */

@@ -247,8 +247,8 @@ static sw_status fill_links(const maker *m) {
   return SW_OK;
 }
 
-/* Bounds the highest frequency by Gershgorin's theorem: its square is at most the largest row sum
- * of the stiffness over the mass. Adds the element's row sums. */
+/* Adds the row sums of an element's stiffness. By Gershgorin's theorem the square of no frequency
+ * exceeds the largest row sum over the mass of its particle. */
 static void bound_solid(const sw_solid *e, const sw_web_solid *s, const double *x, double *sums) {
   double H[9 * SW_SOLID_NODES * SW_SOLID_NODES], g[3 * SW_SOLID_NODES];
   const size_t n = 3 * s->count;

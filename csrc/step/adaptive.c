@@ -31,8 +31,8 @@ static double over_of(const sw_ladder *p, double h) {
   return judged && sw_coarse_applies(s) ? fmax(over, sw_coarse_of(s, p->args->tolerance)) : over;
 }
 
-/* Returns the next step after one of h. A fine step by implicit Euler is never followed by a
- * shorter one, and by a longer one if it changed little. */
+/* Returns the next step after one of h. After a fine step by implicit Euler it is not shorter, and
+ * it is longer if velocities changed little. */
 static double next_of(const sw_ladder *p, double h, double over) {
   const sw_scene *s = p->s;
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;

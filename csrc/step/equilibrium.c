@@ -114,8 +114,8 @@ static int is_dragged(const sw_statics *p) {
          sw_contact_moves(sw_scene_contact(p->s));
 }
 
-/* 1 if nothing holds some wire. On a smooth table it can be shifted without effort, and rounding
- * alone would carry it far. Meshes have enough touches to keep them in place. */
+/* 1 if there is a wire that nothing holds. On a smooth table it can be shifted without effort, and
+ * rounding alone would carry it far. Meshes have enough touches to keep them in place. */
 static int loose(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++) {
@@ -182,7 +182,7 @@ int sw_rest_stops(sw_status status) {
 }
 
 /* Continuation leaves out the negative stiffness of compressed wires; with it, it would go to
- * unstable places. Where this takes off nearly all stiffness, as of a wire that has buckled
+ * unstable places. Where compression takes off nearly all stiffness, as of a wire that has buckled
  * sideways under friction, continuation repeats almost the same step thousands of times. After
  * MANY_ALIKE steps in a row that are alike (cosine above ALIKE, length above ALMOST of the step
  * before), the steps that their ratio predicts are taken at once. That excites other modes, which

@@ -36,7 +36,7 @@ static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
 static const double THROWN = 0.02, LET_OUT = 0.01;
 /* Share of the energy in play that the method may make where nothing touches [-]. */
 static const double IN_FLIGHT = 0.01;
-/* And beyond that, in each whole step: with no allowance steps would collapse [-]. */
+/* Share that each whole step may make beyond that. With no allowance steps would collapse [-]. */
 static const double EACH_IN_FLIGHT = 2e-4;
 
 /* Energy stored between bodies and obstacles. */
