@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the edited scene to a system that can be advanced, and back. */
+/* Builds the edited scene into a system that can be advanced, and takes it back. */
 #include "body/build.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ void sw_scene_forget_contact(sw_scene *s) {
   memset(&s->kept, 0, sizeof s->kept);
 }
 
-/* Friction anchors and sides outlive a change of the system. */
+/* Keeps friction anchors and sides for the next system. */
 static sw_status keep_contact(sw_scene *s) {
   sw_scene_forget_contact(s);
   if (!sw_scene_has_contact(s)) return SW_OK;
@@ -79,7 +79,8 @@ static sw_status keep_contact(sw_scene *s) {
   return SW_OK;
 }
 
-/* What nodes of wire w that contact remembers are now, and segments, by their first nodes. */
+/* Finds the present nodes of wire w's nodes in the contact memory, and of its segments, by their
+ * first nodes. */
 static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *new_edge) {
   const size_t first = s->kept.first[w], end = s->kept.first[w + 1], now = s->kept.now[w];
   for (size_t k = first; k < end; k++) new_node[k] = new_edge[k] = SIZE_MAX;
@@ -89,7 +90,7 @@ static void find_again(const sw_scene *s, size_t w, size_t *new_node, size_t *ne
                    new_edge + first);
 }
 
-/* Give the kept memory to the new system's contact. */
+/* Gives the kept memory to the new system's contact. */
 static sw_status inherit_contact(sw_scene *s) {
   if (!sw_scene_has_contact(s) || !s->kept.memory) return SW_OK;
   const size_t old_nodes = s->kept.first[s->kept.wires];
@@ -106,7 +107,7 @@ static sw_status inherit_contact(sw_scene *s) {
   return sw_mutual_inherit(s->grains, s->kept.grains, s->kept.grain_bytes, new_node, s->kept.now);
 }
 
-/* Twist by stretch of wire, for the spans of the next system. */
+/* Keeps twist by stretches of wire, for the spans of the next system. */
 static sw_status keep_twist(sw_scene *s) {
   for (size_t k = 0; k < s->system.hold_count; k++) {
     const double *q = s->system.turn + 4 * k;
@@ -146,8 +147,8 @@ static void store_turn(double *out, sw_quat q) {
   out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
 }
 
-/* A new span takes over the twist of the stretches it covers; what lies outside
- * of all spans has unwound through a free end to its unloaded twist. */
+/* Gives a new span the twist of the stretches that it covers. Wire outside all stretches has
+ * unwound through a free end to its unloaded twist. */
 static void inherit_twist(sw_scene *s) {
   for (size_t k = 0; k < s->system.hold_count; k++)
     store_turn(s->system.turn + 4 * k, s->holds[s->hold_slot[k]].turn);
@@ -181,7 +182,8 @@ sw_status sw_scene_unbuild(sw_scene *s) {
   return SW_OK;
 }
 
-/* Between long parts of building; what goes back to a snapshot gets there. */
+/* SW_EINTR if the user interrupts, between long parts of building. Restoring a snapshot is not
+ * interrupted. */
 static sw_status stopped(const sw_scene *s) {
   return sw_interrupted() && !s->restoring ? SW_EINTR : SW_OK;
 }
@@ -304,7 +306,8 @@ static sw_status add_contact(sw_scene *s) {
   return n ? sw_contact_new(list, n, place_obstacle, s, &s->contact) : SW_OK;
 }
 
-/* Strains and their rates go on; where they are not known, springs change as their ends move. */
+/* Takes over strains and their rates. Where rates are not known, they follow from the nodes'
+ * velocities. */
 static void inherit_strains(sw_scene *s) {
   sw_system_strain_from_state(&s->system);
   for (size_t w = 0; w < s->wire_count; w++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* No node of a wire and no particle of a mesh is held by two holds, and between two holds there
- * is wire that can be meshed. */
+/* Checks that no node of a wire and no particle of a mesh is held by two holds, and that the wire
+ * between two holds can be meshed. */
 #include <math.h>
 
 #include "body/body.h"
@@ -9,7 +9,7 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 
-static const double SAME_PLACE = 1e-9; /* of the wire's length: rounding [-] */
+static const double SAME_PLACE = 1e-9; /* of the wire's length, for rounding [-] */
 
 static sw_status say_held(const sw_scene_wire *w, const sw_hold *by, const char *what,
                           sw_error *err) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mesh beside guides: nodes that come out of them and go into them. */
+/* The mesh beside guides: nodes come out of them and go into them. */
 #include "body/guide.h"
 
 #include <math.h>
@@ -15,16 +15,16 @@
 #include "state/hinge.h"
 #include "system/system.h"
 
-/* First edges between these shares of the second one keep the clamp's quadrature good; beyond
- * that nodes are made and removed. Apart by more than one, so that a feed that goes to and fro
- * does not do so all the time. */
+/* Limits of the first edge over the second one, between which the clamp's quadrature is good.
+ * Beyond them nodes are made and removed. Their ratio is above 2, so that a feed that goes to and
+ * fro does not make and remove nodes all the time. */
 static const double SHORTEST = 0.47, LONGEST = 1.5; /* [-] */
-/* Without a node to be removed: of the usual length [-]. */
+/* Shortest first edge when no node can be removed, over the usual length [-]. */
 static const double LEAST_LEFT = 0.2;
-static const double LARGEST_SHARE = 0.4; /* of an edge, fed in one step [-] */
-enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges to keep before a free end and another hold */
+static const double LARGEST_SHARE = 0.4; /* most fed in one step, over an edge [-] */
+enum { LEAST_FREE = 2, LEAST_HELD = 3 }; /* edges kept before a free end and before another hold */
 
-/* Paid out so long after now [m]. */
+/* Returns the length paid out at a time `later` after now [m]. */
 static double fed_at(const sw_scene *s, const sw_hold *hold, double later) {
   return sw_hold_way_of(s, hold, sw_scene_time(s) + later, NULL).way;
 }
@@ -34,7 +34,8 @@ double sw_feed_step(const sw_scene *s, double h) {
     if (!o->alive || !sw_hold_passes(o)) continue;
     const double most = LARGEST_SHARE * o->cls->hold->guide(o)->size, now = fed_at(s, o, 0);
     double way = fabs(fed_at(s, o, h) - now);
-    for (int i = 0; way > most && i < 60; i++) { /* in even parts: a tiny one would be a kick */
+    for (int i = 0; way > most && i < 60; i++) { /* in even parts, because a tiny last one would be
+                                                    a kick */
       h /= fmin(64, ceil(way / most));
       way = fabs(fed_at(s, o, h) - now);
     }
@@ -65,7 +66,7 @@ typedef struct guide {
   sw_guide *own;
   sw_mesh *m;
   int side;
-  sw_vec director, normal; /* of the wire in the guide [-] */
+  sw_vec director, normal; /* of the wire inside the guide [-] */
   size_t left;             /* edges up to the wire's end or the next hold */
 } guide;
 
@@ -74,13 +75,13 @@ static long inner(const guide *g, long k) {
   return i < (long)g->m->n ? i : -1;
 }
 
-/* Unstressed length of edge k from the guide; 0 beyond the wire. */
+/* Returns the unstressed length of edge k from the guide; 0 beyond the wire [m]. */
 static double edge_length(const guide *g, long k) {
   const long a = inner(g, k), b = inner(g, k + 1);
   return a < 0 || b < 0 ? 0 : fabs(g->m->s[b] - g->m->s[a]);
 }
 
-/* Edges up to the wire's end or the next hold, and that hold. */
+/* Returns the edges up to the wire's end or the next hold; *next: that hold, or NULL. */
 static size_t edges_left(const sw_scene *s, const guide *g, const sw_hold **next) {
   const double from = g->h->s1;
   double to = g->side > 0 ? g->m->s[g->m->n - 1] : g->m->s[0];
@@ -96,7 +97,8 @@ static size_t edges_left(const sw_scene *s, const guide *g, const sw_hold **next
   return a < b ? b - a : a - b;
 }
 
-/* From the frame in the guide to that of the first edge, as a rotation in the former's axes. */
+/* Returns the rotation from the frame in the guide to that of the first edge, in the former's
+ * axes. */
 static sw_vec turn_between(sw_quat held, sw_quat edge) {
   return sw_quat_log(sw_quat_mul(sw_quat_conj(held), edge));
 }
@@ -117,7 +119,7 @@ static sw_vec rest_between(const guide *g, size_t e) {
   return turn_between(held, edge);
 }
 
-/* The frame of an edge that is turned from the guide's by what rests and what bends it. */
+/* Returns the frame of an edge, from the guide's frame, its turn at rest and its bend. */
 static sw_quat bent_turn(const guide *g, size_t e, sw_vec bend) {
   const sw_quat held = sw_spool_turn(g->director, g->normal);
   return sw_quat_unit(sw_quat_mul(held, sw_quat_exp(sw_add(rest_between(g, e), bend))));
@@ -129,7 +131,7 @@ static void put_normal(const guide *g, size_t e, sw_quat q) {
   sw_store(g->m->normal + 3 * e, sw_carry_unit(sw_spool_normal(q), sw_spool_tangent(q), t));
 }
 
-/* Unstressed length of the first edge with its spare, and the place that holds it. */
+/* Place of this side's spare: unstressed length of the first edge beyond that of the mesh [m]. */
 static double *spare_of(const guide *g) { return &g->own->spare[g->side > 0]; }
 
 static double fed_length(const guide *g) { return (g->own->label - g->h->s1) * g->own->outward; }
@@ -154,12 +156,12 @@ static sw_vec face_bend(const guide *g, size_t e) {
   return sw_sub(turn, rest_between(g, e));
 }
 
-/* Nodes that share in a shift, and the largest shift of an edge's length: more is not the
- * small matter that it should be. */
+/* REACH: most nodes that share in a shift; with fewer than LEAST_REACH nothing is shifted.
+ * LARGEST_SHIFT: largest shift over an edge's length; a larger one would be no small correction. */
 enum { REACH = 8, LEAST_REACH = 3 };
 static const double LARGEST_SHIFT = 0.1;
 
-/* Did node k touch something in the last step? A node that has only just come did not. */
+/* 1 if node k touched something in the last step. A node that has just come did not. */
 static int touches(const guide *g, long k) {
   const sw_scene *s = g->s;
   const double arc = g->m->s[inner(g, k)];
@@ -173,9 +175,9 @@ static int touches(const guide *g, long k) {
   return 0;
 }
 
-/* Shift node `first` across the wire by delta, and those after it by less and less, with
- * all edges keeping their lengths. Nodes that touch something stay: they would be pushed into it
- * or lose it. */
+/* Shifts node `first` across the wire by delta, and the nodes after it by less and less; all edges
+ * keep their lengths. Nodes that touch something stay: a shift would push them into it or off
+ * it. */
 static void shift_nodes(const guide *g, long first, sw_vec delta) {
   sw_mesh *m = g->m;
   const long most = (long)fmin(REACH, (double)g->left - (double)first);
@@ -196,10 +198,10 @@ static void shift_nodes(const guide *g, long first, sw_vec delta) {
   }
 }
 
-/* A guide's first edges before and after a change: what bends them, in the guide's axes. */
+/* A guide's first edges before and after a change: their bending, in the guide's axes. */
 typedef struct beside {
   double first, second; /* lengths [m] */
-  double clamp, next;   /* of hinges [m] */
+  double clamp, next;   /* lengths of hinges [m] */
   sw_vec bend, change;  /* curvature in the guide, and its change to the first node [1/m] */
 } beside;
 
@@ -216,10 +218,10 @@ static beside look(const guide *g) {
   return b;
 }
 
-/* A node comes out of the guide, a usual length before the first one. Bending moment and torque
- * at the guide stay as they are, and so do those at the nodes, which takes a small shift of
- * them: the hinges stand for other stretches of wire now. The way over the new node is longer
- * than the chord that was there; the feed holds the difference back again. */
+/* Inserts a node that comes out of the guide, a usual length before the first one. Bending moment
+ * and torque at the guide stay the same. So do those at the nodes, for which they shift a little,
+ * because the hinges now stand for other stretches of wire. The way over the new node is longer
+ * than the old chord; the feed holds the difference back again. */
 static sw_status add_node(guide *g) {
   sw_mesh *m = g->m;
   const double size = g->own->size;
@@ -247,7 +249,7 @@ static sw_status add_node(guide *g) {
   const sw_vec way = sw_sub(node_at(g, 2), from);
   const double along = sw_dot(t0, way), rest = stretch * size;
   const double root2 = along * along - sw_norm2(way) + rest * rest;
-  const double chord = along - sqrt(fmax(0, root2)); /* leaves `rest` to the next node */
+  const double chord = along - sqrt(fmax(0, root2)); /* leaves the length `rest` to the next node */
   sw_store(m->x + 3 * node, sw_madd(from, t0, chord));
   set_length(g, chord / stretch);
   if (!m->rest) return SW_OK;
@@ -256,7 +258,7 @@ static sw_status add_node(guide *g) {
   return SW_OK;
 }
 
-/* The first node goes into the guide. */
+/* Removes the first node, which goes into the guide. */
 static void take_node(guide *g) {
   sw_mesh *m = g->m;
   const beside b = look(g);
@@ -279,11 +281,11 @@ static void take_node(guide *g) {
 
 enum { FINE = 0, ADD = 1, TAKE = 2, EMPTY = 3 };
 
-/* What a guide's side needs for first edges between two lengths; that now is one of them. */
+/* Returns what a guide's side needs while its first edge changes by `change` [m]. */
 static int needs(const sw_scene *s, const guide *g, double change) {
   const sw_hold *next;
   const double now = edge_length(g, 0), then = now + change, second = edge_length(g, 1);
-  if (!(now > 0)) return FINE; /* no wire there: the spool's side */
+  if (!(now > 0)) return FINE; /* no wire there: the side of the spool */
   if (now > LONGEST * g->own->size) return ADD;
   if (!(then < SHORTEST * (second > 0 ? second : g->own->size))) return FINE;
   const size_t left = edges_left(s, g, &next);
@@ -304,7 +306,7 @@ static sw_status say_empty(const sw_scene *s, const guide *g, sw_error *err) {
                  next ? "'" : "its end", next ? next->name : "", next ? "'" : "", fabs(to - from));
 }
 
-/* The guide's side of hold h; directions are as the holds were last placed. */
+/* Returns one side of hold h's guide; directions are as the holds were last placed. */
 static guide guide_of(sw_scene *s, sw_hold *h, int side, const sw_vec *axes) {
   guide g = {.s = s,
              .h = h,
@@ -316,12 +318,12 @@ static guide guide_of(sw_scene *s, sw_hold *h, int side, const sw_vec *axes) {
   return g;
 }
 
-/* Work on one hold: side by side, as long as something is needed. With edit 0 only look. */
+/* Tends one hold, side by side, as long as something is needed. edit 0: only looks. */
 static sw_status tend(sw_scene *s, sw_hold *h, double fed, int edit, const sw_vec *axes,
                       int *wanted, sw_error *err) {
   for (int side = -1; side < 2; side += 2) {
     guide g = guide_of(s, h, side, axes);
-    for (int i = 0; i < 8; i++) { /* a few where the mesh was uneven */
+    for (int i = 0; i < 8; i++) { /* several passes, where the mesh was uneven */
       const int need = needs(s, &g, fed * side * g.own->outward);
       if (need == FINE) break;
       if (need == EMPTY) return say_empty(s, &g, err);
@@ -338,7 +340,8 @@ static sw_status tend(sw_scene *s, sw_hold *h, double fed, int edit, const sw_ve
   return SW_OK;
 }
 
-/* Every hold's; axes: director and normal of each of the system's holds, or NULL to look. */
+/* Tends every hold. axes: director and normal of each of the system's holds, or NULL to look
+ * only. */
 static sw_status tend_all(sw_scene *s, double t, const sw_vec *axes, int *wanted, sw_error *err) {
   static const sw_vec looking[2] = {{1, 0, 0}, {0, 1, 0}};
   SW_EACH(hold, h, s) {

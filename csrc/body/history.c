@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What forces remember outlives a change of the system: clamps put on and taken
- * off, nodes moved and inserted, other forces made. */
+/* Histories of forces outlive a change of the system: clamps put on and taken off, nodes moved and
+ * inserted, other forces made. */
 #include "body/history.h"
 
 #include <string.h>
@@ -98,7 +98,7 @@ void sw_scene_inherit_histories(sw_scene *s) {
     }
 }
 
-/* --- on a tape, with what contact remembers ---------------------------------------------- */
+/* --- on a tape, with contact's memory ---------------------------------------------------- */
 
 void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   sw_kept_contact *kept = sw_scene_kept(s);
@@ -124,7 +124,7 @@ void sw_tape_kept_contact(sw_tape *t, sw_scene *s) {
   sw_tape_int(t, &kept->fresh), sw_tape_size(t, &kept->changed);
 }
 
-/* May a force of this class have a history of the plan, and give it to the wire's next one? */
+/* 1 if a force of this class may have a history for the plan and give it to the wire's next one. */
 static int remembers(const sw_force_class *cls, const sw_plan *plan, const sw_scene_wire *w) {
   if (!cls->state_size || (cls->applies && !cls->applies(plan))) return 0;
   if (!(cls->flags & SW_FORCE_OF_WEB)) return 1;

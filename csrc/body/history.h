@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What forces remember outlives a change of the system. Of the scene's inside. */
+/* Histories of forces outlive a change of the system. Of the scene's inside. */
 #ifndef SW_BODY_HISTORY_H
 #define SW_BODY_HISTORY_H
 
@@ -8,21 +8,22 @@
 #include "scene/scene.h"
 #include "state/plan.h"
 
-/* What a force on a wire remembers between two systems. */
+/* History of a force on a wire between two systems. */
 typedef struct sw_kept_history {
   size_t force, wire;
-  const sw_force_class *inner; /* of a wire's recipe, or NULL: one of the scene's forces */
+  const sw_force_class *inner; /* class of a force of the wire's recipe; NULL: one of the scene's
+                                  forces */
   uint32_t generation;         /* of the force */
   sw_plan *plan;               /* retained */
   double *data;
 } sw_kept_history;
 
-/* Put the forces' histories aside, give them to the new system, forget them. */
+/* Puts the forces' histories aside; gives them to the new system; drops them. */
 sw_status sw_scene_keep_histories(sw_scene *scene);
 void sw_scene_inherit_histories(sw_scene *scene);
 void sw_scene_forget_histories(sw_scene *scene);
 
-/* What a scene that is not built remembers of its last system. */
+/* On a tape: contact memory and histories that an unbuilt scene keeps of its last system. */
 void sw_tape_kept_contact(sw_tape *tape, sw_scene *scene);
 void sw_tape_kept_history(sw_tape *tape, sw_scene *scene, sw_kept_history *history);
 

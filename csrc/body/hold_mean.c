@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds bear in a step with a jerk. A hold that starts or stops at once gives its wire an
- * impulse, which the forces of the stages make up as they make up the velocity: each of them grows
- * without end as steps get shorter, and that at the step's end says nothing of the impulse. */
+/* Mean loads of holds over a step with a jerk. A hold that starts or stops abruptly gives its wire
+ * an impulse. The stages' forces add up to this impulse as the stages add up to the velocity. Each
+ * of them grows without bound as steps get shorter, and the one at the step's end does not give the
+ * impulse. */
 #include <math.h>
 
 #include "body/hold.h"
@@ -14,7 +15,7 @@ static sw_vec booked(const sw_booking *b, sw_vec now, sw_vec before, sw_vec firs
   return sw_madd(sw_madd(sw_scale(now, b->own), before, b->start), first, b->first);
 }
 
-/* Methods that look back would have to know the sums of the step before. */
+/* Impulses stay unknown for methods that use the step before: they would need its sums. */
 void sw_hold_book(sw_scene *s, const sw_booking *b) {
   sw_system *system = sw_scene_system(s);
   sw_system_hold_loads(system, sw_scene_hold_loads(s));
@@ -29,8 +30,8 @@ void sw_hold_book(sw_scene *s, const sw_booking *b) {
   }
 }
 
-/* A step has a jerk if the force at its end differs from the mean over it by the first share of the
- * larger of both, and by the second share of a usual force of the wire [-]. */
+/* A step has a jerk if the force at its end differs from the mean over it by more than JERK of the
+ * larger of both, and by more than SHARP of the wire's usual force [-]. */
 static const double JERK = 0.05, SHARP = 0.1;
 
 static double usual_force(const sw_scene *s, size_t wire) {
@@ -40,8 +41,8 @@ static double usual_force(const sw_scene *s, size_t wire) {
   return fmax(weight, p->beam.EI / (p->length * p->length));
 }
 
-/* A method that only looks on from the middle of a step rings after a jerk: what rings counts as
- * values at the steps' ends, whose mean over two steps is right. */
+/* A method whose only stage lies within the step rings after a jerk. Its forces count as values at
+ * the steps' ends, whose mean over two steps is right. */
 double sw_hold_span(const sw_scene *s, int mean) {
   sw_course *c = sw_scene_course(s);
   const int rings = c->has_stepper && (c->method->flags & SW_INTEGRATOR_ONWARDS);

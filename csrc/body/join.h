@@ -6,14 +6,14 @@
 #include "link/joint.h"
 #include "scene/scene.h"
 
-/* The living join that has the wire, or NULL. */
+/* Returns a living join of the wire, or NULL. */
 const sw_joint *sw_scene_joined(const sw_scene *scene, size_t wire);
-/* The arc lengths of a wire's living joins into out (may be NULL); their number. */
+/* Writes the arc lengths of a wire's living joins to out (may be NULL); returns their number. */
 size_t sw_scene_join_places(const sw_scene *scene, size_t wire, double *out);
-/* The wires of a joint, as links see them. */
+/* Returns the wires of a joint, as links see them. */
 void sw_scene_joint_wires(const sw_scene *scene, const sw_joint *join,
                           sw_link_wire out[SW_JOIN_ENDS]);
-/* Springs and hinges of the living joins for the new system. SW_ENOMEM. */
+/* Adds springs and hinges of the living joins to the new system. SW_ENOMEM. */
 sw_status sw_scene_add_joins(sw_scene *scene);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bodies that are lines: a wire's nodes are those of its mesh. */
+/* Bodies that are lines: the nodes of a wire are those of its mesh. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 
 static int is_on(const sw_hold *h, size_t wire) { return h->alive && h->wire == wire; }
 
-/* Arc lengths that holds and joins need as nodes; their number. */
+/* Writes the arc lengths that holds and joins need as nodes; returns their number. */
 static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   size_t n = 0;
   SW_EACH(hold, h, s) {
@@ -22,7 +22,7 @@ static size_t kept_places(const sw_scene *s, size_t wire, double *out) {
   return n + sw_scene_join_places(s, wire, out + n);
 }
 
-/* Room for them and one more, to be freed; NULL: out of memory. */
+/* Returns room for these and two more, to be freed; NULL: out of memory. */
 static double *new_places(const sw_scene *s, size_t wire) {
   return sw_alloc(2 * sw_scene_hold_slots(s) + sw_scene_join_places(s, wire, NULL) + 2,
                   sizeof(double));
@@ -35,7 +35,7 @@ static sw_body_state state(const sw_scene_wire *w) {
   return (sw_body_state){m->n, m->x, m->v, m->a, m->tension, m->rate};
 }
 
-/* Place of arc length s in the hold's frame. */
+/* Returns the place of arc length s in the hold's frame. */
 static sw_vec local_of(const sw_hold *h, double s) {
   size_t i = 0;
   while (i + 2 < h->count && h->s[i + 1] <= s) i++;
@@ -44,7 +44,7 @@ static sw_vec local_of(const sw_hold *h, double s) {
   return sw_lerp(sw_vec_at(h->local, i), sw_vec_at(h->local, i + 1), f);
 }
 
-/* What a hold has formed is as long as it lies there. */
+/* Sets the unstressed lengths of edges that a hold has formed to their lengths in the hold. */
 static void form(const sw_scene *s, size_t w, sw_plan *plan) {
   SW_EACH(hold, h, s) {
     if (!is_on(h, w) || !h->formed) continue;
@@ -83,12 +83,12 @@ static sw_status take(sw_scene *scene, size_t w) {
 
 static void widen(const sw_mesh *m, double *s1, double *s2) { (void)m, (void)s1, (void)s2; }
 
-/* Fewest edges between two holds: with four the bending stiffness between two
- * clamps is 2 to 5 % low, with three 5 to 10 %, and one edge would be rigid. No
- * more than needed, because a bent wire's energy grows when edges are halved. */
+/* Fewest edges between two holds. With four the bending stiffness between two clamps is 2 to 5 %
+ * low, with three 5 to 10 %, and one edge would be rigid. No more than needed, because a bent
+ * wire's energy grows when edges are halved. */
 enum { LEAST_EDGES = 4 };
 
-/* Halve every edge between the nodes at arc lengths low and high. */
+/* Halves every edge between the nodes at arc lengths low and high. */
 static sw_status halve_edges(sw_mesh *m, double low, double high) {
   const size_t first = sw_mesh_node(m, low), count = sw_mesh_node(m, high) - first + 1;
   double placed, *nodes SW_LOCAL = sw_alloc(count, sizeof *nodes);
@@ -99,7 +99,7 @@ static sw_status halve_edges(sw_mesh *m, double low, double high) {
   return SW_OK;
 }
 
-/* Enough edges between h and the holds beside it. */
+/* Makes enough edges between h and the holds beside it. */
 static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
   SW_EACH(hold, o, s) {
     if (!o->alive || o->wire != h->wire || o == h) continue;
@@ -113,7 +113,7 @@ static sw_status refine_gaps(const sw_scene *s, const sw_hold *h, sw_mesh *m) {
   return SW_OK;
 }
 
-/* How far arc length s is from the nearest node [m]. */
+/* Returns the distance of arc length s from the nearest node [m]. */
 static double off_nodes(const sw_mesh *m, double s) {
   const size_t i = sw_mesh_node(m, s);
   return i > 0 ? fmin(fabs(m->s[i] - s), s - m->s[i - 1]) : fabs(m->s[i] - s);
@@ -125,7 +125,7 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   if (!keep) return SW_ENOMEM;
   size_t n = kept_places(s, h->wire, keep);
   sw_body_interval(m, a, &ends[0], &ends[1]);
-  /* an end that is nearer to a node takes it first, from whichever end arc length counts */
+  /* the end nearer to a node takes it first, whichever end arc length counts from */
   const int order = off_nodes(m, ends[1]) < off_nodes(m, ends[0]);
   sw_status status = sw_mesh_place(m, ends[order], keep, n, &placed[order]);
   placed[!order] = placed[order];
@@ -138,8 +138,8 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   return status;
 }
 
-/* Where the held places are in the hold's frame, whose origin is the point at
- * s and whose axes are the world's at this moment. */
+/* Finds the held places in the hold's frame. Its origin is the point at s, its axes are the world's
+ * now. */
 static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a) {
   const sw_mesh *m = &w->mesh;
   const size_t first = sw_mesh_node(m, h->s1), last = sw_mesh_node(m, h->s2);
@@ -160,7 +160,7 @@ static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a
   return SW_OK;
 }
 
-/* Make s a node of the mesh, of exactly this arc length. */
+/* Makes s a node of the mesh, of exactly this arc length. */
 static sw_status place_exactly(sw_mesh *m, double s, const double *keep, size_t count) {
   double placed;
   SW_TRY(sw_mesh_place(m, s, keep, count, &placed));
@@ -202,8 +202,8 @@ static sw_status check_holds(const sw_scene *s, size_t wire, sw_error *err) {
 
 /* --- carry over ----------------------------------------------------------------- */
 
-/* A node is the same when its arc length is, one that was moved for a clamp starts anew; a segment
- * is when both of its ends are. */
+/* A node is the same if its arc length is; one that was moved for a clamp starts anew. A segment is
+ * the same if both its ends are. */
 static void carry_over(const sw_body *b, const double *s, size_t count, size_t *new_node,
                        size_t *new_edge) {
   size_t i = 0;
@@ -227,7 +227,7 @@ static double arc(const sw_scene_wire *w, const sw_plan *p, size_t node) {
   return sw_plan_place(p, node);
 }
 
-/* Apart: edges between two holds, a quarter as long, must be told from nothing. */
+/* Apart: an edge between two holds, a quarter of this long, must differ from zero. */
 const sw_body_class sw_body_line = {.held = "node",
                                     .apart = 1e-6,
                                     .state = state,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a place on a line is like: between its nodes, and beside what holds it. */
+/* State at a place on a line: between its nodes, and beside its holds. */
 #include <math.h>
 
 #include "body/body.h"
@@ -11,7 +11,7 @@
 #include "state/clamp.h"
 #include "system/system.h"
 
-/* The clamp hinge at a node that looks along edge, or NULL. */
+/* Returns the clamp hinge at a node on this edge, or NULL. */
 static const sw_clamp_hinge *clamp_at(const sw_plan *p, size_t node, size_t edge) {
   for (size_t c = 0; c < p->clamp_count; c++)
     if (p->clamps[c].node == node && p->clamps[c].edge == edge) return &p->clamps[c];
@@ -26,14 +26,14 @@ static double angle_between(sw_vec a, sw_vec b) {
   return 2.0 * asin(fmin(1.0, 0.5 * sw_dist(a, b)));
 }
 
-/* The clamp hinge at a node, whichever edge it looks along, or NULL. */
+/* Returns a clamp hinge at a node, on any edge, or NULL. */
 static const sw_clamp_hinge *face_at(const sw_plan *p, size_t node) {
   for (size_t c = 0; c < p->clamp_count; c++)
     if (p->clamps[c].node == node) return &p->clamps[c];
   return NULL;
 }
 
-/* Tangent and curvature at a node as seen from one of its edges. */
+/* Finds tangent and curvature at a node as seen from one of its edges. */
 static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t edge,
                        sw_vec *tangent, double *curvature) {
   const sw_plan *p = b->plan;
@@ -46,14 +46,15 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
     *tangent = director(s, c);
     *curvature = sw_clamp_curvature(c, s->directors_now, s->normals_now, own);
   } else if (p->held[edge] != SW_FREE && p->held[edge + 1] != SW_FREE &&
-             (c = face_at(p, node)) != NULL) { /* from inside a grip, at its face */
+             (c = face_at(p, node)) != NULL) { /* inside a grip, at its face */
     *tangent = director(s, c);
   } else if (node > 0 && node + 1 < p->nodes) {
     const sw_vec t1 = sw_field_tangent(f, node - 1), t2 = sw_field_tangent(f, node);
     const double l1 = p->rest[node - 1], l2 = p->rest[node];
     *tangent = sw_unit_or(sw_add(sw_scale(t1, l2), sw_scale(t2, l1)), own);
     if (p->hinge[node] > 0) *curvature = angle_between(t1, t2) / p->hinge[node];
-  } else if (p->edges > 1) { /* free or pinned end: no moment, so no further bend */
+  } else if (p->edges > 1) { /* free or pinned end: no moment, so the bend does not change
+                                further */
     const size_t inner = node == 0 ? 1 : p->edges - 2;
     const sw_vec t2 = sw_field_tangent(f, inner);
     const double share = 0.25 * 2.0 * p->rest[edge] / (p->rest[edge] + p->rest[inner]);
@@ -61,7 +62,7 @@ static void node_state(const sw_system *s, const sw_body *b, size_t node, size_t
   }
 }
 
-/* What edges have at a place, linear between their middles. */
+/* Interpolates values of edges at a place, linearly between their middles. */
 static double between_middles(const sw_plan *p, const double *T, double at) {
   double fraction;
   const size_t e = sw_plan_locate(p, at, &fraction);
@@ -72,33 +73,34 @@ static double between_middles(const sw_plan *p, const double *T, double at) {
   return T[k] + (T[k + 1] - T[k]) * (at - m0) / (m1 - m0);
 }
 
-/* Rate at which a wire that rolls turns about its axis, linear between edge middles. */
+/* Returns the rate at which a rolling wire turns about its axis, linear between edge middles. */
 static double spin_at(const sw_system *s, const sw_body *b, double at) {
   if (!b->roll_block) return 0.0;
   const double *rate = s->v + 3 * s->nodes + b->first_roll;
   return between_middles(b->plan, rate, at);
 }
 
-/* Torque of hinge number k, of the plan's list with clamps after nodes. */
+/* Returns the torque of hinge `number` in the plan's list, with clamps after nodes. */
 static double hinge_torque(const sw_body *b, size_t number, double length) {
   const double off = b->field.hinge_twist[number] - b->plan->rest_twist[number];
   return length > 0 ? b->plan->beam.GJ / length * off : 0.0;
 }
 
-/* The torque at a node of a wire with frames as seen from one of its edges. */
+/* Returns the torque at a node of a wire with frames, as seen from one of its edges. */
 static double node_torque(const sw_body *b, size_t node, size_t edge) {
   const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
   if (!c) return hinge_torque(b, node, b->plan->hinge[node]);
   return hinge_torque(b, b->plan->nodes + (size_t)(c - b->plan->clamps), c->length);
 }
 
-/* Bend beyond that at rest, at a node as seen from one of its edges. */
+/* Returns the bend beyond that at rest at a node, as seen from one of its edges. */
 static double node_flexure(const sw_system *s, const sw_body *b, size_t node, size_t edge) {
   const sw_clamp_hinge *c = clamp_at(b->plan, node, edge);
   return sw_scene_flexure(s, b, c ? b->plan->nodes + (size_t)(c - b->plan->clamps) : node);
 }
 
-/* Torque of the span that holds arc length at; 0 outside of spans. */
+/* With frames from the hinges beside the place; else from the span that contains it, 0 outside
+ * spans. */
 double sw_scene_torque(const sw_system *s, const sw_body *b, double at) {
   if (b->spin_block) {
     double f;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds and joins as the built scene sees them, and wires as these do. */
+/* Holds and joins as the built scene sees them, and wires as links see them. */
 #include "body/hold.h"
 #include "body/join.h"
 #include "body/spin.h"
@@ -31,7 +31,7 @@ sw_link_wire sw_scene_link_wire(const sw_scene *s, size_t wire) {
 void sw_scene_follow_holds(sw_scene *s) {
   sw_books *b = sw_scene_books(s);
   SW_EACH(hold, h, s) {
-    if (!h->alive || !h->cls->hold->follow) continue; /* a wire of one released may be gone */
+    if (!h->alive || !h->cls->hold->follow) continue; /* the wire of a released hold may be gone */
     const sw_link_wire w = sw_scene_link_wire(s, h->wire);
     const double before = b->step.to.kinetic;
     if (!h->cls->hold->follow(h, &w)) continue;
@@ -62,7 +62,6 @@ sw_hold_way sw_hold_way_of(const sw_scene *s, const sw_hold *h, double t, const 
   return h->cls->hold->passes(h, &w, t, x);
 }
 
-/* All arc lengths of a wire that other holds and joins need as nodes. */
 const sw_joint *sw_scene_joined(const sw_scene *s, size_t wire) {
   SW_EACH(join, j, s)
     for (size_t i = 0; j->alive && i < j->count; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The live part of a built scene, besides its objects: the state of the system, of contact and of
+/* The live part of a built scene, without its objects: the state of the system, of contact and of
  * the stepper. Put back into a scene built of the same objects it gives the same bits. */
 #include "body/live.h"
 
@@ -42,7 +42,7 @@ sw_live sw_live_of(const sw_scene *s) {
   return p;
 }
 
-/* A block of n doubles of the state, from a number on. */
+/* Copies n doubles of the state, from index `from` on, to a new block. */
 static sw_status copy_out(const sw_live *p, size_t from, size_t n, double **to) {
   if (n > p->state_size || from > p->state_size - n) return SW_EINVAL;
   sw_free(*to);
@@ -139,7 +139,7 @@ sw_status sw_live_back(sw_scene *s, const sw_tape *taken, sw_error *err) {
   return sw_live_put(s, &live, err);
 }
 
-/* What things remember of each other is of nodes that there are. */
+/* 1 if the memories of pairs and grains refer to nodes that exist. */
 static int mutual_fit(const sw_scene *s, const sw_live *p) {
   sw_system *system = sw_scene_system(s);
   const size_t n = system->body_count;

@@ -7,11 +7,10 @@
 #include "integrate/integrate.h"
 #include "scene/scene.h"
 
-/* The live part of a built scene, besides its objects, by its addresses: those in the scene, to be
- * put on a tape, or those on the tape, to be copied into a scene that is built of the same objects.
- */
+/* The live part of a built scene, without its objects, by addresses: in the scene, to be put on a
+ * tape; or on the tape, to be copied into a scene built of the same objects. */
 typedef struct sw_live {
-  const void *state;           /* x v a tension and so on of the built system */
+  const void *state;           /* the built system's state: x v a tension and so on */
   size_t state_size;           /* in doubles */
   const sw_integrator *method; /* NULL: before the first run */
   double last_h;               /* [s] */
@@ -23,24 +22,25 @@ typedef struct sw_live {
   int fresh;
   const void *pairs; /* the same between wires */
   size_t pairs_size;
-  const void *grains; /* the same of objects of particles */
+  const void *grains; /* the same for objects of particles */
   size_t grains_size;
-  const void *seen[3]; /* for read-outs: what touches obstacles, wires each other, particles */
+  const void *seen[3]; /* touches for read-outs: with obstacles, of wires with each other, of
+                          particles */
   size_t seen_size[3];
 } sw_live;
 sw_live sw_live_of(const sw_scene *scene);
 size_t sw_live_size(const sw_live *live); /* of its blocks [B] */
 sw_status sw_live_put(sw_scene *scene, const sw_live *live, sw_error *err);
-/* The same by way of a tape of one's own, for as long as the system stays. SW_ENOMEM leaves *out to
- * be freed. */
+/* Takes the live part into a tape in memory, and puts it back, while the system stays the same.
+ * SW_ENOMEM leaves *out to be freed. */
 sw_status sw_live_take(const sw_scene *scene, sw_tape *out);
 sw_status sw_live_back(sw_scene *scene, const sw_tape *taken, sw_error *err);
 int sw_live_fits(const sw_scene *scene, const sw_live *live);
-/* Particles of meshes to where they are in it, before the scene is built. SW_ENOMEM; SW_EINVAL: it
- * has not so many. */
+/* Puts the particles of meshes where they are in the live part, before the scene is built.
+ * SW_ENOMEM; SW_EINVAL: the live part has fewer. */
 sw_status sw_live_place(sw_scene *scene, const sw_live *live);
 
-/* The state of one that is. */
+/* The live part on a tape. */
 void sw_tape_live(sw_tape *tape, sw_live *live);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Series of the forces on obstacles. Where nothing touches there is nothing to write: rows without
- * a force are added when something does, or when the series is read. */
+/* Series of the forces on obstacles. Rows are not written while nothing touches. The missing rows,
+ * without a force, are added when something touches, or when the series is read. */
 #include "body/obstacle_log.h"
 
 #include "body/touching.h"
@@ -9,7 +9,7 @@
 #include "scene/parts.h"
 #include "scene/values.h"
 
-enum { TIME, SPAN, STEP }; /* a row of the scene's steps with contact */
+enum { TIME, SPAN, STEP }; /* a row of the scene's contact steps */
 
 static size_t steps_of(const sw_scene *s) { return sw_scene_contact_steps(s)->count / STEP; }
 

@@ -5,13 +5,13 @@
 
 #include "scene/obstacle.h"
 
-/* An obstacle's series begins now. The state is observed. Rows that are missing.
- * SW_ENOMEM. */
+/* begin: an obstacle's series begins now. state: records the observed state. fill: adds missing
+ * rows. SW_ENOMEM. */
 void sw_obstacle_log_begin(const sw_scene *scene, sw_scene_obstacle *obstacle);
 sw_status sw_obstacle_log_state(sw_scene *scene);
 sw_status sw_obstacle_log_fill(sw_scene *scene, sw_scene_obstacle *obstacle);
-/* Mean force of wires on an obstacle over the last step, blows included, and its moment about a
- * point [N], [N m]. */
+/* Returns the mean force of wires on an obstacle over the last step, with blows, and its moment
+ * about a point [N], [N m]. */
 void sw_obstacle_mean(const sw_scene_obstacle *obstacle, sw_vec about, sw_vec *force,
                       sw_vec *moment);
 

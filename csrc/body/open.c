@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires are opened to be read: the scene is built, their state refreshed. */
+/* Opens wires for reading: builds the scene and refreshes its state. */
 
 #include "body/build.h"
 #include "scene/lookup.h"
@@ -19,7 +19,7 @@ sw_status sw_scene_open_body(sw_scene *s, sw_handle h, sw_scene_wire **body, sw_
   return SW_OK;
 }
 
-/* The same of a wire only. */
+/* The same for wires only. */
 sw_status sw_scene_open_wire(sw_scene *s, sw_handle h, sw_scene_wire **wire, sw_error *err) {
   if (!sw_scene_find_wire(s, h, err)) return SW_EDEAD;
   return sw_scene_open_body(s, h, wire, err);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a wire of which only a region is meshed has rings, and where the particles of its lines:
- * rings at even distances in the region and a little on both sides of everything that holds the
- * wire's direction, for a line has no section to be held by. */
+/* Plans the rings and line particles of a wire of which only a region is meshed. Rings lie at even
+ * distances in the region and a little on both sides of every hold that holds the wire's direction,
+ * because a line has no section to be held by. */
 #include "body/region.h"
 
 #include <math.h>
@@ -12,13 +12,13 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 
-enum { BESIDE = 2 };              /* slices beside what clamps [-] */
-static const double NARROW = 4.0; /* parts nearer than this are one, of slices [-] */
-static const double LEVER = 0.5;  /* length of a line's first edge, of a slice [-] */
+enum { BESIDE = 2 };              /* slices beside a clamp [-] */
+static const double NARROW = 4.0; /* parts nearer to each other are merged, in slices [-] */
+static const double LEVER = 0.5;  /* first edge of a line, over a slice [-] */
 
 typedef struct part {
   double from, to;
-  double anchor; /* a ring is here; NAN = anywhere [m] */
+  double anchor; /* place of a ring; NAN = anywhere [m] */
 } part;
 
 static int before(const void *a, const void *b) {
@@ -26,7 +26,8 @@ static int before(const void *a, const void *b) {
   return (p->from > q->from) - (p->from < q->from);
 }
 
-/* The region and what clamps, in order, those that meet made one; their number. */
+/* Finds the parts with rings, the region and around clamps, in order; merges those that meet.
+ * Returns their number. */
 static size_t find_parts(const sw_scene *s, size_t wire, const double region[2], double h,
                          double length, part *out) {
   size_t n = 0, kept = 0;
@@ -54,7 +55,7 @@ static size_t find_parts(const sw_scene *s, size_t wire, const double region[2],
   return kept;
 }
 
-/* Rings of a part: the first one's place, and how many. */
+/* Returns the number of rings of a part; *first: the place of its first one. */
 static size_t rings_of(const part *p, double h, double length, double *first) {
   const double anchor = isnan(p->anchor) ? p->from : p->anchor;
   const double back = round((anchor - p->from) / h), on = round((p->to - anchor) / h);
@@ -69,7 +70,8 @@ static void put(sw_stations *o, double s, int ring) {
   o->n++;
 }
 
-/* Particles of the line between two places, of which those given are rings that stay. */
+/* Puts particles of the line between two places; ring_before, ring_after: 1 if the place is a
+ * ring. */
 static void put_line(sw_stations *o, double from, int ring_before, double to, int ring_after,
                      double h, double spacing) {
   const double a = ring_before ? from + LEVER * h : from, b = ring_after ? to - LEVER * h : to;

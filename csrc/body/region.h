@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire of which only a region is a mesh of rings, the rest lines of particles. */
+/* Wires of which only a region is a mesh of rings; the rest are lines of particles. */
 #ifndef SW_BODY_REGION_H
 #define SW_BODY_REGION_H
 
@@ -12,8 +12,8 @@ typedef struct sw_stations {
   double spacing;      /* of rings [m] */
 } sw_stations;
 
-/* Rings of this spacing in the region (from, to) and round what clamps the wire, lines of about
- * the given spacing elsewhere. SW_EINVAL when nothing is left for lines. */
+/* Plans rings of this spacing in the region (from, to) and around clamps, and lines of about the
+ * spacing `line` elsewhere. SW_EINVAL when nothing is left for lines. */
 sw_status sw_region_plan(const sw_scene *scene, size_t wire, const double region[2], double spacing,
                          double line, sw_stations *out, sw_error *err);
 void sw_region_free(sw_stations *stations);

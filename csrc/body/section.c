@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that is a mesh of particles read as a wire: the line through the middles of its rings,
+/* Reads a wire that is a mesh of particles as a wire: the line through the middles of its rings,
  * the forces that its sections carry, and their deformation. */
 #include "body/section.h"
 
@@ -15,7 +15,7 @@
 
 /* --- sections -------------------------------------------------------------------- */
 
-/* What an element pulls the corners of its first ring with. */
+/* Adds the force of an element on the corners of its first ring. */
 static void add_solid_force(const sw_plan *p, const double *x, const sw_web_solid *s, sw_vec about,
                             sw_vec *force, sw_vec *moment) {
   double at[3 * SW_SOLID_NODES], g[3 * SW_SOLID_NODES];
@@ -28,8 +28,8 @@ static void add_solid_force(const sw_plan *p, const double *x, const sw_web_soli
   }
 }
 
-/* Force of the part of the wire after slice number r (between rings r and r + 1) on that
- * before, and its moment about a point [N], [N m]. */
+/* Returns the force of the wire after slice number r (between rings r and r + 1) on the wire before
+ * it, and its moment about a point [N], [N m]. */
 static void slice_force(const sw_plan *p, const double *x, const double *T, size_t r, sw_vec about,
                         sw_vec *force, sw_vec *moment) {
   const sw_web *w = p->web;
@@ -79,7 +79,7 @@ static sw_slice blend(sw_slice a, sw_slice b, double f) {
                     a.curvature + f * (b.curvature - a.curvature), sw_lerp(a.bend, b.bend, f)};
 }
 
-/* Values are of the middles of slices: linear between these, and on to the ends. */
+/* Interpolates between the middles of slices, where values belong, and extrapolates to the ends. */
 static sw_slice slice_at(const sw_plan *p, const double *x, const double *T, size_t r, double f) {
   const size_t slices = p->web->rings - 1;
   if (slices == 1) return sw_strand_slice(p, x, T, 0);

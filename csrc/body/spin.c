@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Material frames between the meshes and the system. */
+/* Moves material frames between the meshes and the system. */
 #include "body/spin.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ static sw_edge_frame edge_frame(const double *nodes, const double *normals, size
   return (sw_edge_frame){t, sw_vec_at(normals, e)};
 }
 
-/* The scene's hold with this number among the living. */
+/* Returns the scene's living hold of this number. */
 static const sw_hold *hold_number(const sw_scene *s, int number) {
   SW_EACH(hold, h, s)
     if (h->alive && number-- == 0) return h;
@@ -28,7 +28,7 @@ static void set_rest(sw_plan *p, size_t number, const sw_edge_frame *a, const sw
   sw_hinge_bend(a, b, p->rest_twist[number], p->rest_bend + 2 * number);
 }
 
-/* Of hinges at nodes from .. to and of all clamps. */
+/* Sets the rest values of the hinges at nodes from .. to, and of all clamps. */
 static void unloaded_between(const sw_scene *s, size_t wire, sw_plan *p, size_t from, size_t to) {
   const sw_mesh *m = &sw_scene_wire_in(s, wire)->mesh;
   for (size_t i = from; i <= to && i + 1 < p->nodes; i++) {
@@ -81,7 +81,7 @@ double sw_scene_flexure(const sw_system *s, const sw_body *body, size_t number) 
   return hypot(bend[0] - p->rest_bend[2 * number], bend[1] - p->rest_bend[2 * number + 1]) / length;
 }
 
-static const double AS_DRAWN = 1e-9; /* what rounding does to normals and twists [-], [rad] */
+static const double AS_DRAWN = 1e-9; /* rounding of normals and twists [-], [rad] */
 
 void sw_scene_frame_out(sw_scene *s, size_t wire) {
   sw_system *system = sw_scene_system(s);
@@ -99,15 +99,15 @@ void sw_scene_frame_out(sw_scene *s, size_t wire) {
     if (p->held[i] != SW_FREE && !(p->hinge[i] > 0)) m->twist[i] = 0;
   for (size_t c = 0; c < p->clamp_count; c++) m->twist[p->clamps[c].node] += twist[p->nodes + c];
   for (size_t i = 0; i < p->nodes; i++)
-    if (fabs(m->twist[i]) > AS_DRAWN) m->drawn = 0; /* it is drawn without twist */
+    if (fabs(m->twist[i]) > AS_DRAWN) m->drawn = 0; /* a wire is drawn without twist */
   if (!b->roll_block) return;
   const size_t at = 3 * system->nodes + b->first_roll;
   memcpy(m->turn, system->x + at, p->edges * sizeof *m->turn);
   memcpy(m->spin, system->v + at, p->edges * sizeof *m->spin);
 }
 
-/* The mesh's twist of a node: a clamp hinge has half of it where both its sides
- * have one. */
+/* Returns a clamp hinge's twist from the mesh's twist of its node: half of it where both sides have
+ * a hinge. */
 static double twist_before(const sw_plan *p, const sw_mesh *m, size_t clamp) {
   int sides = 0;
   for (size_t c = 0; c < p->clamp_count; c++) sides += p->clamps[c].node == p->clamps[clamp].node;

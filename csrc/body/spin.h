@@ -6,20 +6,21 @@
 #include "scene/scene.h"
 #include "system/system.h"
 
-/* What the frames of wires are when unloaded, into the plan; their present ones into
- * the system's state and back into the meshes. */
+/* Measures the unloaded frames of a wire for its plan. SW_ENOMEM. */
 sw_status sw_scene_unloaded(const sw_scene *scene, size_t wire, sw_plan *plan);
 /* The same for what depends on the edges beside one node. */
 void sw_scene_unloaded_near(const sw_scene *scene, size_t wire, sw_plan *plan, size_t node);
+/* Present frames: into the system's state, and back into a mesh. */
 void sw_scene_frame_in(sw_scene *scene);
 void sw_scene_frame_out(sw_scene *scene, size_t wire);
-/* Bend of a hinge beyond that at rest, over its length [1/m]; number: of the plan's
- * list with clamps after nodes. For refreshed bodies with frames. */
+/* Returns the bend of a hinge beyond that at rest, over its length [1/m]. number: in the plan's
+ * list, with clamps after nodes. For refreshed bodies with frames. */
 double sw_scene_flexure(const sw_system *system, const sw_body *body, size_t number);
 
-/* The moment about the wire's axis at arc length at of its mesh [N m]. */
+/* Returns the moment about the wire's axis at an arc length of its mesh [N m]. */
 double sw_scene_torque(const sw_system *system, const sw_body *body, double at);
-/* Largest torsion beyond that at rest of a refreshed line, without its time [rad/m]. */
+/* Finds the largest torsion beyond that at rest of a refreshed line; its time is not set
+ * [rad/m]. */
 void sw_scene_torsion(const sw_system *system, const sw_body *body, sw_extreme *out);
 
 #endif

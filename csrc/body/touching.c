@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What wires touch: obstacles, each other, themselves. Which wires touch each other is a
- * list of statements, the later ones overruling the earlier; the system gets a table. */
+/* Contact of wires with obstacles, each other and themselves. Rules of which wires touch each other
+ * are a list of statements; later ones overrule earlier ones. The system gets a table. */
 #include "body/touching.h"
 
 #include <math.h>
@@ -112,7 +112,7 @@ static int may_move(void *user, int o) {
   return sw_drive_moves(&((sw_scene *)user)->obstacles[o].drive);
 }
 
-/* What nothing touches now remembers nothing of when something did. */
+/* Obstacles that are gone or off forget their past. */
 void sw_scene_inform_contact(sw_scene *s) {
   SW_EACH(obstacle, o, s)
     if (!o->alive || o->off) o->past = (sw_contact_past){0};
@@ -179,7 +179,7 @@ void sw_scene_commit_contact(sw_scene *s) {
   if (s->grains) sw_mutual_commit(s->grains, &s->system);
 }
 
-/* With contact as it presses now; other wires stay where they are. */
+/* Uses copies of contact as it presses now; other wires stay where they are. */
 sw_status sw_scene_linearise(sw_scene *s, const size_t *only, size_t count, sw_error *err) {
   sw_contact *const own = s->contact;
   sw_mutual *const pairs = s->pairs;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The largest torsion of a wire that is a line. */
+/* Finds the largest torsion of a line. */
 #include <math.h>
 
 #include "body/spin.h"
@@ -9,7 +9,7 @@ static void keep(sw_extreme *out, double value, double s) {
   if (value > out->value) out->value = value, out->s = s;
 }
 
-/* Of a wire with material frames: of each hinge beyond that at rest. */
+/* For a wire with material frames: of each hinge, beyond that at rest. */
 static void of_hinges(const sw_body *b, sw_extreme *out) {
   const sw_plan *p = b->plan;
   for (size_t k = 0; k < p->nodes + p->clamp_count; k++) {

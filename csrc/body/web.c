@@ -21,7 +21,7 @@ static sw_body_state state(const sw_scene_wire *w) {
 
 static sw_status plan(const sw_scene *s, size_t w, const sw_hold_place *places, size_t count,
                       sw_plan **out) {
-  (void)places, (void)count; /* its holds know their particles */
+  (void)places, (void)count; /* holds know their particles */
   sw_web *web = sw_scene_wire_in(s, w)->strand.web;
   int *held SW_LOCAL = sw_alloc(web->particles, sizeof *held);
   if (!held) return SW_ENOMEM;
@@ -64,15 +64,15 @@ static sw_status place(sw_scene *s, sw_hold *h, const sw_hold_args *a) {
   return SW_OK;
 }
 
-/* 1: a hold of this class holds the particle. */
+/* 1 if a hold of this class holds the particle. */
 static int holds(const sw_web *web, const sw_link_class *cls, size_t particle) {
   const size_t ring = sw_web_ring_of(web, particle);
   return cls->hold->direction || !sw_web_is_ring(web, ring) ||
          particle - web->first[ring] == web->axis;
 }
 
-/* The particles held, in the hold's frame. With a direction given the hold's pose is turned to it,
- * while the wire is not yet. */
+/* Finds the held particles in the hold's frame. If a direction is given, the hold's pose is turned
+ * to it; the wire is not yet. */
 static sw_status grasp(const sw_scene_wire *w, sw_hold *h, const sw_hold_args *a) {
   const sw_web *web = w->strand.web;
   const sw_mesh *m = &w->mesh;

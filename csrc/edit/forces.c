@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forces of a scene, and which of them go with which wires. */
+/* Forces of a scene, and which forces go with which wires. */
 #include "scene/forces.h"
 
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include "state/mesh.h"
 #include "system/system.h"
 
-/* Can the force act on the wire? */
+/* SW_EINVAL when the force cannot act on the wire. */
 static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, const void *args,
                             sw_error *err) {
   sw_recipe recipe;
@@ -55,7 +55,8 @@ static sw_status check_wire(const sw_force_class *cls, const sw_scene_wire *w, c
   return cls->check ? cls->check(args, &w->beam, err) : SW_OK;
 }
 
-/* A force of the whole scene that acts on centre lines leaves loose particles alone. */
+/* 1 if a force of the whole scene does not act on this body: it acts on centre lines, and the body
+ * is an object of particles. */
 static int passes_by(const sw_force_class *cls, const sw_scene_wire *w) {
   return (cls->flags & SW_FORCE_OF_AXIS) && sw_scene_is_loose(w);
 }
@@ -93,7 +94,7 @@ static sw_status check_some(const sw_force_class *cls, const sw_scene_wire *w,
   return SW_OK;
 }
 
-/* The scene's own list instead of the caller's. SW_ENOMEM. */
+/* Replaces the caller's list by one that the scene owns. SW_ENOMEM. */
 static sw_status own_list(sw_scene_force *f) {
   sw_force_some some;
   memcpy(&some, f->args, sizeof some);
@@ -105,7 +106,7 @@ static sw_status own_list(sw_scene_force *f) {
   return SW_OK;
 }
 
-/* What of the arguments is to be taken from where the wires lie, in a scene that is not built. */
+/* Completes arguments that depend on where the wires lie, in a scene that is not built. */
 static sw_status place_force(const sw_scene *s, const sw_scene_wire *w, const sw_force_class *cls,
                              void *args, sw_error *err) {
   if (!cls->place) return SW_OK;
@@ -124,7 +125,7 @@ sw_status sw_scene_add_force(sw_scene *s, const sw_force_class *cls, sw_handle w
   if (args_size > SW_FORCE_ARGS_MAX) return sw_fail(err, SW_ELIMIT, "force: too many arguments");
   if (cls->flags & SW_FORCE_AT_PLACE) {
     double at;
-    memcpy(&at, args, sizeof at); /* by contract the first member is s */
+    memcpy(&at, args, sizeof at); /* the first member must be s */
     if (!w) return sw_fail(err, SW_EINVAL, "force %s: on is required: the wire", cls->name);
     const double length = w->mesh.s[w->mesh.n - 1] - w->mesh.s[0];
     if (at > length * (1 + 1e-12))
@@ -156,7 +157,7 @@ sw_status sw_scene_read_force(sw_scene *s, sw_handle force, sw_handle wire, doub
                               sw_error *err) {
   sw_system *system = sw_scene_system(s);
   SW_TRY(sw_scene_readable(s, err));
-  SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
+  SW_TRY(sw_scene_still(s, err)); /* inside a step the solver uses the fields */
   SW_FIND(const sw_scene_force, f, sw_scene_find_force(s, force, err));
   const sw_force_class *cls = f->cls;
   SW_FIND(const sw_scene_wire, w, sw_scene_find_body(s, wire, err));
@@ -178,8 +179,8 @@ sw_status sw_scene_name_force(sw_scene *s, sw_handle force, const char *name, sw
   return SW_OK;
 }
 
-/* Where it acts, from the wire's start: its own place counts from where the wire was first begun.
- */
+/* Returns the place of the force from the wire's present start; its own place counts from the
+ * wire's first start. */
 static double place_of(const sw_scene *s, const sw_scene_force *f) {
   const sw_mesh *m = &sw_scene_wire_in(s, f->wire)->mesh;
   return f->args[0] * m->scale / f->scale - m->s[0];

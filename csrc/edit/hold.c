@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds of the scene: taking hold of a wire, driving, releasing. */
+/* Holds of the scene: grasping a wire, driving, releasing. */
 #include "link/hold.h"
 
 #include <math.h>
@@ -37,8 +37,7 @@ static sw_status check_place(const sw_scene *s, const sw_link_class *cls, size_t
   return sw_scene_check_clear(s, wire, NULL, cls->name, s1, s2, err);
 }
 
-/* The held directions, taken before nodes move: a moved node turns the edges
- * beside it. */
+/* Finds the held directions, before nodes move: a moved node turns the edges beside it. */
 static void take_directions(const sw_mesh *m, sw_hold *h, const sw_hold_args *a) {
   double s[2];
   sw_body_interval(m, a, &s[0], &s[1]);
@@ -109,7 +108,7 @@ sw_status sw_scene_add_hold(sw_scene *s, const sw_link_class *cls, sw_handle wir
   return SW_OK;
 }
 
-/* Places and directions as they are now, in a frame at a pose. */
+/* Transforms the hold's present places and directions to the frame of a pose. */
 static void seen_from(sw_hold *h, sw_pose pose) {
   for (size_t i = 0; i < h->count; i++) {
     const sw_vec world = sw_add(sw_vec_at(h->local, i), h->drive.pose.p);
@@ -138,7 +137,7 @@ void sw_scene_frame_holds(sw_scene *s, size_t wire) {
   }
 }
 
-/* Can a hold take the wire that has become another one? Those that are alive have done so. */
+/* SW_EINVAL when a hold cannot grasp the wire after its change. Living holds have grasped it. */
 static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_args *a,
                              sw_error *err) {
   const sw_scene_wire *w = sw_scene_wire_in(s, h->wire);
@@ -151,7 +150,7 @@ static sw_status check_again(const sw_scene *s, const sw_hold *h, const sw_hold_
   return sw_scene_check_clear(s, h->wire, h, what, s1, s2, err);
 }
 
-/* A hold as it is, to take hold anew. */
+/* Returns a copy of a hold without its places, to grasp anew. */
 static sw_hold without_places(const sw_hold *h) {
   sw_hold new = *h;
   new.s = new.local = NULL, new.particle = NULL, new.count = 0;
@@ -160,7 +159,8 @@ static sw_hold without_places(const sw_hold *h) {
 
 static void drop_places(sw_hold *h) { SW_FREE_ALL(h->s, h->local, h->particle); }
 
-/* It has taken hold, and goes on as this one, turned with the wire's twist so. */
+/* Replaces hold h by the new one, which has grasped the wire; turn: the orientation that goes with
+ * the wire's twist. */
 static sw_status become(sw_scene *s, sw_hold *h, sw_hold *new, sw_quat turn) {
   new->drive = h->drive, new->last_pose = h->last_pose, new->turn = turn;
   new->alive = 1, new->shape = sw_scene_number(s);
@@ -174,7 +174,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) 
   sw_hold_args a = h->args;
   a.s = 0.5 * (h->s1 + h->s2), a.direction = sw_v(NAN, NAN, NAN);
   sw_hold new = without_places(h);
-  h->alive = 0; /* its own places are not in its way */
+  h->alive = 0; /* its own places must not be in its way */
   take_directions(&w->mesh, &new, &a);
   for (int k = 0; k < 2; k++) new.give[k].axis = sw_rotate(pose.q, h->give[k].axis);
   sw_status status = check_again(s, h, &a, err);
@@ -182,7 +182,7 @@ sw_status sw_scene_rehold(sw_scene *s, sw_hold *h, sw_pose pose, sw_error *err) 
   h->alive = 1;
   if (status != SW_OK) return drop_places(&new), status;
   seen_from(&new, pose);
-  if (h->cls->hold->direction) /* what it holds it holds as before, however edges lie */
+  if (h->cls->hold->direction) /* held directions stay, wherever edges lie */
     memcpy(new.director, h->director, sizeof new.director);
   return become(s, h, &new, pose.q);
 }
@@ -262,7 +262,7 @@ sw_status sw_scene_set_hold(sw_scene *s, sw_handle hold, const sw_hold_args *arg
   return SW_OK;
 }
 
-/* --- what its class has of its own ------------------------------------------------- */
+/* --- outputs and orders of classes -------------------------------------------------- */
 
 static const sw_hold_order *order_of(const sw_link_class *cls, const char *name) {
   for (const sw_hold_order *o = cls->hold ? cls->hold->orders : NULL; o && o->name; o++)
@@ -276,7 +276,7 @@ static const char *const *output_of(const sw_link_class *cls, const char *name) 
   return NULL;
 }
 
-/* The error: the hold has nothing of this name; names the kind that has it. */
+/* Fails: the hold has nothing of this name; the error names a class that has it. */
 static sw_status lacks(const sw_hold *h, const char *name, sw_error *err) {
   const sw_link_class *const *all = sw_link_all();
   while (*all && !order_of(*all, name) && !output_of(*all, name)) all++;

@@ -16,7 +16,7 @@
 #include "scene/wire.h"
 #include "state/mesh.h"
 
-/* How far from each other the ends may be, of the shortest segment there [-]. */
+/* Largest distance of the ends from each other, over the shortest segment there [-]. */
 static const double LARGEST_GAP = 0.02;
 typedef sw_joint_end end;
 
@@ -58,7 +58,7 @@ static sw_status check_end(const sw_scene *s, const sw_join_end *ends, size_t k,
   return SW_OK;
 }
 
-/* Where the wire is at arc length s. */
+/* Returns the wire's place at arc length s. */
 static sw_vec point_at(const sw_mesh *m, double s) {
   size_t i = 0;
   while (i + 2 < m->n && m->s[i + 1] <= s) i++;
@@ -66,7 +66,7 @@ static sw_vec point_at(const sw_mesh *m, double s) {
                  (s - m->s[i]) / (m->s[i + 1] - m->s[i]));
 }
 
-/* Before anything is changed: do the ends meet? */
+/* SW_EINVAL when the ends do not meet. Called before anything is changed. */
 static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_t count,
                                sw_error *err) {
   double least = HUGE_VAL;
@@ -88,7 +88,7 @@ static sw_status check_meeting(const sw_scene *s, const sw_join_end *ends, size_
   return SW_OK;
 }
 
-/* Arc lengths that holds and joins of the wire need as nodes, with room for some more. */
+/* Returns the arc lengths that holds and joins of the wire need as nodes, with room for more. */
 static double *places_of(const sw_scene *s, size_t wire, size_t *count) {
   const size_t joins = sw_scene_join_places(s, wire, NULL);
   double *keep = sw_alloc(2 * sw_scene_hold_slots(s) + joins + SW_JOIN_ENDS, sizeof *keep);
@@ -164,7 +164,7 @@ sw_status sw_scene_retake_joins(sw_scene *s, size_t wire) {
   double *keep = places_of(s, wire, &count);
   if (!keep) return SW_ENOMEM;
   sw_status status = SW_OK;
-  count -= sw_scene_join_places(s, wire, NULL); /* those are of the mesh before */
+  count -= sw_scene_join_places(s, wire, NULL); /* joins' places belong to the mesh before */
   SW_EACH(join, j, s)
     for (size_t i = 0; j->alive && i < j->count && status == SW_OK; i++) {
       end *e = &j->ends[i];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires, objects of particles and tools leave a scene. What holds a body goes with it: clamps and
- * grips are released, joins and its forces end, rules of contact forget it. The slots of bodies
- * close up, for the system's bodies are numbered by them; frames number bodies by when they were
- * made, so that those of before stay what they are. The energy that leaves is a change of the
- * scene in the ledger. */
+/* Removes wires, objects of particles and tools from a scene. With a body go its links: clamps and
+ * grips release it, its joins and forces end, rules of contact forget it. The slots of bodies close
+ * up, because they number the system's bodies. Frames number bodies in the order in which they were
+ * made, so that earlier frames stay valid. The energy that leaves counts in the ledger as a change
+ * of the scene. */
 #include "edit/leave.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@
 #include "scene/wire.h"
 #include "scene/world.h"
 
-/* --- what leaves with a body ---------------------------------------------------------------- */
+/* --- links of a body -------------------------------------------------------------------------- */
 
 static size_t less(size_t slot, size_t gone) {
   return slot == gone ? SIZE_MAX : slot - (slot > gone && slot != SIZE_MAX);
@@ -38,8 +38,8 @@ static void release_hold(sw_hold *h) {
   sw_drive_free(&h->drive);
 }
 
-/* Where holds are when they let go: the only part that may fail, for it may call a user's function.
- */
+/* Notes the poses of holds at their release. Only this may fail, because it may call a user's
+ * function. */
 static sw_status note_poses(sw_scene *s, size_t wire, size_t tool, sw_error *err) {
   SW_EACH(hold, h, s) {
     sw_motion_state now;
@@ -72,7 +72,8 @@ static void leave_forces(sw_scene *s, size_t wire) {
   }
 }
 
-/* A rule of no wires is one of all: what spoke of this wire alone goes. */
+/* Removes the wire from rules. A rule of this wire alone goes, because a rule without wires means
+ * all wires. */
 static void leave_rules(sw_scene *s, size_t wire) {
   size_t kept = 0;
   SW_ITEMS(sw_scene_rule, r, s->rules.list, s->rules.count) {
@@ -109,7 +110,7 @@ static void pads_on(sw_scene *s, const sw_tool *t) {
   for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].off = 0;
 }
 
-/* Tools that hold the wire rigidly have their pads again. */
+/* Gives tools that hold the wire rigidly their pads back. */
 static void leave_tools(sw_scene *s, uint32_t generation) {
   SW_EACH(tool, t, s) {
     if (!t->frozen || t->frozen->wire.generation != generation) continue;
@@ -168,7 +169,7 @@ sw_status sw_scene_remove_tool(sw_scene *s, sw_handle tool, sw_error *err) {
   SW_EACH(hold, h, s)
     if (h->alive && h->drive.tool == 1 + tool.slot) release_hold(h);
   for (size_t k = 0; k < t->pads; k++) s->obstacles[t->pad[k].obstacle].alive = 0;
-  sw_drive_free(&t->drive); /* it stays where it was, for its pads name it in frames */
+  sw_drive_free(&t->drive); /* it stays in place, because its pads refer to it in frames */
   t->drive = (sw_drive){.pose = now.pose};
   t->jaw.opening = sw_jaw_at(&t->jaw, s->time);
   t->jaw.since = s->time, t->jaw.speed = 0, t->jaw.mode = SW_JAW_STILL;
@@ -188,7 +189,7 @@ void sw_tape_gone(sw_tape *t, sw_gone *x) {
   sw_tape_expect(t, isfinite(x->radius) && isfinite(x->time), "a wire that was taken away");
 }
 
-/* Frames number all bodies that were ever made, each once. */
+/* Checks that the numbers of all bodies ever made are unique and in order. */
 void sw_tape_check_numbers(sw_tape *t, const sw_scene *s) {
   const size_t made = sw_scene_bodies_made(s);
   unsigned char *taken SW_LOCAL = sw_alloc(made, 1);

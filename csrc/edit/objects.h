@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Objects of particles that are no wires: fabric, foam, nets, chains. */
+/* Objects of particles that are not wires: fabric, foam, nets, chains. */
 #ifndef SW_EDIT_OBJECTS_H
 #define SW_EDIT_OBJECTS_H
 
@@ -7,11 +7,11 @@
 
 typedef struct sw_particles_args {
   char name[SW_NAME_SIZE];
-  double radius; /* of the surface around particles and its edges; NAN = chosen [m] */
+  double radius; /* distance of the surface from particles and its edges; NAN = chosen [m] */
 } sw_particles_args;
 extern const sw_params sw_particles_params;
 
-/* Particles that push each other apart where they come nearer than a distance. */
+/* Particles that push each other apart when nearer than a distance. */
 typedef struct sw_repel_pairs {
   double distance;  /* [m] */
   double stiffness; /* force over the missing distance; 0 = none [N/m] */
@@ -38,14 +38,14 @@ typedef struct sw_particles_fold {
   double stiffness; /* moment per angle [N m] */
 } sw_particles_fold;
 
-/* What touches obstacles. */
+/* Surface that touches obstacles. */
 enum {
   SW_SURFACE_USUAL, /* the links, or the boundary of the elements where there are any */
   SW_SURFACE_PARTICLES,
   SW_SURFACE_EDGES /* as given */
 };
 
-/* What an object is made of; numbers of particles count from 0. */
+/* The parts of an object; particle numbers count from 0. */
 typedef struct sw_particles_parts {
   size_t count;
   const double *positions; /* (count x 3) [m] */
@@ -62,7 +62,7 @@ typedef struct sw_particles_parts {
   sw_repel_pairs repel;
 } sw_particles_parts;
 
-/* Any object of particles. Takes copies. Errors number particles and parts from 1. */
+/* Adds an object of particles. Copies the parts. Errors number particles and parts from 1. */
 sw_status sw_scene_add_particles(sw_scene *scene, const sw_particles_args *args,
                                  const sw_particles_parts *parts, sw_handle *out, sw_error *err);
 typedef struct sw_particles_info {
@@ -71,20 +71,21 @@ typedef struct sw_particles_info {
 } sw_particles_info;
 sw_status sw_scene_particles_info(sw_scene *scene, sw_handle object, sw_particles_info *out,
                                   sw_error *err);
-/* Place and velocity of one of them [m], [m/s]; of all: sw_scene_wire_particle_copy. */
+/* Place and velocity of one particle [m], [m/s]; of all: sw_scene_wire_particle_copy. */
 sw_status sw_scene_particle(sw_scene *scene, sw_handle object, size_t particle, sw_vec *position,
                             sw_vec *velocity, sw_error *err);
-/* (particles x 3); held ones keep theirs [m/s]. */
+/* velocities (particles x 3); held particles keep theirs [m/s]. */
 sw_status sw_scene_particles_set_velocities(sw_scene *scene, sw_handle object,
                                             const double *velocities, sw_error *err);
-/* Edges of the object's surface: pairs of particles (2 x count), or NULL; returns count. */
+/* Writes the edges of the surface as pairs of particles (2 x count), unless pairs is NULL; returns
+ * count. */
 size_t sw_scene_particles_edges(const sw_scene *scene, sw_handle object, uint32_t *pairs);
-/* Of all links: force pulling [N], elongation over rest length [-], plastic part of it [-]; each
- * may be NULL. */
+/* For all links: pulling force [N], elongation over rest length [-], its plastic part [-]; each may
+ * be NULL. */
 sw_status sw_scene_particles_links(sw_scene *scene, sw_handle object, double *force, double *strain,
                                    double *plastic, sw_error *err);
 
-/* Hold some of them rigidly: they move with the hold's pose, which begins at `at` (NAN: their
+/* Holds some particles rigidly. They move with the hold's pose, which begins at `at` (NAN: their
  * middle) with the world's axes. */
 sw_status sw_scene_hold_particles(sw_scene *scene, sw_handle object, const char *name,
                                   const uint32_t *particles, size_t count, sw_vec at,

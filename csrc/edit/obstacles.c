@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of obstacles. */
+/* Adds, changes, reads and removes obstacles. */
 #include <math.h>
 #include <string.h>
 
@@ -58,7 +58,7 @@ sw_status sw_scene_remove_obstacle(sw_scene *s, sw_handle obstacle, sw_error *er
 
 sw_status sw_scene_obstacle_shape(sw_scene *s, sw_handle obstacle, sw_shape **out, sw_error *err) {
   const sw_scene_obstacle *o = sw_scene_any_obstacle(s, obstacle, err);
-  if (!o) return SW_EDEAD; /* frames of before show one that was removed */
+  if (!o) return SW_EDEAD; /* earlier frames show obstacles that were removed */
   *out = o->shape;
   return SW_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Objects of particles that somebody puts together link by link: what is given is checked and
- * becomes a web without rings. */
+/* Makes objects of particles that a user puts together link by link: checks the parts and makes a
+ * web without rings. */
 #include "edit/particles.h"
 
 #include <math.h>
@@ -69,7 +69,7 @@ const sw_wire_class *sw_scene_body_class(const char *name) {
 }
 
 static const double USUAL_RADIUS = 0.1; /* of the shortest link [-] */
-static const size_t MOST = 100000000;   /* of anything [-] */
+static const size_t MOST = 100000000;   /* of each kind of part [-] */
 
 /* --- checks -------------------------------------------------------------------------- */
 
@@ -94,7 +94,7 @@ static sw_status check_particles(const maker *m) {
   return SW_OK;
 }
 
-/* Numbers of particles that exist, each but once. */
+/* Checks that these particles exist, and that none occurs twice. */
 static sw_status check_numbers(const maker *m, const char *what, size_t number,
                                const uint32_t *node, size_t count) {
   for (size_t i = 0; i < count; i++) {
@@ -157,7 +157,7 @@ static int by_nodes(const void *left, const void *right) {
   return p->number < q->number ? -1 : p->number > q->number;
 }
 
-/* Two springs between the same particles are a slip more often than a wish. */
+/* Refuses two springs between the same particles: they are more often a mistake than intended. */
 static sw_status check_twins(const maker *m) {
   const sw_particles_parts *p = m->parts;
   numbered *list SW_LOCAL = sw_alloc(p->links, sizeof *list);
@@ -247,7 +247,8 @@ static sw_status fill_links(const maker *m) {
   return SW_OK;
 }
 
-/* By Gershgorin: no frequency's square is above the largest sum of a row over the mass there. */
+/* Adds the row sums of an element's stiffness. By Gershgorin's theorem the square of no frequency
+ * exceeds the largest row sum over the mass of its particle. */
 static void bound_solid(const sw_solid *e, const sw_web_solid *s, const double *x, double *sums) {
   double H[9 * SW_SOLID_NODES * SW_SOLID_NODES], g[3 * SW_SOLID_NODES];
   const size_t n = 3 * s->count;
@@ -286,7 +287,8 @@ static sw_status fill_solids(const maker *m) {
   return status;
 }
 
-/* A box around all of them: its diagonal is the object's size, along which each has its place. */
+/* Finds the bounding box. Its diagonal is the object's length; each particle's arc length is its
+ * place along it. */
 static void measure_size(maker *m) {
   sw_vec low = sw_load(m->parts->positions), high = low;
   for (size_t i = 1; i < m->parts->count; i++) {
@@ -338,9 +340,9 @@ static sw_status make_body(maker *m, sw_scene_wire *w) {
   return SW_OK;
 }
 
-/* What yields has a history, which only forces of the scene have. */
+/* Adds the force for links that yield: they have a history, which only forces of the scene have. */
 static sw_status add_yield(sw_scene *s, const sw_web *web, sw_handle body, sw_error *err) {
-  const double own[2] = {(double)NAN, (double)NAN}; /* as the links have them */
+  const double own[2] = {(double)NAN, (double)NAN}; /* NAN: the links' own values */
   sw_handle force;
   if (!web->yield) return SW_OK;
   return sw_scene_add_force(s, sw_force_find("plastic_springs"), body, own, sizeof own, &force,

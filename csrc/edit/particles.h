@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An object of particles while it is made. Of this room only. */
+/* State of the making of an object of particles. Of this room only. */
 #ifndef SW_EDIT_PARTICLES_H
 #define SW_EDIT_PARTICLES_H
 
@@ -9,15 +9,15 @@ typedef struct maker {
   const char *name;
   const sw_particles_parts *parts;
   sw_error *err;
-  double shortest;  /* of links and of elements' edges [m] */
-  int yields;       /* 1: some link does */
+  double shortest;  /* shortest link or edge of an element [m] */
+  int yields;       /* 1: some link may yield */
   double radius;    /* [m] */
   double mass;      /* [kg] */
-  sw_vec low, high; /* corners of a box around it [m] */
+  sw_vec low, high; /* corners of its bounding box [m] */
   sw_web *web;
 } maker;
 
-/* Which particles and edges of the web are its surface. SW_ENOMEM. */
+/* Marks the particles and edges of the web that are its surface. SW_ENOMEM. */
 sw_status sw_particles_add_surface(const maker *m);
 
 #endif

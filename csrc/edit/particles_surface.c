@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The surface of an object of particles: edges as given, its links, or those of the faces that
- * only one element has. The inside of a face is no part of it: what is to be kept out by the
- * surface must not be smaller than its meshes. */
+/* Finds the surface of an object of particles: edges as given, its links, or the edges of faces
+ * that belong to one element only. The inside of a face is no surface: bodies smaller than the
+ * surface's meshes may pass through. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +13,8 @@ typedef struct edge {
 } edge;
 
 typedef struct face {
-  uint32_t node[4], key[4]; /* in their order; sorted. Of a triangle the last is UINT32_MAX */
+  uint32_t node[4], key[4]; /* in order round the face; sorted. The last of a triangle is
+                               UINT32_MAX */
 } face;
 
 static int by_ends(const void *left, const void *right) {
@@ -34,7 +35,7 @@ static int by_key(const void *left, const void *right) {
   return 0;
 }
 
-/* The edges, sorted and each once, become the web's. */
+/* Sorts the edges, drops doubles, and gives them to the web. */
 static sw_status take_edges(sw_web *w, edge *list, size_t count) {
   size_t n = 0;
   for (size_t i = 0; i < count; i++)
@@ -63,7 +64,7 @@ static face face_of(const sw_web_solid *s, const int *corner, int count) {
   return f;
 }
 
-/* All faces of an element; their number. */
+/* Writes all faces of an element; returns their number. */
 static size_t faces_of(const sw_web_solid *s, face *out) {
   const int n = (int)s->count / 2;
   int low[4], high[4];
@@ -78,7 +79,7 @@ static size_t faces_of(const sw_web_solid *s, face *out) {
   return count;
 }
 
-/* Edges of the faces that occur but once. */
+/* Writes the edges of faces that occur once; returns their number. */
 static size_t boundary_edges(face *faces, size_t count, edge *out) {
   size_t edges = 0;
   qsort(faces, count, sizeof *faces, by_key);

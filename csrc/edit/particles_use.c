@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Objects of particles: reading, changing and holding them. */
+/* Reads, changes and holds objects of particles. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,7 +80,7 @@ size_t sw_scene_particles_edges(const sw_scene *s, sw_handle h, uint32_t *pairs)
   return n;
 }
 
-/* What the links' plastic elongations are, or NULL: none can yield. */
+/* Returns the links' plastic elongations, or NULL: none can yield. */
 static const double *plastic_of(const sw_body *b) {
   for (size_t k = 0; k < b->term_count; k++)
     if (strcmp(b->terms[k].cls->name, "plastic_springs") == 0) return b->terms[k].history + 1;
@@ -136,14 +136,15 @@ static int by_number(const void *a, const void *b) {
   return p < q ? -1 : p > q;
 }
 
-/* Where they are in the hold's frame. */
+/* Finds the particles' places in the hold's frame. */
 static sw_status take(const sw_scene_wire *w, sw_hold *h, const uint32_t *particles, size_t count,
                       sw_vec at) {
   const sw_strand *p = &w->strand;
   SW_TRY(SW_ALLOC_ALL(SW_ROOM(h->s, count), SW_ROOM(h->local, 3 * count),
                       SW_ROOM(h->particle, count)));
   memcpy(h->particle, particles, count * sizeof *particles);
-  qsort(h->particle, count, sizeof *h->particle, by_number); /* one order, whatever was given */
+  qsort(h->particle, count, sizeof *h->particle, by_number); /* the same order, whatever order was
+                                                                given */
   sw_vec middle = sw_v(0, 0, 0);
   for (size_t i = 0; i < count; i++)
     middle = sw_madd(middle, sw_vec_at(p->x, h->particle[i]), 1.0 / (double)count);

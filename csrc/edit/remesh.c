@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Other meshes for the wires of a scene. A wire that has not moved yet is made anew with the other
- * mesh; else its state is carried over. */
+/* Other meshes for the wires of a scene. A wire that has not moved yet is drawn anew with the other
+ * mesh; otherwise its state is carried over. */
 #include <math.h>
 #include <string.h>
 
@@ -24,7 +24,7 @@ typedef struct kept_hold {
   sw_hold shape;
 } kept_hold;
 
-/* The wire's living holds, with copies of where they hold. */
+/* Finds the wire's living holds, with copies of where they hold. */
 static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, size_t *count) {
   *count = 0;
   *out = sw_alloc(sw_scene_hold_slots(s), sizeof **out);
@@ -37,7 +37,7 @@ static sw_status keep_holds(const sw_scene *s, size_t wire, kept_hold **out, siz
   return SW_OK;
 }
 
-/* Each hold takes the new mesh in the order in which they were made. */
+/* Lets each hold grasp the new mesh, in the order in which the holds were made. */
 static sw_status retake_holds(sw_scene *s, const kept_hold *kept, size_t count) {
   for (size_t k = 0; k < count; k++) sw_scene_hold_in(s, kept[k].slot)->alive = 0;
   for (size_t k = 0; k < count; k++)
@@ -90,8 +90,8 @@ static sw_status redraw(sw_scene *s, size_t wire, size_t segments, sw_error *err
 
 /* --- as it is now ------------------------------------------------------------------- */
 
-/* An even mesh of the wire's length, whose nodes are the old ones where they can be, and
- * the places its holds need: arc lengths only. */
+/* Makes an even mesh of the wire's length with the places its holds need: arc lengths only. Its
+ * nodes are old ones where possible. */
 static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_mesh *out) {
   const sw_mesh *old = &sw_scene_wire_in(s, wire)->mesh;
   const double length = old->s[old->n - 1], ends[6] = {0, 0, 0, length, 0, 0};
@@ -107,8 +107,8 @@ static sw_status new_places(const sw_scene *s, size_t wire, size_t segments, sw_
   return sw_scene_make_places(s, wire, out);
 }
 
-/* Where a vector across `from`, the direction held at node a, comes to when it is carried
- * along the edges to `to`, the direction held at node b. */
+/* Carries a vector across `from`, the direction held at node a, along the edges to `to`, the
+ * direction held at node b. */
 static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_vec to) {
   sw_vec u = sw_perpendicular(from), before = from;
   for (size_t i = a; i < b; i++) {
@@ -119,7 +119,8 @@ static sw_vec carry_along(const sw_mesh *m, size_t a, size_t b, sw_vec from, sw_
   return sw_carry_unit(u, before, to);
 }
 
-/* The wire's direction at the end s of a living hold, which leaves or arrives there. */
+/* Returns the wire's direction at a living hold's end s, where the wire leaves or arrives; 0:
+ * none. */
 static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leaves) {
   SW_EACH(hold, h, s) {
     if (h->alive && h->wire == wire && h->cls->hold->direction && (leaves ? h->s2 : h->s1) == at)
@@ -128,8 +129,8 @@ static sw_vec held_direction(const sw_scene *s, size_t wire, double at, int leav
   return sw_v(0, 0, 0);
 }
 
-/* How far the holds are turned against one another stays. A curve through the nodes turns a
- * carried vector a little less or more than the chords did, which is the twist's to make up. */
+/* Keeps the turn of the holds against one another. A curve through the nodes turns a carried vector
+ * a little more or less than the chords did; the twist makes up for that. */
 static void correct_twist(sw_scene *s, size_t wire, const sw_mesh *fresh) {
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);
   SW_ITEMS(sw_twisted, span, w->twisted, w->twisted_count) {
@@ -168,14 +169,14 @@ static sw_status carry_over(sw_scene *s, size_t wire, size_t segments) {
   return status;
 }
 
-/* As it was drawn, of the whole length that was drawn? */
+/* 1 if the wire lies as drawn, with the whole drawn length. */
 static int is_drawn(const sw_scene_wire *w) {
   const double drawn = w->drawing.length * w->mesh.scale;
   return w->mesh.drawn && fabs(w->mesh.s[w->mesh.n - 1] - drawn) <= SAME_PLACE * drawn;
 }
 
-/* Feeding makes and takes nodes of its own, at places that another mesh would not know; a mesh
- * of particles is what it was made. */
+/* SW_EINVAL for wires that cannot be meshed anew: feeding makes and removes nodes at places that
+ * another mesh would not have; a mesh of particles is fixed when it is made. */
 static sw_status check_fed(const sw_scene *s, sw_error *err) {
   SW_EACH(wire, wire, s) SW_TRY(sw_scene_check_line(wire, "another number of segments", err));
   SW_EACH(hold, h, s)
@@ -212,11 +213,11 @@ sw_status sw_scene_remesh(sw_scene *s, const size_t *segments, size_t count, sw_
   return SW_OK;
 }
 
-/* More than this is lost when a wire that has moved gets frames [rad]. */
+/* Largest twist that may be lost when a wire that has moved gets frames [rad]. */
 static const double LEAST_TWIST = 1e-3;
 
-/* One that has moved becomes one that rolls, with the frames that it has or, where nothing twists
- * it, such as go along it. */
+/* Lets a wire that has moved roll. It keeps its frames, or, where nothing twists it, gets frames
+ * carried along the wire. */
 static sw_status add_rolling(sw_scene *s, size_t wire, sw_error *err) {
   sw_scene_wire *w = sw_scene_wire_in(s, wire);
   sw_mesh *m = &w->mesh;

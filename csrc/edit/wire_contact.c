@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which wires touch each other, as a user says, and where they do. */
+/* Rules of which wires touch each other, and read-outs of where they do. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -73,13 +73,14 @@ sw_status sw_scene_wire_touch_count(sw_scene *s, size_t *count, sw_error *err) {
   return SW_OK;
 }
 
-/* Where a touch is on a body: place and arc length; of a particle its place along the object. */
+/* Returns the place of a touch on a body, and its arc length; for a particle its place along the
+ * object. */
 static sw_vec touched_at(const sw_scene *s, const sw_pair_place *p, int k, double *arc) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[p->body[k]];
   const size_t i = p->node[k] - b->first_node;
   *arc = sw_plan_place(b->plan, i);
-  if (i < b->plan->edges) *arc += p->at[k] * b->plan->rest[i]; /* a wire's */
+  if (i < b->plan->edges) *arc += p->at[k] * b->plan->rest[i]; /* of a wire */
   return sw_lerp(sw_vec_at(system->x, p->node[k]), sw_vec_at(system->x, p->end[k]), p->at[k]);
 }
 
@@ -88,7 +89,7 @@ static double touching_radius(const sw_scene *s, const sw_pair_place *p, int k) 
   return sw_plan_skin(b->plan, p->node[k] - b->first_node);
 }
 
-/* Of a wire and an object of particles the object comes first, whichever has the edge there. */
+/* Puts an object of particles before a wire, whichever of them has the edge there. */
 static sw_pair_place loose_first(const sw_scene *s, sw_pair_place p) {
   if (sw_scene_system(s)->bodies[p.body[0]].plan->web ||
       !sw_scene_system(s)->bodies[p.body[1]].plan->web)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A line that is made to go on with the speed that it came with. */
+/* Gives a line the velocity with which it came to its place. */
 #include "body/build.h"
 #include "edit/wires.h"
 #include "scene/course.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires of a scene: what users may say about them, and how they are made of that. */
+/* Wires of a scene: what users may give, and how wires are made from it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -82,12 +82,12 @@ static sw_status check_mesh(const char *name, const sw_mesh *m, sw_error *err) {
   return SW_OK;
 }
 
-/* The normal must be across the wire where it starts. */
-static const double LEAST_SINE = 1e-3; /* of the angle between both [-] */
+/* The normal must not be along the wire's start. */
+static const double LEAST_SINE = 1e-3; /* sine of the angle between them [-] */
 
-static const double LARGEST_TWIST = 1.5; /* of a segment at rest, with frames [rad] */
+static const double LARGEST_TWIST = 1.5; /* turn of a segment at rest, with frames [rad] */
 
-/* A mesh of particles has its frames by itself. */
+/* SW_EINVAL for rolls: a mesh of particles rolls by itself. */
 static sw_status check_mesh_frames(const sw_scene_wire *w, const sw_drawing *a, sw_error *err) {
   if (a->rolls)
     return sw_fail(err, SW_EINVAL,
@@ -121,7 +121,7 @@ static sw_status add_frames(sw_scene_wire *w, sw_mesh *m, sw_error *err) {
   if (given && !(sw_norm(sw_cross(sw_unit_or(a->normal, along), along)) > LEAST_SINE))
     return sw_fail(err, SW_EINVAL, "wire '%s': normal must not be along the wire's start", w->name);
   w->beam.framed = w->beam.framed || a->rest == SW_REST_PATH || a->rolls;
-  if (!w->beam.framed) return SW_OK; /* a normal that makes no difference */
+  if (!w->beam.framed) return SW_OK; /* the normal makes no difference */
   const double segment = m->s[m->n - 1] / (double)(m->n - 1);
   if (!(fabs(a->rest_twist) * segment < LARGEST_TWIST))
     return sw_fail(
@@ -149,7 +149,7 @@ sw_status sw_scene_draw(sw_scene_wire *w, size_t segments, sw_mesh *out, sw_erro
   return SW_OK;
 }
 
-/* Keep what the wire is drawn along; frees nothing on failure. */
+/* Keeps the path that the wire is drawn along; frees nothing on failure. */
 static sw_status keep_drawing(sw_scene_wire *w, const sw_wire_args *args, const double *points,
                               size_t count) {
   w->drawing = (sw_drawing){.count = count,
@@ -180,7 +180,7 @@ sw_strand_plan sw_scene_strand_plan(const sw_scene_wire *w, const sw_wire_class 
                           .rest_twist = w->drawing.rest_twist};
 }
 
-/* The particles of a wire that is a mesh, along its drawing. */
+/* Makes the particles of a wire that is a mesh, along its drawing. */
 static sw_status draw_strand(sw_scene_wire *w, const sw_wire_args *args,
                              const sw_wire_mesh_args *mesh, sw_error *err) {
   const sw_drawing *d = &w->drawing;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires of a scene: how they are made, meshed anew, and touch each other. */
+/* Wires of a scene: making them, meshing them anew, and contact between them. */
 #ifndef SW_EDIT_WIRES_H
 #define SW_EDIT_WIRES_H
 
@@ -17,14 +17,14 @@ typedef struct sw_wire_args {
   double rest_twist;    /* without load [rad/m] */
   int rolls;            /* 1: spins about its axis, with inertia, under friction */
   double breaking_load; /* NAN = not known [N] */
-  int breaking_flag;    /* where that is from: index into sw_breaking_flags */
+  int breaking_flag;    /* source of the breaking load: index into sw_breaking_flags */
 } sw_wire_args;
 enum { SW_BREAKING_FLAGS = 4 };
 extern const char *const sw_breaking_flags[];
 enum { SW_REST_STRAIGHT = 0, SW_REST_PATH = 1 };
 extern const sw_params sw_wire_params; /* model, path, segments, ... */
 
-/* Of a wire whose model is a mesh of particles. */
+/* Further arguments of a wire whose model is a mesh of particles. */
 typedef struct sw_wire_mesh_args {
   double spacing; /* of slices; NAN = chosen [m] */
   double squeeze; /* see sw_calibrate_args [Pa] */
@@ -35,31 +35,30 @@ typedef struct sw_wire_mesh_args {
 } sw_wire_mesh_args;
 extern const sw_params sw_wire_mesh_params; /* without those of the lattice and the section */
 
-/* points (count x 3): the polyline the wire lies along; NULL takes from and to. mesh: with a
- * model that is one, else NULL. SW_EINVAL for fewer than two different points. */
+/* Adds a wire. points (count x 3): the polyline it lies along; NULL takes from and to. mesh: for
+ * models that are meshes, else NULL. SW_EINVAL for fewer than two different points. */
 sw_status sw_scene_add_wire(sw_scene *scene, const sw_wire_args *args, const sw_beam *beam,
                             const sw_wire_mesh_args *mesh, const double *points, size_t count,
                             sw_handle *out, sw_error *err);
 
-/* Give every wire a mesh of so many even segments (count: one number per wire), with
- * the nodes its holds need. A wire that has not moved since it was drawn is drawn anew;
- * any other keeps its length, shape, motion, strains and twist. After SW_ENOMEM some
- * wires may have the new mesh. */
+/* Gives every wire a mesh of this many even segments (count: one number per wire), with the nodes
+ * its holds need. A wire that has not moved since it was drawn is drawn anew; any other keeps its
+ * length, shape, motion, strains and twist. After SW_ENOMEM some wires may have the new mesh. */
 sw_status sw_scene_remesh(sw_scene *scene, const size_t *segments, size_t count, sw_error *err);
-/* What a rod is to be instead, its mesh as before. */
+/* Changes of a rod that keep its mesh. */
 typedef struct sw_redrawing {
   int rolls;         /* 1: friction turns it about its axis; 0: it does not */
-  double EA, EI, GJ; /* times what they are [-] */
+  double EA, EI, GJ; /* factors on the present values [-] */
 } sw_redrawing;
-/* Make such a rod of it, at once as if it had been made so. SW_EINVAL: it is no rod; or it has
- * moved, and EA is to change, frames are to go, or twist would be lost. */
+/* Changes the rod at once, as if it had been made like this. SW_EINVAL: it is no rod; or it has
+ * moved, and EA would change, frames would go, or twist would be lost. */
 sw_status sw_scene_redraw(sw_scene *scene, sw_handle wire, const sw_redrawing *as, sw_error *err);
-/* Even segments that a wire's mesh stands for, holds' own nodes left out. */
+/* Returns the number of even segments of a wire's mesh, without the nodes of holds. */
 sw_status sw_scene_wire_segments(sw_scene *scene, sw_handle wire, size_t *segments, sw_error *err);
 
-/* The calibration of a wire that is a mesh; NULL: it is no mesh, or is gone. */
+/* Returns the calibration of a wire that is a mesh; NULL: it is no mesh, or is gone. */
 const sw_calibration *sw_scene_wire_calibration(const sw_scene *scene, sw_handle wire);
-/* Name of its model; NULL: it is gone. */
+/* Returns the name of its model; NULL: it is gone. */
 const char *sw_scene_wire_model(const sw_scene *scene, sw_handle wire);
 
 /* --- wires that touch each other ------------------------------------------------ */
@@ -70,7 +69,7 @@ typedef struct sw_wire_contact_args {
 } sw_wire_contact_args;
 extern const sw_params sw_wire_contact_params;
 
-/* From now on these wires (none = all, later ones too) touch each other. */
+/* Lets these wires (none = all, later ones too) touch each other from now on. */
 sw_status sw_scene_wire_contact(sw_scene *scene, const sw_wire_contact_args *args,
                                 const sw_handle *wires, size_t count, sw_error *err);
 
@@ -80,17 +79,17 @@ typedef struct sw_wire_touch {
   double s[2];          /* arc lengths [m] */
   sw_vec point, normal; /* between the surfaces [m]; towards the first wire [-] */
   sw_vec force;         /* on the first wire [N] */
-  sw_vec friction;      /* part of it across the normal [N] */
+  sw_vec friction;      /* its part across the normal [N] */
   double normal_force;  /* [N] */
 } sw_wire_touch;
 
-/* How many such places the accepted state has, and the next of them, 0: there are no more; next:
- * {0, 0} for the first one. */
+/* Places where wires touch in the accepted state: their number, and the next one; 0: there are no
+ * more. next: {0, 0} for the first one. */
 sw_status sw_scene_wire_touch_count(sw_scene *scene, size_t *count, sw_error *err);
 int sw_scene_next_touch(sw_scene *scene, size_t next[2], sw_wire_touch *out);
 
-/* The free nodes of a line get the speed with which they came from where they were (count x 3) [m]
- * a span ago [s]: after poses, which have none. */
+/* Sets the velocity of a line's free nodes to their way from `before` (count x 3) [m] over the span
+ * [s]: for use after poses, which have no velocity. */
 sw_status sw_scene_wire_came_from(sw_scene *scene, sw_handle wire, const double *before,
                                   size_t count, double span, sw_error *err);
 

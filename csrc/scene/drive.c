@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What moves a hold, an obstacle or a gripper. */
+/* Drives: they move a hold, an obstacle or a gripper. */
 #include "scene/drive.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ void sw_drive_free(sw_drive *d) {
   d->motion = NULL;
 }
 
-/* In a tool's frame, which itself is at rest or follows a motion. */
+/* Evaluates a drive in a tool's frame, which itself is at rest or follows a motion. */
 static sw_status carried(sw_scene *s, const sw_drive *d, double t, sw_motion_state *out,
                          sw_error *err) {
   const sw_tool *tool = sw_scene_tool_in(s, d->tool - 1);
@@ -44,7 +44,7 @@ sw_status sw_drive_eval(sw_scene *s, const sw_drive *d, double t, sw_motion_stat
     out->pivot = d->pose.p;
     return SW_OK;
   }
-  sw_scene_enter(s, 1); /* a user's function may call anything: nothing may change meanwhile */
+  sw_scene_enter(s, 1); /* a user's function may call anything: changes are refused meanwhile */
   const sw_status status = sw_motion_eval(d->motion, t - d->start, out, err);
   sw_scene_enter(s, -1);
   out->pivot = out->pose.p;
@@ -98,7 +98,8 @@ sw_status sw_drive_put(sw_scene *s, sw_drive *d, const char *object, sw_pose pos
   return SW_OK;
 }
 
-/* A function that is over stands where it ended; one under way is refused before. */
+/* Puts a drive on a tape. In a file a user's function that has ended becomes the pose where it
+ * ended; one that still runs was refused before. */
 void sw_tape_drive(sw_tape *t, sw_scene *s, sw_drive *x) {
   sw_drive now = *x;
   sw_motion_state at;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What moves a hold, an obstacle or a gripper. */
+/* Drives: they move a hold, an obstacle or a gripper. */
 #ifndef SW_SCENE_DRIVE_H
 #define SW_SCENE_DRIVE_H
 
@@ -7,20 +7,21 @@
 #include "link/hold.h"
 #include "scene/scene.h"
 
-/* Where the drive is at time t. The scene refuses to be changed meanwhile, for
- * the motion may be a user's function. */
+/* Evaluates the drive at time t. The scene refuses changes meanwhile, because the motion may be a
+ * user's function. */
 sw_status sw_drive_eval(sw_scene *scene, const sw_drive *drive, double t, sw_motion_state *out,
                         sw_error *err);
-/* Follow the motion from the scene's time on. */
+/* Lets the drive follow the motion from the scene's time on. SW_EINVAL if it goes with a
+ * gripper. */
 sw_status sw_drive_follow(sw_scene *scene, sw_drive *drive, const char *object, sw_motion *motion,
                           int relative, sw_error *err);
-/* Stand at the pose from now on; both say so where it goes with a gripper. */
+/* Stops the drive at the pose from now on. SW_EINVAL if it goes with a gripper. */
 sw_status sw_drive_put(sw_scene *scene, sw_drive *drive, const char *object, sw_pose pose,
                        sw_error *err);
 void sw_drive_free(sw_drive *drive);
 void sw_tape_drive(sw_tape *tape, sw_scene *scene, sw_drive *drive);
 
-/* 1: it may be elsewhere later without anyone changing it. */
+/* 1 if the drive may change its place without an edit. */
 static inline int sw_drive_moves(const sw_drive *drive) { return drive->motion || drive->tool; }
 
 #endif

@@ -8,7 +8,7 @@
 #include "scene/lookup.h"
 #include "scene/obstacle.h"
 
-/* What moves a living one, and its name. */
+/* Returns the drive of a living object, and its name. */
 static sw_drive *drive_of(const sw_scene *s, sw_kind kind, sw_handle of, const char **name,
                           sw_error *err) {
   if (kind == SW_OF_HOLD) {
@@ -27,7 +27,8 @@ static void ask_again(sw_scene *s, sw_kind kind) {
   if (kind == SW_OF_OBSTACLE && sw_scene_contact(s)) sw_contact_ask_again(sw_scene_contact(s));
 }
 
-/* Does it hold wires, whose speed then jumps? Pads alone push by where they are, not how fast. */
+/* 1 if the object holds wires, whose speed then jumps. Pads of a tool alone push by their place,
+ * not by their speed. */
 static int holds_any(const sw_scene *s, sw_kind kind, sw_handle of) {
   int any = kind != SW_OF_TOOL;
   SW_EACH(hold, h, s) {

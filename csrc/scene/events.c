@@ -10,7 +10,7 @@
 #include "scene/course.h"
 #include "scene/parts.h"
 
-/* What happens again within this time is a repeat [s]; longer where steps are. */
+/* The same event within this time is a repeat [s]; the time is longer where steps are. */
 static const double REPEAT = 0.1;
 static const double REPEAT_STEPS = 2.5; /* of the last step [-] */
 
@@ -23,7 +23,7 @@ static void copy_name(char *out, const char *name) {
   snprintf(out, SW_NAME_SIZE, "%s", name ? name : "");
 }
 
-/* The latest event of this kind and object, or NULL. */
+/* Returns the latest event of this kind and object, or NULL. */
 static sw_event *latest(sw_events *e, const char *kind, const char *object) {
   for (size_t i = e->count; i-- > 0;)
     if (strcmp(e->list[i].kind, kind) == 0 && strcmp(e->list[i].object, object) == 0)

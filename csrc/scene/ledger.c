@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The books of a run's energy, which belong to the scene. Steps write them. */
+/* The books of a run's energy, which the scene owns. Steps write them. */
 #include "scene/ledger.h"
 
 #include "base/alloc.h"

@@ -20,19 +20,19 @@ typedef struct sw_zones {
 typedef struct sw_watches {
   sw_watch *list;
   size_t count, capacity;
-  size_t next; /* where the object that is noted next is likely to be [-] */
+  size_t next; /* likely index of the object that is noted next [-] */
 } sw_watches;
 
 typedef struct sw_frames {
   sw_frame *list;
   size_t count, capacity;
-  double next;   /* when one is kept next [s] */
-  size_t stride; /* one of so many is kept: 1, 2, 4 ... [-] */
-  double bytes;  /* that they take [B] */
-  double memory; /* that they may take [B] */
+  double next;   /* time of the next frame [s] */
+  size_t stride; /* every stride-th frame is kept: 1, 2, 4 ... [-] */
+  double bytes;  /* memory that they use [B] */
+  double memory; /* memory that they may use [B] */
 } sw_frames;
 
-/* Which wires touch each other. */
+/* Rules of which wires touch each other. */
 typedef struct sw_rules {
   sw_scene_rule *list;
   size_t count, capacity;
@@ -46,15 +46,15 @@ typedef struct sw_kept_contact {
   size_t pair_bytes;
   void *grains; /* the same of objects of particles */
   size_t grain_bytes;
-  double *s;     /* (nodes) arc lengths then [m] */
-  size_t *first; /* (wires + 1) first node of each wire then */
-  size_t *now;   /* (wires) its slot now; SIZE_MAX: it is gone */
+  double *s;     /* (nodes) arc lengths in the last system [m] */
+  size_t *first; /* (wires + 1) first node of each wire in the last system */
+  size_t *now;   /* (wires) present slot; SIZE_MAX: the wire is gone */
   size_t wires;
   int fresh;
-  size_t changed; /* a wire that has other nodes since, from 1; 0: none */
+  size_t changed; /* number + 1 of a wire whose nodes have changed since; 0: none */
 } sw_kept_contact;
 
-/* The same of forces. */
+/* Histories of forces of the last built system, for the next one. */
 typedef struct sw_histories {
   sw_kept_history *list;
   size_t count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is found in a scene: objects by their handles, their names, and whether it may be changed or
- * read now. */
+/* Finds objects of a scene by their handles, gives their names, and checks whether the scene may be
+ * changed or read now. */
 #include "scene/lookup.h"
 
 #include <stdint.h>
@@ -76,7 +76,7 @@ sw_scene_wire *sw_scene_find_wire(const sw_scene *s, sw_handle h, sw_error *err)
   return NULL;
 }
 
-/* NULL with err: no object of that word. */
+/* Returns NULL and sets err: there is no such object. */
 static void *missing(const sw_scene *s, const char *word, sw_error *err) {
   sw_fail(err, SW_EDEAD, "this %s is not of scene '%s' any more", word, s->name);
   return NULL;
@@ -133,7 +133,7 @@ sw_identity sw_scene_identify(const sw_scene *s, sw_kind kind, sw_handle h) {
   return (sw_identity){NULL, NULL, 0};
 }
 
-/* A name for an unnamed object: "wire1", "box2", ... */
+/* Names an unnamed object "wire1", "box2", ... */
 void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number) {
   if (wanted[0])
     memcpy(out, wanted, SW_NAME_SIZE);
@@ -166,7 +166,7 @@ sw_status sw_scene_check_touching(const sw_scene_wire *w, sw_error *err) {
   return sw_scene_check_line(w, "scene:wire_contact", err);
 }
 
-/* --- bodies that have left, too ------------------------------------------------------ */
+/* --- bodies, including those that have left ----------------------------------------------- */
 
 const sw_scene_wire *sw_scene_numbered(const sw_scene *s, size_t number, const sw_gone **gone) {
   size_t i; /* slots are in the order of their numbers */

@@ -15,11 +15,11 @@ typedef struct sw_scene_obstacle {
   sw_shape *shape;
   sw_drive drive;
   double friction, kinetic, restitution;
-  int off; /* 1: wires pass through it for the time being */
+  int off; /* 1: contact is off, wires pass through it */
   sw_contact_past past;
   sw_log log;
   size_t
-      logged; /* of the scene's steps with contact: those that its log has, or was not there for */
+      logged; /* count of the scene's contact steps that are in its log or came before its start */
 } sw_scene_obstacle;
 
 #endif

@@ -33,7 +33,8 @@ sw_crowd *sw_scene_crowd(const sw_scene *s) { return s->crowd; }
 int sw_scene_is_built(const sw_scene *s) { return s->built; }
 int sw_scene_wears(const sw_scene *s) { return s->wears; }
 
-/* What hangs on a scene may be changed by those that only look at the scene, as the lists may. */
+/* Functions that take a const scene may change these parts, as they may change the objects in
+ * lists. */
 sw_system *sw_scene_system(const sw_scene *s) { return (sw_system *)&s->system; }
 sw_course *sw_scene_course(const sw_scene *s) { return (sw_course *)&s->course; }
 sw_books *sw_scene_books(const sw_scene *s) { return (sw_books *)&s->books; }

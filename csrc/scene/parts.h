@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The parts of a scene, one by one, for files that need not see all of it (world.h). For the rooms
- * of the scene only. */
+/* Access to the single parts of a scene, for files that need not see all of it (world.h). For the
+ * rooms of the scene only. */
 #ifndef SW_SCENE_PARTS_H
 #define SW_SCENE_PARTS_H
 
 #include "base/each.h"
 #include "scene/scene.h"
 
-/* Each in a header of its own. */
+/* Types, each with its own header. */
 typedef struct sw_scene_wire sw_scene_wire;         /* wire.h */
 typedef struct sw_hold sw_hold;                     /* link/hold.h */
 typedef struct sw_scene_obstacle sw_scene_obstacle; /* obstacle.h */
@@ -34,7 +34,7 @@ typedef struct sw_crowd sw_crowd;
 typedef struct sw_hold_load sw_hold_load;
 typedef struct sw_log sw_log;
 
-/* Slots of each kind [-], and what is in one; some may be empty. */
+/* Number of slots of each kind [-], and the object in a slot; it may be dead. */
 size_t sw_scene_wire_slots(const sw_scene *scene);
 sw_scene_wire *sw_scene_wire_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_hold_slots(const sw_scene *scene);
@@ -47,17 +47,18 @@ size_t sw_scene_force_slots(const sw_scene *scene);
 sw_scene_force *sw_scene_force_in(const sw_scene *scene, size_t slot);
 size_t sw_scene_join_slots(const sw_scene *scene);
 sw_joint *sw_scene_join_in(const sw_scene *scene, size_t slot);
-/* While it is built: the hold that is number k of the system. */
+/* Returns the hold that is number k of the system, while the scene is built. */
 sw_hold *sw_scene_held_by(const sw_scene *scene, size_t k);
-/* For each object of a list, those that are gone too: SW_EACH(hold, h, scene) with an sw_hold *h.
- */
+/* Loops over all objects of a list, including dead ones: SW_EACH(hold, h, scene) with an sw_hold
+ * *h. */
 #define SW_EACH(kind, object, scene)                                                            \
   SW_ITEMS(__typeof__(*sw_scene_##kind##_in(scene, 0)), object, sw_scene_##kind##_in(scene, 0), \
            sw_scene_##kind##_slots(scene))
-/* How many bodies were made so far, those that are gone too: frames have a number for each. */
+/* Returns the number of bodies made so far, including those that are gone: frames number them
+ * all. */
 size_t sw_scene_bodies_made(const sw_scene *scene);
 
-/* The system that they are built into; each kind of contact may be NULL. */
+/* The system that the objects are built into. Each kind of contact may be NULL. */
 sw_system *sw_scene_system(const sw_scene *scene);
 sw_contact *sw_scene_contact(const sw_scene *scene);
 sw_mutual *sw_scene_pairs(const sw_scene *scene);
@@ -65,7 +66,7 @@ sw_mutual *sw_scene_grains(const sw_scene *scene);
 sw_crowd *sw_scene_crowd(const sw_scene *scene);
 int sw_scene_is_built(const sw_scene *scene); /* 1: the system is valid and holds the state */
 
-/* Its steps, their energy, its events, and the lists of lists.h. */
+/* The scene's steps, energy, events, and the lists of lists.h. */
 sw_course *sw_scene_course(const sw_scene *scene);
 sw_books *sw_scene_books(const sw_scene *scene);
 sw_events *sw_scene_events_of(const sw_scene *scene);
@@ -75,37 +76,39 @@ sw_frames *sw_scene_frames_of(const sw_scene *scene);
 sw_rules *sw_scene_rules_of(const sw_scene *scene);
 sw_kept_contact *sw_scene_kept(const sw_scene *scene);
 sw_histories *sw_scene_histories_of(const sw_scene *scene);
-sw_hold_load *sw_scene_hold_loads(const sw_scene *scene); /* (holds) of the stage solved last */
-sw_log *sw_scene_contact_steps(const sw_scene *scene);    /* time and span of those observed [s] */
-sw_extreme *sw_scene_penetrated(const sw_scene *scene);   /* the deepest penetration of the run */
+sw_hold_load *sw_scene_hold_loads(const sw_scene *scene); /* (holds) loads of the stage solved
+                                                             last */
+sw_log *sw_scene_contact_steps(const sw_scene *scene);    /* time and span of the observed steps
+                                                             [s] */
+sw_extreme *sw_scene_penetrated(const sw_scene *scene);   /* deepest penetration of the run */
 int sw_scene_wears(const sw_scene *scene);                /* 1: wear of wires is recorded */
 
-/* The given name, or kind and a number. */
+/* Writes the wanted name, or, if it is empty, the kind and a number. */
 void sw_scene_give_name(char *out, const char *wanted, const char *kind, size_t number);
 
-/* Nothing may be read until another state is restored, and why. */
+/* Marks the scene as diverged: reads are refused until another state is restored. */
 void sw_scene_diverge(sw_scene *scene, const sw_error *why);
 void sw_scene_set_wears(sw_scene *scene, int wears);
 void sw_scene_set_time(sw_scene *scene, double time); /* [s] */
-/* An observer looks: what runs stands still, and nothing may be changed. Returns what is to be
- * given back when it has. */
+/* Begins the look of an observer: the run pauses, and changes are refused. Returns the value that
+ * sw_scene_end_look takes. */
 int sw_scene_begin_look(sw_scene *scene);
 void sw_scene_end_look(sw_scene *scene, int running);
-/* Holds are at this share of their way from these poses; NULL: at its end. */
+/* Puts holds at this share of their way from the poses `from`; NULL: at its end. */
 void sw_scene_go_part(sw_scene *scene, const sw_pose *from, double share);
-const sw_pose *sw_scene_part(const sw_scene *scene, double *share); /* both */
-/* The built system is another one now, as if it were built anew. */
+const sw_pose *sw_scene_part(const sw_scene *scene, double *share); /* returns both */
+/* Gives the built system a new number, as if it were built anew. */
 void sw_scene_renumber(sw_scene *scene);
-/* The wire has other nodes: contact remembers nothing of it, and its velocities jump. */
+/* Call when the wire has other nodes: contact forgets it, and its velocities jump. */
 void sw_scene_forget_mesh(sw_scene *scene, size_t wire);
-/* Drop the body made last from the list; nothing of it is freed. */
+/* Drops the last body from the list without freeing what it owns. */
 void sw_scene_unmake_body(sw_scene *scene);
-/* Another number than any that was given before: a generation, a shape of a hold. */
+/* Returns a new number, for a generation or a shape of a hold. */
 uint32_t sw_scene_number(sw_scene *scene);
-/* A copy of a new object into the list of its kind, with a number of its own. SW_ENOMEM. */
+/* Copies a new object into the list of its kind, with a new generation. SW_ENOMEM. */
 sw_status sw_scene_add(sw_scene *scene, sw_kind kind, const void *object, sw_handle *out);
 
-/* Inside a step or a user's function, until the same with -1: edits are refused. */
+/* more = 1: enters a step or a user's function, so that edits are refused; -1: leaves it. */
 void sw_scene_enter(sw_scene *scene, int more);
 
 #endif

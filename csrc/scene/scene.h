@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene owns everything: wires, holds, obstacles, forces, time. It is
- * edited between runs, made into a system when something moves, and read.
- * Objects are named by handles (slot and generation), so that a stale handle is
- * found out, not followed. Not thread-safe; scenes are independent. */
+/* The scene owns everything: wires, holds, obstacles, forces, time. It is edited between runs,
+ * built into a system when something moves, and read. Handles (slot and generation) name objects; a
+ * stale handle is detected. Not thread-safe; scenes are independent. */
 #ifndef SW_SCENE_SCENE_H
 #define SW_SCENE_SCENE_H
 
@@ -48,11 +47,11 @@ typedef enum sw_kind {
 
 typedef struct sw_identity {
   const char *name; /* NULL: the scene does not know the object any more */
-  const char *kind; /* "clamp", "box", "rod", ...; NULL of a body that was taken away */
+  const char *kind; /* "clamp", "box", "rod", ...; NULL for a body that was taken away */
   int alive;        /* 0 once released or taken away */
 } sw_identity;
 sw_identity sw_scene_identify(const sw_scene *scene, sw_kind kind, sw_handle object);
-/* NULL when the scene does not have it any more. */
+/* NULL when the body is not in the scene any more. */
 const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 
 /* --- forces ----------------------------------------------------------------- */
@@ -60,21 +59,22 @@ const char *sw_scene_wire_name(const sw_scene *scene, sw_handle wire);
 /* SW_EBUSY from inside a step, a user's function or an observer: the scene must not be changed
  * now. */
 sw_status sw_scene_editable(const sw_scene *scene, sw_error *err);
-/* That, and SW_EDIVERGED where its state means nothing: for changes that go on from it. */
+/* The same, and SW_EDIVERGED when the state is meaningless: for changes that go on from the
+ * state. */
 sw_status sw_scene_ready(const sw_scene *scene, sw_error *err);
-/* SW_EBUSY from inside a step or a function of time, where its fields are the solver's. */
+/* SW_EBUSY from inside a step or a function of time, when the solver uses the scene's fields. */
 sw_status sw_scene_still(const sw_scene *scene, sw_error *err);
 
 /* --- running ---------------------------------------------------------------- */
 
-/* The window of the last run, or that of runs that say nothing [s]. */
+/* Returns the window of the last run, or the default [s]. */
 double sw_scene_window(const sw_scene *scene);
 
-/* The handle of a body with the slot that it has now; one that names none when it is gone. */
+/* Returns the handle with the body's present slot; a handle of no object when the body is gone. */
 sw_handle sw_scene_body_now(const sw_scene *scene, sw_handle body);
-/* Its number in frames, also of one that is gone; SIZE_MAX: the scene does not know it [-]. */
+/* Returns the body's number in frames, also of one that is gone; SIZE_MAX: not known [-]. */
 size_t sw_scene_body_number(const sw_scene *scene, sw_handle body);
-/* Name of a body that was taken away, and when [s]; NULL: it was not. */
+/* Returns the name of a body that was taken away, and the time [s]; NULL: it was not. */
 const char *sw_scene_gone_name(const sw_scene *scene, sw_handle body, double *time);
 
 #endif

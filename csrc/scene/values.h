@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is told of a wire: values at a place, largest values, rows of series. */
+/* Values of a wire: at a place, largest values, rows of series. */
 #ifndef SW_SCENE_VALUES_H
 #define SW_SCENE_VALUES_H
 
@@ -9,20 +9,21 @@
 typedef struct sw_point_state {
   sw_vec position, tangent, velocity; /* [m], [-], [m/s] */
   double curvature;                   /* [1/m] */
-  double tension, elastic;            /* axial force; without that of dashpots [N] */
+  double tension, elastic;            /* axial force; the same without dashpots [N] */
   double twist_moment;                /* [N m] */
   double spin;                        /* about the tangent, of a wire that rolls [rad/s] */
-  double strain, least_strain;        /* of the fibres outside and inside the bend [-] */
+  double strain, least_strain;        /* of the outermost fibres outside and inside the bend [-] */
 } sw_point_state;
 
-/* The wire's largest values: now, and since the last run or settle began. */
+/* The wire's largest values: at present, or since the last run or settle began. */
 typedef struct sw_wire_extremes {
   sw_extreme curvature, tension, strain; /* [1/m], [N], outermost fibre [-] */
-  sw_extreme folding;     /* of a section of springs; above 0: it has folded through itself [-] */
+  sw_extreme folding;     /* of a section of springs; above 0 it has folded through itself [-] */
   sw_extreme ovalisation; /* of a mesh of particles; see sw_section_shape [-] */
   sw_extreme torsion;     /* of a line, M_t / GJ [rad/m] */
-  sw_extreme raw;         /* tension of a single step; tension is of means over the window [N] */
-  double raw_span;        /* how long that step was; 0: it was an equilibrium [s] */
+  sw_extreme raw;         /* tension of a single step; `tension` is that of means over the window
+                             [N] */
+  double raw_span;        /* size of that step; 0: it was an equilibrium [s] */
 } sw_wire_extremes;
 
 /* One recorded row per step of a hold: time, force, moment, held point. */

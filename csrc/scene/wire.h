@@ -20,7 +20,7 @@ typedef struct sw_twisted {
   double twist;  /* total [rad] */
 } sw_twisted;
 
-/* What a wire was drawn along, to be meshed again as if it were made now. */
+/* The path a wire was drawn along, from which it can be meshed anew. */
 typedef struct sw_drawing {
   double *points; /* (count x 3) [m] */
   size_t count;
@@ -35,39 +35,39 @@ typedef struct sw_drawing {
 
 typedef struct sw_scene_wire {
   uint32_t generation;
-  size_t number; /* in frames; how many were made before it [-] */
+  size_t number; /* number in frames: bodies made before it [-] */
   char name[SW_NAME_SIZE];
   const sw_wire_class *cls;
   sw_beam beam;
   sw_mesh mesh;     /* authoritative while the scene is not built */
-  sw_strand strand; /* of a model that is a mesh of particles; else without a web */
+  sw_strand strand; /* mesh of particles, for models that are one; else without a web */
   sw_drawing drawing;
   sw_wire_extremes extremes;
   sw_window window; /* of the tension */
-  sw_wear wear;     /* while the scene keeps it */
+  sw_wear wear;     /* recorded while the scene records wear */
   sw_zone_watch zones;
   sw_twisted *twisted;
   size_t twisted_count;
-  int untwisted; /* 1: lies as it was drawn, without the twist it has unloaded; nothing has moved */
+  int untwisted; /* 1: lies as drawn, without its unloaded twist; nothing has moved */
 } sw_scene_wire;
 
-/* What is still told of a body that was taken away. */
+/* Data kept of a body that was taken away. */
 typedef struct sw_gone {
   uint32_t generation;
   int loose;     /* 1: it was an object of particles */
-  size_t number; /* in frames [-] */
-  double radius; /* that frames are drawn with [m] */
-  double time;   /* when it went [s] */
+  size_t number; /* number in frames [-] */
+  double radius; /* radius for drawing frames [m] */
+  double time;   /* when it was taken away [s] */
   char name[SW_NAME_SIZE];
 } sw_gone;
 
-/* 1: an object of particles in no order along a wire. It has no arc length, and its mesh is a
- * straight line of its size. */
+/* 1 if the body is an object of particles, in no order along a wire. It has no arc length, and its
+ * mesh is a straight line of its size. */
 static inline int sw_scene_is_loose(const sw_scene_wire *wire) {
   return wire->strand.web && !wire->strand.web->per_ring;
 }
 
-/* 1: a wire that is a mesh of particles, with sections along it. */
+/* 1 if the wire is a mesh of particles, with sections along it. */
 static inline int sw_scene_has_sections(const sw_scene_wire *wire) {
   return wire->strand.web && wire->strand.web->per_ring;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene's inside: the lists of its objects, the system that they are made into, and what it
- * remembers. Of those that change it as a whole; others take what they need from parts.h. */
+/* The scene's inside: the lists of its objects, the system that they are built into, and its
+ * memory. For files that change the scene as a whole; others use parts.h. */
 #ifndef SW_SCENE_WORLD_H
 #define SW_SCENE_WORLD_H
 
@@ -15,19 +15,19 @@
 struct sw_scene {
   char name[SW_NAME_SIZE];
   uint32_t serial;              /* generation of the object made last */
-  sw_snapshot *snapshots;       /* the living ones, a list */
+  sw_snapshot *snapshots;       /* living snapshots, a list */
   const sw_snapshot *restoring; /* being restored now, or NULL */
   sw_vec gravity;
   double time;
   sw_scene_wire *wires;
   size_t wire_count, wire_capacity;
-  sw_gone *gone; /* bodies that were taken away, in that order */
+  sw_gone *gone; /* bodies that were taken away, in order of time */
   size_t gone_count, gone_capacity;
   sw_hold *holds;
   size_t hold_count, hold_capacity;
   sw_scene_obstacle *obstacles;
   size_t obstacle_count, obstacle_capacity;
-  sw_log contact_steps; /* time and span of those observed so far [s] */
+  sw_log contact_steps; /* time and span of the observed steps so far [s] */
   sw_tool *tools;
   size_t tool_count, tool_capacity;
   sw_scene_force *forces;
@@ -35,20 +35,20 @@ struct sw_scene {
   sw_joint *joins;
   size_t join_count, join_capacity;
 
-  const sw_pose *part_from; /* settling: where the holds come from, or NULL */
+  const sw_pose *part_from; /* settling: start poses of the holds, or NULL */
   double part;              /* share of their way [-] */
 
   int built;     /* system is valid and holds the state */
-  size_t build;  /* number of the system: one made alike has the same */
-  size_t builds; /* numbers given */
+  size_t build;  /* number of the system; a copy of it has the same */
+  size_t builds; /* numbers given so far */
   int running;   /* above 0 inside a step or a user's function: edits are refused */
-  int looking;   /* 1: an observer looks at it: the same, but it can be read */
+  int looking;   /* 1: an observer looks at the scene: edits are refused, reads are not */
   sw_system system;
   int *hold_slot;           /* (system.hold_count) scene slot of each system hold */
-  sw_hold_load *hold_loads; /* (system.hold_count) of the stage that was solved last */
+  sw_hold_load *hold_loads; /* (system.hold_count) loads of the stage solved last */
   sw_contact *contact;      /* with obstacles, or NULL */
   sw_mutual *pairs;         /* between wires, or NULL */
-  sw_mutual *grains;        /* between objects of particles and what else touches them, or NULL */
+  sw_mutual *grains;        /* between objects of particles and what they touch, or NULL */
   sw_crowd *crowd;          /* between particles that repel each other, or NULL */
   sw_rules rules;
   sw_kept_contact kept;
@@ -57,13 +57,13 @@ struct sw_scene {
 
   int diverged;
   sw_error why;
-  sw_extreme deepest; /* penetration */
-  int wears;          /* 1: what wears wires in the run is kept */
+  sw_extreme deepest; /* deepest penetration */
+  int wears;          /* 1: wear of wires is recorded in the run */
   sw_zones zones;
   sw_frames frames;
   sw_events events; /* of the last run */
   sw_watches watches;
-  sw_books books; /* of the energy in it */
+  sw_books books; /* energy of its last run */
 };
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A trial becomes the state: it is committed, observed and booked. */
+/* Makes a trial the state: commits, observes and books it. */
 #include <math.h>
 
 #include "body/hold.h"
@@ -14,9 +14,8 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* So many parts of less than this share of their step in the mean are no way to go on: the
- * run stops and says what holds it back [-]. Adaptive steps may be as small as they like for
- * longer. */
+/* When this many parts (substeps) cover less than this share of their steps on average, the run
+ * stops and says what holds it back [-]. Adaptive steps may be much smaller. */
 enum { MOST_SMALL = 20000, MOST_SMALL_ADAPTIVE = 20000 };
 static const double SMALL = 1.0 / 512, SMALL_ADAPTIVE = 2e-5;
 
@@ -36,7 +35,7 @@ void sw_ladder_accept(sw_ladder *p, double h, double t) {
   sw_scene_set_time(s, t);
 }
 
-/* A part h of a step that was to be whole is taken. SW_ELIMIT: steps have collapsed. */
+/* Counts a part h of a step `whole`. SW_ELIMIT: steps have collapsed. */
 static sw_status count_small(sw_ladder *p, double h, double whole, sw_error *err) {
   const int adaptive = isfinite(p->args->tolerance);
   const size_t most = adaptive ? MOST_SMALL_ADAPTIVE : MOST_SMALL;

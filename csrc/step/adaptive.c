@@ -9,16 +9,17 @@
 #include "step/restart.h"
 #include "system/system.h"
 
-/* A strike is a jump, which no step is short enough for: one that starts anew and is this short is
- * taken as it is. */
+/* 1 if a step is accepted whatever its error: it starts anew and is this short. A strike is a jump,
+ * and no step is short enough to resolve it. */
 static int is_short_enough(const sw_ladder *p, double h) {
   return sw_scene_course(p->s)->stepper.restart && h <= SW_SMALLEST_SHARE * p->args->dt;
 }
 
-/* Error of the last trial, over what it may be [-]. By the method's own estimate up to the
- * tolerance only: what a strike leaves is a jump. Steps that are long enough to be taken in parts
- * are judged as those of fixed size are, too: implicit Euler, which takes what strikes, and by what
- * wires may be off by where the tolerance is larger. */
+/* Returns the error of the last trial over the allowed error [-]. The method's own estimate is
+ * compared with the tolerance. Implicit Euler, which takes strikes, has no estimate: a strike
+ * leaves a jump. Steps long enough to be divided are also judged like steps of fixed size. This
+ * judges implicit Euler too, and applies the error allowed for wires where the tolerance is
+ * larger. */
 static double over_of(const sw_ladder *p, double h) {
   const sw_scene *s = p->s;
   const sw_system *system = sw_scene_system(s);
@@ -30,8 +31,8 @@ static double over_of(const sw_ladder *p, double h) {
   return judged && sw_coarse_applies(s) ? fmax(over, sw_coarse_of(s, p->args->tolerance)) : over;
 }
 
-/* The next step after one of h. One of implicit Euler that was fine is followed by none that is
- * shorter, and by a longer one where it changed little. */
+/* Returns the next step after one of h. After a fine step by implicit Euler it is not shorter, and
+ * it is longer if velocities changed little. */
 static double next_of(const sw_ladder *p, double h, double over) {
   const sw_scene *s = p->s;
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -40,14 +41,14 @@ static double next_of(const sw_ladder *p, double h, double over) {
   return fmax(h, sw_stepper_next_h(stepper, h, drift, p->args->tolerance));
 }
 
-/* To touches steps are short beside those that are asked for: what struck may be deep in these, and
- * is let out slowly. What is asked for follows the steps taken, or what is pressed on sinks in all
- * the time (spec/physics/struck_spec); but not down to this, or what strikes is thrown back: of
- * four cables that are drawn taut over a peg two fail at half of it, two at twice, one as it is
- * [s]. */
+/* Lower bound of the step size that contact compares a step with (`asked`) [s]. In a step that is
+ * short beside it contact leaves the depth of a strike in place and lets it out slowly. `asked`
+ * follows the steps taken, or pressed wires would sink in all the time (spec/physics/struck_spec).
+ * Below this bound striking wires would be thrown back: of four cables drawn taut over a peg two
+ * fail at half of it, two at twice, one at this value. */
 static const double SHORTEST_ASKED = 1e-4;
 
-/* An adaptive step of at most `left`; refuses steps whose error is too large. */
+/* Takes an adaptive step of at most `left`; refuses steps whose error is too large. */
 sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) {
   sw_scene *s = p->s;
   sw_course *course = sw_scene_course(s);
@@ -58,7 +59,7 @@ sw_status sw_step_adaptive(sw_ladder *p, double left, double t1, sw_error *err) 
   sw_restart_at_jerk(s);
   p->changed = sw_restart_changed(s);
   p->asked = fmax(SHORTEST_ASKED, fmax(h, 0.5 * p->asked));
-  for (double uncut = 0;;) { /* uncut: the step that was cut at a rebound [s] */
+  for (double uncut = 0;;) { /* uncut: size of the step that was cut at a rebound [s] */
     const int last = h >= left * (1 - 1e-9);
     const sw_status status =
         sw_ladder_try(p, h, 0.25 * h < SW_SMALLEST_SHARE * SW_SMALLEST_SHARE * p->args->dt, err);

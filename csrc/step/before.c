@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rest before obstacles move on. Wires that begin far from equilibrium, drawn straight or let go,
- * do not come to rest while obstacles drag them: continuation then takes steps so long that inertia
- * tells no way, and Newton's iteration may end anywhere. Both find the way where nothing moves. */
+/* Brings wires to rest before obstacles move on. Wires that begin far from equilibrium (drawn
+ * straight or let go) do not come to rest while obstacles drag them: continuation then takes steps
+ * so long that inertia gives no direction, and Newton's iteration may end anywhere. With obstacles
+ * at rest both find the way. */
 #include <math.h>
 
 #include "body/live.h"
@@ -9,7 +10,8 @@
 #include "step/statics.h"
 #include "system/system.h"
 
-/* Wires that Newton's iteration shifts by less are at rest already, of the longest one [-]. */
+/* Wires that the search shifts by less than this share of the longest wire are at rest already
+ * [-]. */
 static const double AT_REST = 1e-4;
 
 static double shift_from(const sw_statics *p, const double *before) {
@@ -20,7 +22,7 @@ static double shift_from(const sw_statics *p, const double *before) {
   return largest;
 }
 
-/* Where nothing moves; *far: is that elsewhere? */
+/* Finds the equilibrium while nothing moves. *far: 1 if it is elsewhere. */
 static sw_status find(sw_statics *p, int *far, sw_error *err) {
   sw_status status = sw_rest_newton(p, SW_REST_ITERATIONS, err);
   if (sw_rest_stops(status)) return status;

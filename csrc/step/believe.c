@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Is a trial of a step believable? What has diverged is refused here, and never becomes the
- * scene's state. */
+/* Checks whether a trial of a step is believable. A diverged trial is refused here, and never
+ * becomes the scene's state. */
 #include "step/believe.h"
 
 #include <math.h>
@@ -16,13 +16,13 @@
 
 static const double LARGEST_STRAIN = 10.0; /* beyond it a run has diverged [-] */
 
-/* An edge squeezed below this share of its length is beyond Hooke's law; a
- * smaller step may avoid it [-]. */
+/* An edge squeezed below this share of its length is beyond Hooke's law; a smaller step may avoid
+ * that [-]. */
 static const double LEAST_SHARE = 0.3;
 
-enum { LANES = 8 }; /* sums side by side, for the processor [-] */
+enum { LANES = 8 }; /* partial sums, for vector instructions [-] */
 
-/* Sum of squares: finite only if each value is, and its square too. */
+/* Returns the sum of squares. It is finite only if each value and its square are. */
 SW_HOT
 static double sum_of_squares(size_t n, const double *x) {
   double lane[LANES] = {0}, sum = 0;
@@ -45,7 +45,7 @@ static sw_status fail_at(const sw_scene *s, size_t b, size_t node, const char *w
                  name, body->plan->s[node] - body->plan->s[0]);
 }
 
-/* Which node it is whose place or velocity is out of the numbers. */
+/* Reports the node whose place or velocity is not finite. */
 static sw_status find_infinite(const sw_scene *s, const double *x, const char *what,
                                sw_error *err) {
   sw_system *system = sw_scene_system(s);
@@ -64,7 +64,8 @@ static sw_status check_finite(const sw_scene *s, const double *values, const cha
   return find_infinite(s, values, what, err);
 }
 
-/* Edges between places that are no numbers have no length: nothing else needs to look at these. */
+/* 1 if all bodies have edges only. Edges between places that are not finite have no finite length,
+ * so that the check of edges finds these. */
 static int has_edges_alone(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++)
@@ -81,10 +82,11 @@ static sw_status torn(const sw_scene *s, size_t wire, uint32_t a, uint32_t b, sw
                  sw_scene_wire_in(s, wire)->name, web->s[a]);
 }
 
-/* Corners may be this many largest sides apart, times the largest stretch [-]. */
+/* Corners may be this many times the largest side apart, times the largest stretch [-]. */
 static const double LARGEST_DIAGONAL = 3.0;
 
-/* 1: the element's mean strain, or what its mean does not see, is beyond belief. */
+/* 1 if the element's mean strain, or the distance of its corners, which the mean does not show, is
+ * beyond belief. */
 static int is_torn(const sw_solid *shape, const sw_web_solid *e, const double *x) {
   const double most = 1.0 + LARGEST_STRAIN, count = (double)e->count;
   const sw_vec origin = sw_vec_at(x, e->node[0]);
@@ -105,7 +107,8 @@ static int is_torn(const sw_solid *shape, const sw_web_solid *e, const double *x
   return !(far2 <= LARGEST_DIAGONAL * LARGEST_DIAGONAL * most * most * side2);
 }
 
-/* Squeezed sections may bring two particles close to each other. */
+/* Checks links and elements for tearing. Squeezed particles may come close to each other, which is
+ * no error. */
 static sw_status check_web(const sw_scene *s, size_t wire, const double *x, sw_error *err) {
   const sw_plan *plan = sw_scene_system(s)->bodies[wire].plan;
   const sw_web *web = plan->web;
@@ -122,7 +125,7 @@ static sw_status check_web(const sw_scene *s, size_t wire, const double *x, sw_e
   return SW_OK;
 }
 
-/* How many edges are beyond either limit, or of no length that is a number. */
+/* Returns the number of edges beyond either limit, or without a finite length. */
 SW_HOT
 static long bad_edges(size_t m, const double *restrict rest, const double *restrict x) {
   const double most = (1.0 + LARGEST_STRAIN) * (1.0 + LARGEST_STRAIN);
@@ -160,7 +163,7 @@ sw_status sw_scene_check_trial(const sw_scene *s, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   if (!has_edges_alone(s)) SW_TRY(check_finite(s, course->stepper.trial_x, "the place", err));
   SW_TRY(check_finite(s, course->stepper.trial_v, "the velocity", err));
-  if (course->stepper.trial_a) /* the next step starts from them */
+  if (course->stepper.trial_a) /* the next step starts from these */
     SW_TRY(check_finite(s, course->stepper.trial_a, "the acceleration", err));
   for (size_t b = 0; b < system->body_count; b++) {
     const sw_body *body = &system->bodies[b];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blows of wires on obstacles and of ties that snap taut, followed in parts of a step. */
+/* Blows of wires on obstacles and of ties that snap taut. Their steps are taken in parts
+ * (substeps). */
 #include "step/blow.h"
 
 #include <math.h>
@@ -11,12 +12,12 @@
 #include "step/coarse.h"
 #include "watch/observe.h"
 
-/* A step as long as a blow lasts smears it: what is pressed gives way by no law but that of the
- * step, and a wire that is pushed on buckles at once instead of bearing the push for a while.
- * Harder ones than any before are followed in parts for so long [s], in at least so many of them a
- * step [-], but none shorter than this [s]. */
+/* A step as long as a blow smears it: the force then follows from the step, not from the stiffness,
+ * and a wire that is pushed buckles at once instead of bearing the push for a while. A blow harder
+ * than all before is followed in parts for BLOW [s], in at most MOST_PARTS of them a step (rounded
+ * up to a power of two) [-], none shorter than SHORTEST_PART [s]. */
 static const double BLOW = 0.01, MOST_PARTS = 100, SHORTEST_PART = 1e-4;
-/* What goes on longer is no blow but a rattle, and costs too much to be followed [s]. */
+/* A blow that lasts longer is a rattle, which costs too much to follow [s]. */
 static const double LONGEST_BLOW = 0.03;
 
 double sw_blow_part(const sw_scene *s, double h) {
@@ -25,13 +26,13 @@ double sw_blow_part(const sw_scene *s, double h) {
              : h;
 }
 
-/* Every part that is refused, or makes energy, takes this share off the time that a blow is
- * followed for: a wire that is driven into something makes energy in parts of any size. Twice the
- * share where wires touch each other, which rattle [-]. */
+/* A part that is refused, or makes energy, shortens the time for which a blow is followed by this
+ * share of LONGEST_BLOW: a wire driven into something makes energy in parts of any size. RATTLES:
+ * factor on the share where wires touch each other, which rattle [-]. */
 static const double REFUSED = 1.0 / 16, RATTLES = 2.0;
 
-/* Parts refused down to this share of those that follow it: it is not followed any more, for
- * contact takes depth as it comes only in far smaller ones yet [-]. */
+/* When a part below this share of the blow's part is refused, the blow is followed no further:
+ * contact would accept the depth only in far smaller parts [-]. */
 static const double SMALLEST_FOLLOWED = 1.0 / 16;
 
 void sw_blow_refused(sw_scene *s, double part) {
@@ -42,28 +43,29 @@ void sw_blow_refused(sw_scene *s, double part) {
   course->blow_until = fmin(course->blow_until, course->blow_since + LONGEST_BLOW);
 }
 
-/* A drive that obeys a force gives way to a blow, at a speed that is found for steps in which it hardly
- * changes; in shorter ones it is not. */
+/* 1 if a drive obeys a force. Such a drive gives way to a blow; its speed is found only for steps
+ * in which it hardly changes, and not in shorter parts. */
 static int any_gives_way(const sw_scene *s) {
   SW_EACH(hold, h, s)
     if (h->alive && h->cls->hold->slips && h->cls->hold->slips(h)) return 1;
   return 0;
 }
 
-/* Of more wires one strikes all the time, and all would take the parts of each [-]. */
+/* Scenes with more wires are not followed: one wire strikes all the time, and all wires would take
+ * its parts [-]. */
 enum { MOST_WIRES = 32 };
 
-/* Parts of a step with such a jolt: a power of two, so that scenes which differ by little take the
- * same steps [-]. */
+/* Returns the number of parts of a step with this jolt: a power of two, so that scenes that differ
+ * by little take the same steps [-]. */
 static double parts_for(double jolt) {
   return exp2(ceil(log2(fmin(jolt * fmax(2.0, jolt), MOST_PARTS))));
 }
 
-/* A tie that snaps taut is followed as if it were so many times the usual force, in 64 parts: a
+/* A tie that snaps taut counts as at least this many times the usual force, which gives 64 parts: a
  * stiff tie throws the wire back within a tenth of a millisecond [-]. */
 static const double SNAP = 6.0;
 
-/* As sw_contact_jolt, of ties. */
+/* As sw_contact_jolt, for ties. */
 static double jolt_of_ties(sw_scene *s, int followed) {
   double *hardest = &sw_scene_course(s)->snap;
   sw_snap snap;

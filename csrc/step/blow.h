@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blows of wires on obstacles, followed in parts of a step. Shared by the files of this room only.
- */
+/* Blows of wires on obstacles. The steps of a blow are taken in short parts (substeps). Shared by
+ * the files of this room only. */
 #ifndef SW_STEP_BLOW_H
 #define SW_STEP_BLOW_H
 
 #include "scene/scene.h"
 
-/* The step to take: one that follows a blow is shorter than asked for [s]. */
+/* Returns the step to take instead of h: shorter while a blow is followed [s]. */
 double sw_blow_part(const sw_scene *scene, double h);
-/* A trial step of size h that went well: does it have to be redone in parts, for something struck?
- */
+/* 1 if a converged trial of size h contains a new blow and must be redone in shorter parts. */
 int sw_blow_begins(sw_scene *scene, double h);
-/* A part of a step was refused, or made energy [s]. */
+/* Call when a part was refused or made energy; shortens the time for which the blow is followed.
+ * part [s]. */
 void sw_blow_refused(sw_scene *scene, double part);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ledger of a run's energy is kept: a step is opened before it is tried and closed once it is
+/* Keeps the ledger of a run's energy. A step is opened before it is tried and closed once it is
  * accepted. */
 #include <math.h>
 #include <string.h>
@@ -15,17 +15,17 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* Energy that steps gained, as a share of the energy in play: above the first an event, above the
- * second a failure [-]. */
+/* Energy gained by steps over the energy in play: above REMARK an event, above FAILURE the run
+ * fails [-]. */
 static const double REMARK = 0.02, FAILURE = 0.05;
-/* Share of it that is from nowhere without being gained: a remark [-]. */
+/* Energy from nowhere that no step gained, over the energy in play: above this an event [-]. */
 static const double UNKNOWN = 0.05;
 
-/* A held point is off its hold by more than rounding [m]. */
+/* A held point further from its hold than this was put elsewhere; below, it is rounding [m]. */
 static const double JUMP = 1e-9;
-/* The least that is in play: the weight times the radius, or this share of EI / L [-]. */
+/* Least energy in play: the weight times the radius, or this share of EI / L [-], plus LEAST. */
 static const double LEAST_BENDING = 1e-6;
-static const double LEAST = 1e-12; /* and this [J] */
+static const double LEAST = 1e-12; /* [J] */
 
 void sw_ledger_begin_run(sw_scene *s) {
   sw_books *b = sw_scene_books(s);
@@ -67,7 +67,7 @@ static void take_as_now(sw_books *b, const sw_energies *e, double contact) {
   b->sums.play = fmax(least, b->most_kinetic + b->work + b->released);
 }
 
-/* 1: a hold was put elsewhere between two steps, away from the wire's held point. */
+/* 1 if a hold was put elsewhere between two steps, away from the wire's held point. */
 static int was_put(sw_scene *s, sw_error *err) {
   sw_system *y = sw_scene_system(s);
   for (size_t i = 3 * y->nodes; i < y->freedoms; i++) y->delta[i] = y->x[i];
@@ -116,9 +116,9 @@ static sw_status log_row(sw_scene *s) {
   return sw_log_add(&books->log, row, SW_LOG_ENERGY_SIZE);
 }
 
-/* The energy that a method makes by itself goes to and fro, also where energy oscillates
- * between kinds. So it counts by its rise above its least value. Energy made by touches stays.
- * Gives what the step adds to what was gained [J]. */
+/* Books the gain of a step; returns what it adds to the sum of gains [J]. Energy that a method
+ * makes by itself oscillates, also where energy oscillates between kinds. It counts by its rise
+ * above its least value. Energy made by touches stays. */
 static double book_gain(sw_scene *s, double gain) {
   sw_books *b = sw_scene_books(s);
   const double before = b->sums.gained;
@@ -135,10 +135,10 @@ static double book_gain(sw_scene *s, double gain) {
   return b->sums.gained - before;
 }
 
-/* Losses of a step are known by what they take at its ends, so that they may be booked too high:
- * damping where its power changed within the step, friction where its force began in it, a strike
- * where the step gave some of it back; both where something touches. So much of them that they
- * exceed the step's loss by. */
+/* Lowers losses that were booked too high; returns by how much [J]. A step's losses are computed
+ * from its ends. They may be too high: damping, where its power changed within the step; friction,
+ * where its force began in the step; impact, where the step gave some of it back. The last two only
+ * where something touches. excess: the booked losses minus the step's loss [J]. */
 static double booked_too_high(const sw_books *b, sw_step_energy *step, double excess) {
   const double before = b->powers.damping, after = step->powers.damping;
   const double mean = sw_ledger_over_step(before, after, 1.0);
@@ -156,8 +156,8 @@ static double booked_too_high(const sw_books *b, sw_step_energy *step, double ex
   return fmax(0.0, excess) - left;
 }
 
-/* A step's remainder, of which it gained so much. What a method does to energy where nothing
- * touches goes to and fro: it counts as lost in sum. */
+/* Books a step's remainder `left`, of which it gained `gained`. Where nothing touches, the energy
+ * that a method makes oscillates and counts as lost in sum. */
 static void book_left(sw_ledger *l, const sw_step_energy *step, double left, double gained) {
   double *lost = step->steady ? &l->integrator : &l->contact;
   l->gap += gained;
@@ -171,7 +171,7 @@ static void book_left(sw_ledger *l, const sw_step_energy *step, double left, dou
   *lost = 0;
 }
 
-/* Of an equilibrium: nothing goes to and fro. */
+/* Books the remainder of an equilibrium, where nothing oscillates. */
 static void book_left_at_rest(sw_ledger *l, double left) {
   if (left > 0)
     l->gap += left;
@@ -179,7 +179,7 @@ static void book_left_at_rest(sw_ledger *l, double left) {
     l->integrator -= left;
 }
 
-/* Losses that histories count, since the last step. */
+/* Books the losses that histories counted since the last step; returns them [J]. */
 static double book_histories(sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   sw_books *b = sw_scene_books(s);
@@ -254,7 +254,7 @@ static void tell_retries(sw_scene *s, const char *what, const sw_retries *r) {
                 "%zu steps were %s, the worst at t = %.6g s", r->count, what, r->time);
 }
 
-/* Energy from nowhere that no step gained: work or losses that the steps do not know. */
+/* Logs energy from nowhere that no step gained: work or losses that the steps do not know. */
 static void tell_unknown(sw_scene *s) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
   const double share = l->play > 0 ? l->gap / l->play : 0.0;
@@ -265,15 +265,16 @@ static void tell_unknown(sw_scene *s) {
                 l->gap, 100.0 * share);
 }
 
-/* Stages of first order (sdirk2) have up to five times the axial force of what turns at each step's
- * end. The energy of that strain, where it is damped, is made anew in steps of any size. */
+/* Returns advice for another method. With stages of first order (sdirk2) turning wires have up to
+ * five times their axial force at each step's end. Where that strain is damped, its energy is made
+ * anew in steps of any size. */
 static const char *other_method(const sw_scene *s) {
   const sw_course *c = sw_scene_course(s);
   if (sw_course_lumps(c)) return ", or an implicit integrator such as tr-bdf2";
   return strcmp(c->method->name, "tr-bdf2") != 0 ? ", or the integrator tr-bdf2" : "";
 }
 
-enum { FEW = 2 }; /* steps redone that are not worth a word */
+enum { FEW = 2 }; /* redone steps that are not reported [-] */
 
 sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
   const sw_ledger *l = &sw_scene_books(s)->sums;
@@ -293,7 +294,7 @@ sw_status sw_scene_end_run(sw_scene *s, sw_error *why) {
                   l->gained, 100.0 * share);
     return SW_OK;
   }
-  char pressed[2 * SW_NAME_SIZE + 100]; /* what is wedged makes energy with steps of any size */
+  char pressed[2 * SW_NAME_SIZE + 100]; /* wedged wires make energy with steps of any size */
   sw_scene_tell_pressed(s, pressed, sizeof pressed);
   sw_fail(
       why, SW_EDIVERGED,

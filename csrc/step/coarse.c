@@ -11,24 +11,25 @@
 #include "scene/parts.h"
 #include "system/system.h"
 
-/* Allowed in a step: so much of a wire's length and of its radius, whichever is less [-]. A metre
- * of cable of 2 mm that is laid at 0.25 m/s in steps of 10 ms is beyond that in 3 of 100; one that
- * whips, falls on a peg or is struck, in most of those that make its largest tension. */
+/* Allowed error in a step: this share of a wire's length or of its radius, whichever is less [-]. A
+ * metre of 2 mm cable laid at 0.25 m/s in steps of 10 ms exceeds it in 3 of 100 steps; a cable that
+ * whips, falls on a peg or is struck, in most of the steps that make its largest tension. */
 static const double OF_LENGTH = 1e-4, OF_RADIUS = 0.1;
-/* A wire that is drawn all but straight between two holds has a tension that comes from how little
- * it sags: of its length it is allowed this, and so much more per slack, the share of it that is
- * more than the distance of the holds. Of 369 runs of cables that fall into two holds, are let in
- * and drawn taut, 41 largest tensions are more than 10 % off without, 5 with it in 2.2 times the
- * steps; 14 at twice of the first, at half of it as few in 3 times the steps; 8 at half of the
- * second (spec/physics/drawn_spec) [-]. */
+/* A wire drawn almost straight between two holds has its tension from its small sag. It is allowed
+ * OF_STRAIGHT of its length, and PER_SLACK more per slack (the share by which it is longer than the
+ * distance of the holds) [-]. In 369 runs of cables that fall into two holds, are let in and drawn
+ * taut, 41 largest tensions are more than 10 % off without this limit, 5 with it, in 2.2 times the
+ * steps. At twice OF_STRAIGHT 14 are off; at half of it 5, in 3 times the steps; at half PER_SLACK
+ * 8 (spec/physics/drawn_spec). */
 static const double OF_STRAIGHT = 1.1e-5, PER_SLACK = 1e-3;
-/* What is stretched by more has its tension from that: it would take four times the steps, and be
- * no better for it [-]. */
+/* A wire stretched by more has its tension from the stretch. It would take four times the steps and
+ * be no better [-]. */
 static const double STRETCHED = 1e-4;
-/* No part is a smaller share of a step, nor shorter [-], [s]. */
+/* Smallest part (substep), as a share of its step and in time [-], [s]. */
 static const double SMALLEST = 1.0 / 64, SHORTEST = 1e-4;
 
-/* Of more wires one is too fast all the time, and all would take the parts of each [-]. */
+/* Scenes with more wires are not divided: one wire is too fast all the time, and all would take its
+ * parts [-]. */
 enum { MOST_WIRES = 32 };
 
 static int any_mesh(const sw_system *system) {
@@ -43,16 +44,17 @@ static int any_jaw_works(const sw_scene *s) {
   return 0;
 }
 
-/* The axis of a mesh that jaws close on, hold or let go shakes by what its section does. In whole
- * steps its squeeze and the work of friction on it are the same in a half to a fifth of the time
- * (bench case=grip, spec/check/worn_mesh_spec). */
+/* Not judged: meshes between jaws that close, hold or let go, because their section shakes the
+ * axis. In whole steps the squeeze and the work of friction are the same, in a half to a fifth of
+ * the time (bench case=grip, spec/check/worn_mesh_spec). */
 int sw_coarse_applies(const sw_scene *s) {
   if (any_jaw_works(s) && any_mesh(sw_scene_system(s))) return 0;
   return sw_scene_wire_slots(s) <= MOST_WIRES;
 }
 
-/* So many wires that touch each other, or nearly do, are judged. Bundles of more take their steps
- * whole and say so: ten wires that fall would take three times as long, 20 too [-]. */
+/* Largest bundle (wires that touch or nearly touch) whose steps are divided. Larger bundles take
+ * whole steps and log the event "coarse"; dividing their steps would triple the time of 10 or 20
+ * falling wires [-]. */
 enum { MOST_NEAR = 6 };
 
 int sw_coarse_is_bundle(const sw_scene *s) {
@@ -60,7 +62,8 @@ int sw_coarse_is_bundle(const sw_scene *s) {
   return pairs && sw_mutual_crowded(pairs, MOST_NEAR);
 }
 
-/* Sections of meshes swing far faster than any step, which is to damp that: their axis counts. */
+/* Returns the error of a body [m]. Sections of meshes swing far faster than any step, and steps are
+ * meant to damp that: only the axis counts. */
 static double error_of(const sw_stepper *stepper, const sw_system *system, const sw_body *b) {
   const sw_web *web = b->plan->web;
   const size_t first = b->first_node;
@@ -72,8 +75,8 @@ static double error_of(const sw_stepper *stepper, const sw_system *system, const
   return most;
 }
 
-/* How slack a line at x is between two of its holds, where it is least; 1: there are none, or it is
- * stretched [-]. */
+/* Returns the least slack of a line at x between two of its holds; 1: there are no two holds, or it
+ * is stretched [-]. */
 static double slack_of(const sw_plan *p, const double *x) {
   double least = 1;
   for (size_t i = 0, from = p->nodes; i < p->nodes; i++) {
@@ -96,7 +99,7 @@ static double allowed_of(const sw_body *b, const double *x) {
   return fmin(share * p->length, OF_RADIUS * p->beam.radius);
 }
 
-/* What steps are off by as a share of what is allowed, of methods without an estimate [-]. */
+/* Step error over the allowed error, for methods without an error estimate [-]. */
 static double defect_of(const sw_scene *s) {
   const sw_system *system = sw_scene_system(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -125,13 +128,13 @@ double sw_coarse_of(const sw_scene *s, double tolerance) {
   return sw_coarse_is_bundle(s) ? 0.0 : over_of(s, tolerance);
 }
 
-/* The estimate goes with this power of the step [-]. */
+/* Returns the power of the step size that the estimate is proportional to [-]. */
 static double power_of(const sw_scene *s) {
   return 1.0 + sw_stepper_order(&sw_scene_course(s)->stepper);
 }
 
-/* Steps that are taken whole say so from this error on: of a second-order method half the step
- * would have an eighth of it [-]. */
+/* Whole steps log the event "coarse" above this error over the allowed one. A second-order method
+ * has an eighth of the error in half the step [-]. */
 static const double TOLD = 8.0;
 
 static void tell(sw_scene *s, double h, double over, const char *of) {
@@ -160,7 +163,8 @@ void sw_coarse_tell(sw_scene *s, double h) {
 
 double sw_coarse_shortest(double dt) { return fmax(SMALLEST * dt, SHORTEST); }
 
-/* What would take more parts than that is a shock, such as a tie that is made far too short. */
+/* More parts than 1/SMALLEST mean a shock, such as a tie made far too short: the step stays
+ * whole. */
 double sw_coarse_part(const sw_scene *s, double h, double dt, double over) {
   const double part = h * exp2(-ceil(log2(fmax(over, 1.0)) / power_of(s)));
   if (!(over > 1.0) || h < 2.0 * SHORTEST || part < SMALLEST * dt) return h;
@@ -172,7 +176,8 @@ double sw_coarse_half(double h, double dt) {
   return part >= sw_coarse_shortest(dt) ? part : h;
 }
 
-/* Half a part of smooth motion has an eighth of its error, one with a jump in it more than all. */
+/* Half a part of smooth motion has an eighth of its error. Half a part with a jump has more than
+ * all of it. */
 int sw_coarse_helps(double before, double over) { return over <= fmax(1.0, before); }
 
 int sw_coarse_may_grow(const sw_scene *s, double over) { return over * exp2(power_of(s)) <= 1.0; }

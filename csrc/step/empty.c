@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step of a scene whose wires have all left: nothing is solved. Obstacles and grippers follow
- * their motions, which are functions of time, jaws open and close, and all of it is recorded. */
+ * their motions, which are functions of time; jaws open and close; all of it is recorded. */
 #include <math.h>
 
 #include "base/quota.h"
@@ -16,7 +16,7 @@ sw_status sw_step_empty(sw_ladder *p, double t1, sw_error *err) {
   const double h = t1 - sw_scene_time(s);
   SW_TRY(sw_quota_take(err));
   SW_TRY(sw_ledger_open(s, err));
-  (void)sw_jaw_begin(s, h); /* there is nothing whose force could be too much */
+  (void)sw_jaw_begin(s, h); /* no force can be too large here */
   sw_scene_set_time(s, t1);
   sw_scene_course(s)->span = h;
   p->report->steps++;

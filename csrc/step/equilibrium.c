@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Static equilibrium: the mixed Newton from where the scene is; when that fails
- * (mechanisms, snap-through, sliding contact) or ends in an equilibrium that is
- * not stable, pseudo-transient continuation from the start, which is implicit
- * Euler with velocities forgotten and a growing step. */
+/* Finds static equilibria. First the mixed Newton iteration from the present state. If that fails
+ * (mechanisms, snap-through, sliding contact) or ends in an unstable equilibrium: pseudo-transient
+ * continuation from the start, which is implicit Euler with velocities forgotten and a growing
+ * step. */
 #include <math.h>
 #include <string.h>
 
@@ -19,10 +19,10 @@ enum { SLIDES = 8, MOST_REDOS = 20 };
 static const double FIRST_PSEUDO_STEP = 0.02; /* of sqrt(length/g) [-] */
 static const double LARGEST_GROWTH = 1e6;     /* of the first pseudo step [-] */
 static const double STATIC_TURN = 1e-7;       /* last rotation of a converged solve [rad] */
-/* A direction in which a disturbance needs longer to grow than this counts as
- * neutral, not as unstable. */
+/* A direction in which a disturbance needs longer to grow than this counts as neutral, not as
+ * unstable. */
 static const double SLOWEST_GROWTH = 30.0; /* of sqrt(length/g) [-] */
-static const double NUDGE = 1e-4;          /* of the length, off an unstable place [-] */
+static const double NUDGE = 1e-4;          /* push off an unstable place, over the length [-] */
 enum { MOST_NUDGES = 2 };
 
 double sw_rest_longest(const sw_scene *s) {
@@ -34,15 +34,15 @@ double sw_rest_longest(const sw_scene *s) {
   return length;
 }
 
-/* sqrt(length/g); weightless scenes: any scale will do. */
+/* Returns sqrt(length/g). For weightless scenes any scale will do. */
 static double time_scale(const sw_scene *s) {
   return sqrt(sw_rest_longest(s) / fmax(sw_norm(sw_scene_gravity(s)), 1.0));
 }
 
 static double first_step(const sw_scene *s) { return FIRST_PSEUDO_STEP * time_scale(s); }
 
-/* A loose mesh that an obstacle touches on one side is pushed on for as long as the pseudo step
- * is. Is it further than its own size away from where it was? */
+/* 1 if a loose mesh moved further than its own size. An obstacle that touches it on one side pushes
+ * it for the whole pseudo step. */
 static int thrown(const sw_statics *p) {
   const sw_system *s = sw_scene_system(p->s);
   SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {
@@ -91,8 +91,7 @@ static sw_status sw_rest_solve(sw_statics *p, double hbar, const sw_newton *newt
   return status;
 }
 
-/* Make y the state, for contact too unless it is on trial. Returns the largest
- * shift [m]. */
+/* Makes y the state; contact commits it too unless trial is 1. Returns the largest shift [m]. */
 static double take(sw_statics *p, int trial) {
   sw_scene *s = p->s;
   sw_system *system = sw_scene_system(s);
@@ -109,14 +108,14 @@ static double take(sw_statics *p, int trial) {
   return shift;
 }
 
-/* Have obstacles moved since contact knew them? Then friction drags the wires. */
+/* 1 if obstacles have moved since contact last followed them; friction then drags the wires. */
 static int is_dragged(const sw_statics *p) {
   return sw_scene_contact(p->s) && p->touched != sw_scene_time(p->s) &&
          sw_contact_moves(sw_scene_contact(p->s));
 }
 
-/* A wire that nothing holds may lie where it can be shifted without effort, on a smooth table: a
- * direction in which rounding alone would carry it far. Meshes have touches enough to keep them. */
+/* 1 if there is a wire that nothing holds. On a smooth table it can be shifted without effort, and
+ * rounding alone would carry it far. Meshes have enough touches to keep them in place. */
 static int loose(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   for (size_t b = 0; b < system->body_count; b++) {
@@ -128,7 +127,7 @@ static int loose(const sw_scene *s) {
   return 0;
 }
 
-/* Forces that a little mass leaves out of balance, over its weight [-]. */
+/* Force that the solve with a little mass may leave out of balance, over the weight [-]. */
 static const double LITTLE = 1e-5;
 
 sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
@@ -145,15 +144,15 @@ sw_status sw_rest_newton(sw_statics *p, int iterations, sw_error *err) {
   const double shift = take(p, p->report->negative > 0);
   const double far = LITTLE * fmax(sw_norm(sw_scene_gravity(p->s)), 1.0) * slowest * slowest;
   if (p->report->negative == 0 && !(massive && shift > far)) return SW_OK;
-  /* once more with a little mass: rounding in neutral directions drops out */
+  /* once more with a little mass, which removes rounding in neutral directions */
   SW_TRY(sw_rest_solve(p, slowest, &newton, err));
   if (take(p, p->report->negative > 0) > far && massive && p->report->negative == 0)
     return sw_fail(err, SW_ENOCONV, "a wire that nothing holds is carried away");
   return SW_OK;
 }
 
-/* A smooth push to the sides, the same in every run, that no symmetry of a
- * scene shares. */
+/* Pushes the wires smoothly sideways, the same in every run. The push has none of a scene's
+ * symmetries. */
 static void nudge(sw_statics *p, int number) {
   sw_system *s = sw_scene_system(p->s);
   const double size = NUDGE * sw_rest_longest(p->s);
@@ -169,10 +168,10 @@ static void nudge(sw_statics *p, int number) {
   }
 }
 
-/* Factor on the pseudo step, by the iterations of the last one. Where wires touch, a failed step
- * costs more than a long step gains. In steps below the first one what is out of balance shifts
- * wires so little that touches which look for their states in many iterations would do so for
- * ever: these grow until they fail [-]. */
+/* Returns the factor on the pseudo step, from the iterations of the last one [-]. Where wires
+ * touch, a failed step costs more than a long step gains. In steps below the first one the
+ * imbalance shifts wires so little that touches which need many iterations to find their states
+ * would need them for ever: these steps grow until they fail. */
 static double growth(const sw_scene *s, size_t iterations, int is_small) {
   if (!sw_scene_has_contact(s) || iterations <= 8) return 1.6;
   return iterations <= 14 || is_small ? 1.1 : 0.7;
@@ -182,27 +181,27 @@ int sw_rest_stops(sw_status status) {
   return status == SW_ECALLBACK || status == SW_ENOMEM || status == SW_EINTR || status == SW_ELIMIT;
 }
 
-/* Continuation leaves out what pressure takes off a wire's stiffness, or it would go to places that
- * are not stable. Where hardly any is left, as of a wire that has buckled to a side on what it rubs
- * on, its steps go the same way by almost the same, thousands of times. Once so many were alike by
- * such cosines, and each more than this share of the one before, as many as they tell are taken at
- * once. That stirs up other ways, which some more steps end: with half as many 6 of 100 runs of
- * cables on pegs do not come to rest, with twice as many all do (spec/physics/peg_poses_spec) [-].
- */
+/* Continuation leaves out the negative stiffness of compressed wires; with it, it would go to
+ * unstable places. Where compression takes off nearly all stiffness, as of a wire that has buckled
+ * sideways under friction, continuation repeats almost the same step thousands of times. After
+ * MANY_ALIKE steps in a row that are alike (cosine above ALIKE, length above ALMOST of the step
+ * before), the steps that their ratio predicts are taken at once. That excites other modes, which
+ * AGAIN_ALIKE more steps damp: with half as many 6 of 100 runs of cables on pegs do not come to
+ * rest, with twice as many all do (spec/physics/peg_poses_spec) [-]. */
 enum { MANY_ALIKE = 20, AGAIN_ALIKE = 8 };
 static const double ALIKE = 0.99, ALMOST = 0.9;
-/* They go so far at once, of the longest wire: at half and at twice of it all come to rest, too.
- * They went too far if the steps after them are longer by this factor [-]. */
+/* FARTHEST: largest shift at once, over the longest wire; at half and at twice of it all runs come
+ * to rest, too. LONGER: it went too far if the steps after it are longer by this factor [-]. */
 static const double FARTHEST = 4e-4, LONGER = 1.5;
 
 typedef struct drift {
   double size;   /* of the last step, which is p->way [m] */
-  double before; /* of that from which it went on by many at once; 0: it did not yet [m] */
-  double most;   /* how far to go at once [m] */
-  int alike;     /* steps on end [-] */
+  double before; /* size of the last step from which many were taken at once; 0: none yet [m] */
+  double most;   /* largest shift at once [m] */
+  int alike;     /* steps alike in a row [-] */
 } drift;
 
-/* The state goes on by so many of its last steps. */
+/* Moves the state on by this many of its last steps. */
 static void go_on(sw_statics *p, double times) {
   sw_system *s = sw_scene_system(p->s);
   for (size_t i = 0; i < s->freedoms; i++) p->y[i] = s->x[i] + times * p->way[i];
@@ -210,7 +209,7 @@ static void go_on(sw_statics *p, double times) {
   memcpy(s->x, p->y, s->freedoms * sizeof(double));
 }
 
-/* A step was taken: many more of them, if they are alike. */
+/* Takes many more steps at once after a step, if the last ones are alike. */
 static void hurry(sw_statics *p, drift *d) {
   const sw_system *s = sw_scene_system(p->s);
   double size = 0, along = 0;
@@ -240,7 +239,7 @@ static sw_status transient(sw_statics *p, sw_error *err) {
   sw_scene *s = p->s;
   drift d = {0};
   const double first = first_step(s);
-  /* what is dragged along must not be kept from it by inertia */
+  /* inertia must not keep back wires that obstacles drag along */
   double tau = is_dragged(p) ? SLOWEST_GROWTH * time_scale(s) : first;
   p->report->transient = 1;
   while (p->report->iterations < (size_t)p->args->max_iterations) {
@@ -258,7 +257,7 @@ static sw_status transient(sw_statics *p, sw_error *err) {
       continue;
     }
     p->report->residual = take(p, 0);
-    /* in a shorter step than the first one what is out of balance shifts by tau^2 */
+    /* in a step shorter than the first one an imbalance shifts wires by tau^2 */
     const double reserve = fmax(1.0, first * first / (tau * tau));
     if (p->report->residual * reserve <= p->args->tolerance) return SW_OK;
     hurry(p, &d);
@@ -271,8 +270,9 @@ static sw_status transient(sw_statics *p, sw_error *err) {
       p->report->iterations, p->report->residual);
 }
 
-/* Steps of continuation of its first size or less: what is stiff comes to rest in them, what swings
- * slowly hardly moves. So many that fail end it; so many go well at that size [-]. */
+/* Steps of continuation of at most its first size bring stiff modes to rest, while slow swings
+ * hardly move. RELAXING: steps of the first size that are taken. MOST_FAILED: failed steps, more
+ * end it [-]. */
 enum { RELAXING = 4, MOST_FAILED = 6 };
 
 sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
@@ -288,9 +288,9 @@ sw_status sw_rest_relax(sw_statics *p, sw_error *err) {
   return SW_OK;
 }
 
-/* Newton's iteration from where continuation came to rest, which stays when that fails: the
- * equilibrium is then not isolated, or (unstable: 1) not stable. What touches there is kept too,
- * and so is the count of unstable directions: an iteration that fails ends anywhere. */
+/* Runs Newton's iteration from where continuation came to rest. If that fails, the equilibrium is
+ * not isolated, or (unstable: 1) not stable; the place of continuation is then restored, with its
+ * touches and its count of unstable directions, because a failed iteration ends anywhere. */
 static sw_status polish(sw_statics *p, int *unstable, sw_error *err) {
   const size_t negative = p->report->negative;
   sw_error why = {"out of memory"};

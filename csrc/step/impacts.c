@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Impacts and rebounds within a step: what it touches is reviewed after each trial. */
+/* Impacts and rebounds within a step: touches are reviewed after each trial. */
 #include <math.h>
 #include <string.h>
 
@@ -13,18 +13,20 @@
 
 /* Rebounds closer than this share of a step are one [-]. */
 static const double SAME_TIME = 1.0 / 1024;
-static const double SAME_TIME_CONTROLLED = 1.0 / 4; /* of the longest, in steps by tolerance [-] */
-enum { MOST_CUTS = 8 };   /* at rebounds, of a step: what rattles is followed no further [-] */
+static const double SAME_TIME_CONTROLLED = 1.0 / 4; /* share of the longest step, in runs with a
+                                                       tolerance [-] */
+enum { MOST_CUTS = 8 };   /* cuts of a step at rebounds; rattling is followed no further [-] */
 enum { MOST_REDOS = 40 }; /* impacts found one after another in one step [-] */
 
-/* The shortest part of a step that may end at a rebound [s]. */
+/* Returns the shortest part (substep) that may end at a rebound [s]. */
 static double shortest_cut(const sw_ladder *p) {
   if (isfinite(p->args->tolerance)) return SAME_TIME_CONTROLLED * p->args->dt;
   return p->cuts < MOST_CUTS ? SAME_TIME * p->args->dt : HUGE_VAL;
 }
 
-/* Where wires come at each other fast enough to meet within the step, it is tried at once in the
- * way in which steps are redone that struck. 1: it is, for that alone. */
+/* Where wires approach each other fast enough to meet within the step, the step is tried at once in
+ * the way in which a step with a strike is redone. Returns 1 if only this expectation makes it
+ * so. */
 static int begin_dully(const sw_ladder *p, double h) {
   sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
   if (!(sw_scene_course(p->s)->method->flags & SW_INTEGRATOR_IMPLICIT) || stepper->plastic)
@@ -32,13 +34,13 @@ static int begin_dully(const sw_ladder *p, double h) {
   return stepper->plastic = sw_scene_expects_strike(p->s, h);
 }
 
-/* They did not meet: the step is redone as the method would have it. */
+/* 1 if they did not meet: the step is redone with the method as it is. */
 static int was_mistaken(const sw_scene *s, sw_contact_verdict verdict) {
   const int over = verdict == SW_CONTACT_ACCEPT || verdict == SW_CONTACT_SMALLER;
   return over && !sw_scene_was_struck(s);
 }
 
-/* One step of size h, redone as long as contact finds impacts. */
+/* Tries a step of size h, again as long as contact finds impacts. */
 sw_status sw_rung_strike(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_contact *contact = sw_scene_contact(s);

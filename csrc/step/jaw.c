@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Jaws of tools in a step, or from one pose to the next. Their opening changes evenly within it.
- * With a force to be reached or not to be exceeded, the speed of the step is the one for which the
- * fingers' force at its end is as wanted, found between a speed with too little force and one with
- * too much. */
+ * With a force to reach or not to exceed, the step's speed is the one for which the fingers' force
+ * at its end is as wanted. It is found between a speed with too little force and one with too
+ * much. */
 #include "step/jaw.h"
 
 #include <math.h>
@@ -13,32 +13,33 @@
 #include "scene/wire.h"
 #include "step/obey.h"
 
-static const double PRECISION = 1e-3; /* of the force wanted [-] */
-static const double ROUGHLY = 0.015;  /* likewise, when it is reached first [-] */
-static const double REACHED = 0.02;   /* so far below it the force counts as reached [-] */
-enum { MOST_TRIALS = 10 };            /* the last one is then taken as it is [-] */
-enum { MOST_FIRST = 20 };             /* likewise, until there is a force for the first time [-] */
-enum { MOST_RESTS = 12 };             /* the same of equilibria [-] */
+static const double PRECISION = 1e-3; /* of the wanted force [-] */
+static const double ROUGHLY = 0.015;  /* the same in the step that first reaches it [-] */
+static const double REACHED = 0.02;   /* the force counts as reached from this share below it [-] */
+enum { MOST_TRIALS = 10 };            /* the last one is taken as it is [-] */
+enum { MOST_FIRST = 20 };             /* the same, until there is a force for the first time [-] */
+enum { MOST_RESTS = 12 };             /* the same for equilibria [-] */
 static const double SAME_OPENING = 1e-9; /* at a step's end [m] */
 static const double TELLS =
-    1e-7;                  /* forces at openings nearer to each other tell no stiffness [m] */
-enum { BEFORE_JUMPS = 4 }; /* later trials are about a jump of the force, if there is one [-] */
-static const double BEYOND = 1.3; /* a guess goes so much further than the slope says [-] */
+    1e-7;                  /* openings nearer to each other than this give no stiffness [m] */
+enum { BEFORE_JUMPS = 4 }; /* later trials are near a jump of the force, if there is one [-] */
+static const double BEYOND = 1.3; /* a guess is the slope's prediction times this [-] */
 static const double WIDER =
-    4.0; /* and so many times as far with every trial that is too short [-] */
+    4.0; /* and times this once more after every trial that was too short [-] */
 
-/* May this step end with another force than the one that comes with its first guess? */
+/* 1 if this step may end with another force than that of its first guess. */
 static int yields(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL || !(j->force < HUGE_VAL)) return 0;
   return j->mode == SW_JAW_FORCE || j->goal < j->opening;
 }
 
-/* The speed at which this step ends with the opening, within what is allowed. */
+/* Returns the speed at which this step ends with the opening, within the allowed speeds. */
 static double speed_to(const sw_jaw *j, double opening) {
   return fmax(-j->most, fmin(j->most, (opening - j->opening) / j->step));
 }
 
-/* With a force: the opening for it by the stiffness found last. */
+/* Returns the first speed to try; with a force: for the opening that the last stiffness
+ * predicts. */
 static double first_guess(const sw_jaw *j) {
   if (j->mode == SW_JAW_STILL) return 0;
   if (j->mode == SW_JAW_TO) return speed_to(j, j->goal);
@@ -48,7 +49,7 @@ static double first_guess(const sw_jaw *j) {
 
 static int works(const sw_tool *t) { return t->alive && !t->frozen; }
 
-/* Is it in a step whose end depends on its force? */
+/* 1 if the end of its step depends on its force. */
 static int obeys(const sw_tool *t) { return works(t) && t->jaw.step > 0 && yields(&t->jaw); }
 
 static void begin(sw_jaw *j, double since, double step) {
@@ -57,7 +58,7 @@ static void begin(sw_jaw *j, double since, double step) {
   j->speed = step > 0 ? first_guess(j) : 0.0;
   sw_bracket_clear(&j->found);
   j->trials = 0;
-  j->guessed = j->now < j->force; /* that standing still goes on giving too little force */
+  j->guessed = j->now < j->force; /* guess: without motion the force stays too small */
   if (j->guessed) sw_bracket_add(&j->found, 0, j->now - j->force);
 }
 
@@ -70,12 +71,12 @@ int sw_jaw_begin(sw_scene *s, double h) {
   return any;
 }
 
-/* From one equilibrium to the next jaws close by no more than this share of the thinnest wire's
- * radius, or of its squeezed height: further would push wires beyond the reach of the solver
+/* From one equilibrium to the next jaws close by at most WIDEST_STEP of the thinnest wire's radius,
+ * or of its squeezed height. Larger closings would push wires beyond the reach of the solver
  * [-]. */
 static const double WIDEST_STEP = 0.25, LEFT = 0.25, LEAST = 0.05;
 
-/* How long jaws take for that at their highest speed [s]. */
+/* Returns the time that jaws take for that at their highest speed [s]. */
 static double longest_step(const sw_scene *s, const sw_jaw *j) {
   double radius = HUGE_VAL;
   SW_EACH(wire, wire, s) radius = fmin(radius, wire->beam.radius);
@@ -115,31 +116,31 @@ int sw_jaw_end_rest(sw_scene *s, int went_well) {
   return more;
 }
 
-/* A speed on the other side than the last one, which gave off too much force. */
+/* Returns a speed beyond the last one, which left the force off by `off`. */
 static double guess_beyond(const sw_jaw *j, double off) {
   if (!(j->stiffness > 0)) return off > 0 ? j->most : speed_to(j, 0);
   const double way = BEYOND * pow(WIDER, j->trials - 1) * off / j->stiffness;
   return speed_to(j, fmax(0.0, j->opening + j->speed * j->step + way));
 }
 
-/* 1: it is as far on that side as it can be. */
+/* 1 if the jaws are as far on that side as they can be. */
 static int go_beyond(sw_jaw *j, double off) {
   const double before = j->speed;
   j->speed = guess_beyond(j, off);
   return j->speed == before;
 }
 
-/* The next speed to try. Returns 1 when both sides are one place: the force jumps there. */
+/* Sets the next speed to try. Returns 1 when both sides are one place: the force jumps there. */
 static int improve(sw_jaw *j, double off, int rests) {
   sw_bracket *b = &j->found;
   sw_bracket_mend(b, 1, j->speed, off);
-  if (j->guessed && off > 0 && j->trials > 2) b->off[0] = NAN; /* a wrong guess */
+  if (j->guessed && off > 0 && j->trials > 2) b->off[0] = NAN; /* the guess was wrong */
   if (!(off > 0) || j->trials > 2) j->guessed = 0;
   const int side = sw_bracket_add(b, j->speed, off);
   if (!sw_bracket_closed(b)) return go_beyond(j, off);
   const double gap = -sw_bracket_width(b);
   if (j->guessed && gap * j->step < TELLS) {
-    b->off[0] = NAN, j->guessed = 0; /* wrong, by a wire that moves */
+    b->off[0] = NAN, j->guessed = 0; /* wrong, because a wire moves */
     return go_beyond(j, off);
   }
   if (gap * j->step < (rests ? TELLS : SAME_OPENING)) return 1;
@@ -150,8 +151,8 @@ static int improve(sw_jaw *j, double off, int rests) {
   return 0;
 }
 
-/* The last trial. Where the force jumps over the one wanted it is beyond that: from there on the
- * jaws can come back. */
+/* The last trial. Where the force jumps past the wanted one, the place with too much force is
+ * taken: from there the jaws can come back. */
 static int give_up(sw_jaw *j, double off, int rests) {
   if (!rests || off > 0 || !isfinite(j->found.off[1]) || j->trials > MOST_RESTS) return 1;
   j->speed = j->found.tried[1];
@@ -159,13 +160,14 @@ static int give_up(sw_jaw *j, double off, int rests) {
   return 0;
 }
 
-/* Openings without a touch do not tell how far it is to one: to find the force takes longer. */
+/* Returns the most trials. Openings without a touch do not tell the distance to one, so the first
+ * force takes longer to find. */
 static int most_trials(const sw_jaw *j, int rests) {
   if (rests) return MOST_RESTS;
   return j->status == SW_JAW_HOLDS ? MOST_TRIALS : MOST_FIRST;
 }
 
-/* 1: the trial's force is as wanted, or nothing can be done about it in this step. */
+/* 1 if the trial's force is as wanted, or nothing can be done about it in this step. */
 static int correct(sw_scene *s, sw_tool *t, int rests) {
   sw_jaw *j = &t->jaw;
   const double off = sw_tool_squeeze(s, t, j->since + j->step) - j->force;
@@ -196,7 +198,7 @@ double sw_jaw_off(sw_scene *s) {
   return most;
 }
 
-/* How long the jaws could still move in this step [s]. */
+/* Returns for how long the jaws could still move in this step [s]. */
 static double time_left(const sw_jaw *j) {
   const double left = j->step * (1.0 - fabs(j->speed) / j->most);
   return left * j->most > SAME_OPENING ? left : 0.0;
@@ -224,7 +226,7 @@ int sw_jaw_again(sw_scene *s) {
   return again;
 }
 
-/* Have the jaws reached what they were told? */
+/* Sets the status: have the jaws reached what they were told? */
 static void judge(sw_jaw *j) {
   const int reached = j->now >= (1.0 - REACHED) * j->force;
   if (j->mode == SW_JAW_FORCE) {
@@ -243,7 +245,7 @@ static void judge(sw_jaw *j) {
   if (j->status != SW_JAW_MOVES) j->mode = SW_JAW_STILL;
 }
 
-/* Changes of force below this share of the one wanted tell no stiffness [-]. */
+/* Changes of force below this share of the wanted one give no stiffness [-]. */
 static const double TELLING = 0.05;
 
 static void follow(sw_scene *s, sw_tool *t) {

@@ -5,22 +5,26 @@
 
 #include "scene/scene.h"
 
-/* Their jaws at the start of a step of size h; 1: a trial may have to be corrected. After a
- * trial: 1 = the forces are as wanted, or cannot be. After an accepted one, or one given up. */
+/* Begins a step of size h for all jaws. Returns 1 if a trial may have to be corrected. */
 int sw_jaw_begin(sw_scene *scene, double h);
+/* After a trial: returns 1 if the jaws' forces are as wanted or cannot be; 0 if speeds were changed
+ * for another trial. */
 int sw_jaw_correct(sw_scene *scene, int rests); /* rests: trials are equilibria */
-/* How far the forces of a trial are off, the worst over what is wanted [-]. */
+/* Returns the largest deviation of a trial's forces from the wanted ones, over the wanted force
+ * [-]. */
 double sw_jaw_off(sw_scene *scene);
-/* After an equilibrium that is taken: 1 = its force is not as wanted, for that jumped, and the jaws
- * have begun to look for it from there on. */
+/* After an accepted equilibrium: returns 1 if a force is off because it jumped; the jaws then have
+ * begun a search that starts from this equilibrium. */
 int sw_jaw_again(sw_scene *scene);
+/* After an accepted state, or a step that was given up: openings and status follow. */
 void sw_jaw_follow(sw_scene *scene);
-/* The same of an equilibrium at the scene's time: jaws that hold with a force open or close at
- * once, by a small part of the wires' thickness. After it: 1 = they have to go further. */
+/* As sw_jaw_begin, for an equilibrium at the scene's time: jaws that hold with a force open or
+ * close at once, by a small part of the wires' thickness. */
 int sw_jaw_begin_rest(sw_scene *scene);
+/* After that equilibrium: returns 1 if the jaws have to go further. */
 int sw_jaw_end_rest(sw_scene *scene, int went_well);
-/* The largest pose step up to h in which jaws that close with a force go no further than a small
- * part of the wires' thickness [s]. */
+/* Returns the largest pose step up to h in which jaws that close with a force go no further than a
+ * small part of the wires' thickness [s]. */
 double sw_jaw_step(const sw_scene *scene, double h);
 
 #endif

@@ -13,8 +13,8 @@ static sw_status judge(sw_ladder *p, double h, double *excess, sw_error *err) {
   return status;
 }
 
-/* What to try after a step that made energy, tried as it is now. Where nothing touches only a
- * smaller one helps, and what is known at its start stays so. */
+/* Returns what to try after a step that made energy. Where nothing touches only a smaller step
+ * helps, and the accelerations at its start stay valid. */
 static int next_redo(sw_ladder *p) {
   const sw_stepper *stepper = &sw_scene_course(p->s)->stepper;
   p->smooth = !sw_scene_books(p->s)->step.touching;
@@ -24,8 +24,8 @@ static int next_redo(sw_ladder *p) {
   return p->redo < SW_DULLY ? SW_DULLY : SW_GIVE_UP;
 }
 
-/* The referee: a step that makes energy is computed again. SW_ENOCONV: it still makes energy.
- * p->smallest: it is then accepted as it is, and counted. */
+/* The referee: a step that makes energy is computed again. SW_ENOCONV: it still makes energy. With
+ * p->smallest such a step is accepted as it is, and counted. */
 sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *err) {
   sw_scene *s = p->s;
   sw_ledger *l = &sw_scene_books(s)->sums;
@@ -35,7 +35,7 @@ sw_status sw_rung_judge(sw_ladder *p, const sw_rung *below, double h, sw_error *
   if (p->interrupted && p->interrupted()) return SW_EINTR;
   for (p->redo = SW_AS_IS;;) {
     SW_TRY(sw_rung_go(p, below, h, err));
-    if (p->interrupted && p->interrupted()) { /* of many nodes each part takes its time */
+    if (p->interrupted && p->interrupted()) { /* with many nodes each trial takes long */
       sw_ladder_undo(p);
       return SW_EINTR;
     }

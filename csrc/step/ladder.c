@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rungs in their order, and what they share. */
+/* The rungs in their order, and functions that they share. */
 #include "step/ladder.h"
 
 #include <math.h>

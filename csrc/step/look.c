@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Observers: who looks at a scene between two steps of a run, and leaves it as it is. */
+/* Observers: they look at a scene between two steps of a run, and leave it as it is. */
 #include <math.h>
 #include <time.h>
 

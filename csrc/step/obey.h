@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rungs for what obeys a force: something is set so that a force at the step's end is as wanted,
- * trial by trial (see base/root.h). Shared by the files of this room only. */
+/* Rungs for drives that obey a force: each trial corrects a drive until its force at the step's end
+ * is as wanted (see base/root.h). Shared by the files of this room only. */
 #ifndef SW_STEP_OBEY_H
 #define SW_STEP_OBEY_H
 
 #include "step/ladder.h"
 
 typedef struct sw_obeyer {
-  /* Before the first trial of a step of size h: 0, nothing obeys; the step is tried once. */
+  /* Before the first trial of a step of size h. Returns 0 if nothing obeys a force; the step is
+   * then tried once. */
   int (*begin)(sw_scene *scene, double h);
-  /* After a trial: 1, the force is as wanted or cannot be; else there is another one. */
+  /* After a trial. Returns 1 if the force is as wanted or cannot be; else there is another
+   * trial. */
   int (*correct)(sw_scene *scene, double h, int first);
-  /* NULL, or: may there be one of this size? And what if not, or if a trial failed. */
+  /* NULL, or: goes_on returns 0 if a further trial of this size is impossible; give_up ends the
+   * search then, and after a failed trial. */
   int (*goes_on)(const sw_scene *scene, double h);
   void (*give_up)(sw_scene *scene);
-  size_t most;         /* trials; 0: correct sees to it that there is an end [-] */
-  const char *failure; /* why there were no more */
+  size_t most;         /* most trials; 0: correct ends the search [-] */
+  const char *failure; /* message when the search ends */
 } sw_obeyer;
 
-/* SW_ENOCONV: it was not found. */
+/* SW_ENOCONV: the wanted force was not found. */
 sw_status sw_obey(sw_ladder *p, const sw_rung *below, double h, const sw_obeyer *what,
                   sw_error *err);
 

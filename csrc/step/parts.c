@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step of fixed size, halved where it has to be: where nothing else helps, and where blows and
- * what wires pass ask for it. */
+/* A step of fixed size, divided into parts (substeps) where it fails, and where blows, forces that
+ * wires pass, or coarse motion ask for it. */
 #include "scene/parts.h"
 
 #include <math.h>
@@ -15,32 +15,32 @@
 #include "step/slip.h"
 #include "watch/observe.h"
 
-/* A first step after a jump knows no accelerations, and its reactions are off by their own
- * size, by which slips would be wrong: it is kept to this share [-]. */
+/* A first step after a jump knows no accelerations. Its reactions are off by their own size, and
+ * slips would be wrong: it is shortened to this share [-]. */
 static const double FIRST_SLIP = 1e-3;
 
-/* Parts end with their step: the difference of two times is known to no more than so much of a
- * part, and what that leaves is no part [-]. */
+/* The last part ends with its step. The difference of two times has an error up to this share of a
+ * part; a remainder below it is no part [-]. */
 static const double ROUNDING = 1e-6;
 
 typedef struct parts {
   double h, t0, t1;  /* of the whole step: size, start, exact end [s] */
-  double done, part; /* so much is behind; what is tried now [s] */
-  double whole;      /* what is tried now, were it not cut at the step's end [s] */
-  double longest;    /* part that was taken [s] */
-  int refused;       /* parts */
-  double doubted;    /* a part that is coarse, while a shorter one is tried instead; 0: none [s] */
-  double struck;     /* a part that has a blow in it, while none of those that follow it went
-                        well; 0: none [s] */
-  int unfollowed;    /* 1: that part is tried again, to be taken */
-  double over;       /* by so much the last part that was tried is [-] */
-  int worse;         /* shorter parts on end that were as coarse */
-  int rough;         /* 1: coarse ones are taken in this step, for shorter ones do not help */
-  int starts, cut;   /* 1: the part is short, for reactions are to be known; for a rebound */
-  sw_error failed;   /* why a part was refused last */
+  double done, part; /* time done; part to try next [s] */
+  double whole;      /* part to try, were it not cut at the step's end [s] */
+  double longest;    /* longest part taken [s] */
+  int refused;       /* number of refused parts */
+  double doubted;    /* coarse part for which a shorter one is tried instead; 0: none [s] */
+  double struck;     /* part with a blow, while no part that follows the blow has converged; 0: none
+                        [s] */
+  int unfollowed;    /* 1: the part with the blow is tried again, to be taken */
+  double over;       /* error of the last part tried, over the allowed one [-] */
+  int worse;         /* shorter parts in a row that were as coarse */
+  int rough;         /* 1: coarse parts are taken in this step, because shorter ones do not help */
+  int starts, cut;   /* 1: the part is short to make reactions known; to end at a rebound */
+  sw_error failed;   /* why the last part was refused */
 } parts;
 
-/* The part may be shorter than asked for; there are nodes for it. */
+/* Shortens the part where needed, and makes nodes for it. */
 static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   const double left = k->h - k->done;
   k->part = k->whole = sw_blow_part(p->s, k->part);
@@ -53,12 +53,13 @@ static sw_status begin(sw_ladder *p, parts *k, sw_error *err) {
   return sw_feed_too_fast(p->s, k->failed.text, err);
 }
 
-/* What strikes, or begins to pull, late in a part may do so in a shorter one too, and be as coarse
- * there: so many shorter parts may be [-]. */
+/* A strike or pull that begins late in a part may also begin late in a shorter one, which is then
+ * as coarse. This many shorter parts may be [-]. */
 enum { MOST_WORSE = 1 };
 
-/* A part that is coarse is not taken unless shorter ones are as coarse: then something jumps in it,
- * a wire that rolls onto a drum, and it is taken as it was. may_grow: see below. */
+/* 1 if the part is coarse and another one must be tried. A coarse part is not taken, unless shorter
+ * ones are as coarse: then something jumps in it, such as a wire that rolls onto a drum, and the
+ * longer part is taken. may_grow: see below. */
 static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   const double over = k->rough ? 0.0 : sw_coarse_of(p->s, HUGE_VAL);
   sw_snap snap;
@@ -81,8 +82,8 @@ static int is_coarse(const sw_ladder *p, parts *k, int *may_grow) {
   return 1;
 }
 
-/* The trial converged, but it contains a blow, went past a force, or is coarse. may_grow: 1, one of
- * twice the size would not be. */
+/* 1 if a converged trial contains a blow, went past a force, or is coarse. may_grow: 1 if a part of
+ * twice the size would be fine too. */
 static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   if (!k->unfollowed && sw_blow_begins(p->s, k->part)) {
     k->struck = k->part;
@@ -99,9 +100,10 @@ static int is_too_long(const sw_ladder *p, parts *k, int *may_grow) {
   return 1;
 }
 
-/* A step begins in the parts that the one before ended in: to try it whole first would be in vain,
- * and one far too long cannot be told from a shock. Parts of a smaller share are of what is driven
- * into something, and are not gone on with [-]. */
+/* A step starts with the part size that the previous step ended with. Trying the whole step first
+ * would waste a solve, and the error of a far too long part looks like a shock. Smaller shares of
+ * the step than this come from something driven into an obstacle; the next step does not start with
+ * them [-]. */
 static const double REMEMBERED = 1.0 / 33;
 
 static double first_part(const sw_scene *s, double h) {
@@ -124,15 +126,15 @@ static sw_status take(sw_ladder *p, parts *k, int may_grow, sw_error *err) {
   return SW_OK;
 }
 
-/* A part went well that is doubted, or has a blow in it that cannot be followed: it is taken. 0:
- * there is none [s]. */
+/* Returns a part that converged and can be taken after all: a doubted one, or one with a blow that
+ * cannot be followed; 0: there is none [s]. */
 static double part_that_went(const sw_ladder *p, const parts *k) {
   const int followed = isfinite(sw_blow_part(p->s, HUGE_VAL));
   if (k->cut) return 0;
   return k->doubted > 0 ? k->doubted : followed ? 0.0 : k->struck;
 }
 
-/* The status, unless a smaller part may go well. */
+/* Sets a smaller part, or one that converged before; returns the status if there is none. */
 static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error *err) {
   if (sw_ladder_hopeless(status)) return status;
   k->failed = p->held = *err;
@@ -151,12 +153,13 @@ static sw_status refuse(sw_ladder *p, parts *k, sw_status status, const sw_error
   return k->part < SW_SMALLEST_SHARE * k->h ? status : SW_OK;
 }
 
-/* A bundle that falls or is pressed converges badly for many steps on end, and each part that fails
- * costs as much as several that go well: the next step begins in parts that went, or once went
- * twice as long. */
+/* Sets the part for the next step of a bundle. A bundle that falls or is pressed converges badly
+ * for many steps in a row, and a part that fails costs as much as several that converge. The next
+ * step begins with the longest part that converged; after at most one refusal, with twice that. */
 static void remember(sw_scene *s, const parts *k) {
   sw_course *c = sw_scene_course(s);
-  const int shorter = c->blow_until > sw_scene_time(s) - 0.5 * k->h; /* so was this step */
+  const int shorter = c->blow_until > sw_scene_time(s) - 0.5 * k->h; /* this step was already
+                                                                        shorter */
   if (!sw_coarse_is_bundle(s) || !(k->refused || shorter)) return;
   const double part = k->refused > 1 ? k->longest : 2 * (k->refused ? k->longest : c->blow_part);
   c->blow_part = part;
@@ -179,7 +182,7 @@ sw_status sw_step_fixed(sw_ladder *p, double h, double t1, sw_error *err) {
     const sw_status status = sw_ladder_try(p, k.part, smallest, err);
     if (status == SW_OK && is_too_long(p, &k, &may_grow)) {
       sw_ladder_undo(p);
-      sw_scene_books(p->s)->sums.redone = redone; /* of steps that are taken */
+      sw_scene_books(p->s)->sums.redone = redone; /* counts only steps that are taken */
       p->asked = k.part;
     } else {
       SW_TRY(status == SW_OK ? take(p, &k, may_grow, err) : refuse(p, &k, status, err));

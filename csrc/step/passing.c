@@ -6,9 +6,10 @@
 #include "scene/parts.h"
 #include "system/system.h"
 
-/* A part that goes too far by less than this is accepted, because parts are halves [-]. */
+/* A part (substep) that goes too far by less than this factor is accepted, because parts are halves
+ * [-]. */
 static const double WELL_ENOUGH = 1.25;
-/* No part is made shorter than this for what is passed: it is passed at tens of m/s [s]. */
+/* Shortest part for passing a force; a wire would pass at tens of m/s [s]. */
 static const double SHORTEST = 1e-5;
 
 int sw_passing_any(const sw_scene *s) {
@@ -29,7 +30,7 @@ double sw_passing_between(const sw_scene *s, const double *from, const double *t
     const sw_body *b = &system->bodies[w];
     SW_ITEMS(const sw_term, term, b->terms, b->term_count) {
       if (!term->cls->oversteps) continue;
-      sw_field now = b->field; /* its own places may be those of a trial that is gone */
+      sw_field now = b->field; /* its own places may be those of a discarded trial */
       now.x = from + 3 * b->first_node;
       now.statics = 0;
       most =

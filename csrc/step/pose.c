@@ -19,14 +19,14 @@
 
 enum { MOST_HALVINGS = 6 }; /* of a pose step [-] */
 
-/* Of a trial: what needs more is sooner found in smaller steps [-]. */
+/* Limit of a trial: a pose that needs more is found sooner in smaller steps [-]. */
 enum { FEW_ITERATIONS = 300 };
 
-/* The scene at the start of a pose in which a tie may break, or a wire may go into a clip. */
+/* The scene at the start of a pose in which a tie may break or a wire may enter a clip. */
 typedef struct kept {
   sw_tape live;
   sw_jaw *jaws; /* (tools) */
-  double *x;    /* places of nodes */
+  double *x;    /* (freedoms) places of nodes */
   int next;     /* see sw_course */
 } kept;
 
@@ -61,15 +61,15 @@ static sw_status put_back(sw_scene *s, const kept *k, double t0, sw_error *err) 
 static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                       sw_run_report *report, sw_error *err);
 
-/* The part of a pose of size h in which forces of short reach are followed that it went past: how
- * far a wire gets into a clip, at which force, else depends on where Newton's iteration ends. */
+/* Returns the part of a pose of size h that a wire may move past a force of short reach. Without it
+ * the depth in a clip, and the force, would depend on where Newton's iteration ends. */
 static double followed_part(const sw_scene *s, const double *from, double h, int *passed) {
   const double part = sw_passing_part(h, sw_passing_between(s, from, sw_scene_system(s)->x));
   *passed = part < h;
   return part;
 }
 
-/* No rest was found at t1: the half of the way, and what is left of it. */
+/* No equilibrium was found at t1: goes to the middle of the way, then the rest. */
 static sw_status by_the_middle(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                                sw_run_report *report, const kept *start, sw_error *err) {
   SW_TRY(pose(s, 0.5 * (sw_scene_time(s) + t1), halvings - 1, how, report, err));
@@ -78,7 +78,7 @@ static sw_status by_the_middle(sw_scene *s, double t1, int halvings, const sw_po
   return pose(s, t1, halvings - 1, how, report, err);
 }
 
-/* From the start, at t0, once more: up to t only. */
+/* Goes back to the start, at t0, and only up to t. */
 static sw_status again(sw_scene *s, double t0, double t, int halvings, const sw_pose_args *how,
                        sw_run_report *report, kept *start, sw_error *err) {
   SW_TRY(put_back(s, start, t0, err));
@@ -94,7 +94,7 @@ static sw_status book(sw_scene *s, double t1, int jumped, sw_run_report *report,
   return SW_OK;
 }
 
-/* Holds and obstacles go on to t1, the wires to their equilibrium there. Without friction the
+/* Moves holds and obstacles to t1 and the wires to their equilibrium there. Without friction the
  * size of the pose step does not matter; with friction halving it shows how much it does. */
 static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_args *how,
                           sw_run_report *report, kept *start, sw_error *err) {
@@ -106,7 +106,7 @@ static sw_status one_pose(sw_scene *s, double t1, int halvings, const sw_pose_ar
   int too_far = 0;
   int *const tells = halvings ? &too_far : NULL;
   const int squeezes = sw_jaw_begin(s, t1 - t0);
-  const int shortest = t1 - t0 <= 1.5 * how->passing; /* but for rounding */
+  const int shortest = t1 - t0 <= 1.5 * how->passing; /* equal, but for rounding */
   args.stays = start->x && !shortest && halvings;
   if (squeezes && halvings) args.max_iterations = FEW_ITERATIONS;
   sw_scene_set_time(s, t1);
@@ -140,11 +140,11 @@ static sw_status pose(sw_scene *s, double t1, int halvings, const sw_pose_args *
   return status;
 }
 
-/* Pads that hold a wire are shifted by no more of the thinnest one's radius from one pose to the
- * next: it would be beside them where its equilibrium is looked for [-]. */
+/* Largest shift of pads that hold a wire from one pose to the next, over the thinnest wire's
+ * radius. With more, the search for equilibrium would start with the wire beside the pads [-]. */
 static const double WIDEST_SHIFT = 0.5;
 
-/* How far from its centre a tool presses [m]. */
+/* Returns the largest distance from a tool's centre at which it presses [m]. */
 static double reach_of(const sw_scene *s, const sw_tool *t) {
   sw_contact *contact = sw_scene_contact(s);
   double reach = 0;
@@ -158,10 +158,10 @@ static double reach_of(const sw_scene *s, const sw_tool *t) {
   return reach;
 }
 
-enum { MOST_CUTS = 60 }; /* of a step, by motions that start slowly and end fast [-] */
+enum { MOST_CUTS = 60 }; /* cuts of a step, for motions that start slowly and end fast [-] */
 
-/* The largest step up to h in which the tool carries the wires between its pads no further than
- * this limit. */
+/* Shortens the step h so that the tool carries the wires between its pads no further than
+ * `most`. */
 static sw_status carried_step(sw_scene *s, const sw_tool *t, double most, double *h,
                               sw_error *err) {
   sw_motion_state from, to;

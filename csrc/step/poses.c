@@ -11,13 +11,15 @@
 #include "step/rest.h"
 #include "step/run.h"
 
-static const double SHORTEST_PASSING = 1.0 / 64; /* of a pose step [-] */
+static const double SHORTEST_PASSING = 1.0 / 64; /* shortest pose for passing a clip, over the pose
+                                                    step [-] */
 
-/* Slow handling: equilibria up to time t, in parts that nodes can follow where wire is fed. */
+/* Slow handling: equilibria up to time t, in parts (substeps) that nodes can follow where wire is
+ * fed. */
 static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
   sw_scene *s = p->s;
-  double most = HUGE_VAL; /* where a clip is passed: twice the pose that was taken last, at least
-                             the shortest one */
+  double most = HUGE_VAL; /* next part where a clip is passed: twice the last one, at least the
+                             shortest [s] */
   while (sw_scene_time(s) < t) {
     const double t0 = sw_scene_time(s);
     double h = fmin(most, t - t0);
@@ -41,7 +43,7 @@ static sw_status pose_steps(sw_ladder *p, double t, sw_error *err) {
 
 static const double MOST_TURN_PARTS = 1e4;
 
-/* And in parts in which holds turn by less than half a turn. */
+/* Also divides the step so that holds turn by less than half a turn in each part. */
 sw_status sw_step_poses(sw_ladder *p, double t1, sw_error *err) {
   sw_system *system = sw_scene_system(p->s);
   const double t0 = sw_scene_time(p->s);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The referee: steps that make energy are told from those that do not. */
+/* The referee: finds steps that make energy. */
 #include <math.h>
 #include <stdio.h>
 
@@ -15,31 +15,31 @@
 #include "system/join.h"
 #include "system/system.h"
 
-/* A step of this size may make so much of the kinetic energy, of the weight times the radius and of
- * the work, by the errors of the method and of the work's quadrature [s], [-]. */
+/* A step of FULL_STEP [s] may make these shares of the kinetic energy, of the weight times the
+ * radius and of the work, for the errors of the method and of the work's quadrature [-]. */
 static const double FULL_STEP = 0.01, OF_KINETIC = 1e-3, OF_WEIGHT = 1e-3, OF_WORK = 0.01;
-/* What a history loses is known better than the forces at the ends of the step that pay for it [-].
- */
+/* Share of the losses of histories that a step may make. They are known better than the forces at
+ * the step's ends, whose work pays for them [-]. */
 static const double OF_LOST = 0.1;
-/* And of EI / L, as axial forces and bends are only known to rounding [-]. */
+/* Further allowance over EI / L, because axial forces and bends are known only to rounding [-]. */
 static const double OF_BENDING = 1e-9;
-/* Energies are sums of large terms, known to this share of these [-]. */
+/* Energies are sums of large terms, exact to this share of them [-]. */
 static const double ROUNDING = 1e-13;
-/* After so many steps that were taken although they made energy the referee rests: it would
- * cost the smallest steps, and mend nothing. The run's end tells the energy made [-]. */
+/* After this many steps that were accepted although they made energy the referee stops: it would
+ * ask for the smallest steps and improve nothing. The run's end tells the energy made [-]. */
 enum { MOST_ACCEPTED = 16 };
-/* Once the gains of steps pass the first share of the energy in play, a step may gain only
- * `LITTLE` of it; beyond the second share, only rounding [-]. */
+/* Once the steps' gains exceed ENOUGH of the energy in play, a step may gain only LITTLE of it;
+ * above PLENTY, only rounding [-]. */
 static const double ENOUGH = 0.005, PLENTY = 0.01, LITTLE = 1e-5;
-/* Wires that begin inside of obstacles are let out, which gives them at most this speed and lifts
- * them about as fast as this [m/s]. */
+/* Wires that begin inside obstacles are let out. That gives them at most the speed THROWN, and
+ * lifts them at about LET_OUT [m/s]. */
 static const double THROWN = 0.02, LET_OUT = 0.01;
-/* Where nothing touches, the method may make this share of the energy in play [-]. */
+/* Share of the energy in play that the method may make where nothing touches [-]. */
 static const double IN_FLIGHT = 0.01;
-/* And then to this share in each whole step: asked for nothing at all, steps would collapse [-]. */
+/* Share that each whole step may make beyond that. With no allowance steps would collapse [-]. */
 static const double EACH_IN_FLIGHT = 2e-4;
 
-/* Stored between bodies and obstacles. */
+/* Energy stored between bodies and obstacles. */
 double sw_ledger_contact(sw_scene *s) {
   sw_crowd *crowd = sw_scene_crowd(s);
   sw_system *system = sw_scene_system(s);
@@ -90,8 +90,8 @@ static void judge_touches(sw_scene *s, double h, sw_step_energy *step) {
                    sw_system_kinetic(sw_scene_system(s), sw_course_lumps(sw_scene_course(s)));
 }
 
-/* Where the scene was changed, what moves may have begun to do so at once. Its forces within the
- * step are not known then; the most that they may give to wires. */
+/* Returns the most energy that moving drives may give to wires in a step after a change of the
+ * scene: they may have started abruptly, and forces within the step are unknown [J]. */
 static double jolt(const sw_scene *s, const sw_step_energy *step) {
   sw_books *b = sw_scene_books(s);
   sw_system *system = sw_scene_system(s);
@@ -108,15 +108,16 @@ static double jolt(const sw_scene *s, const sw_step_energy *step) {
   return fastest > 0 ? b->mass * fastest * fastest + step->work : 0.0;
 }
 
-/* Pads are as soft as the wire, and share their force out among the places that touch. The
- * energy stored there jumps when a place comes or goes, though the wire does nothing. */
+/* 1 if there are pads. They are as soft as the wire, and share their force among the places that
+ * touch. The energy stored there jumps when a place comes or goes, although the wire does
+ * nothing. */
 static int has_pads(const sw_scene *s) {
   SW_EACH(tool, t, s)
     if (t->alive && t->pads && !t->frozen) return 1;
   return 0;
 }
 
-/* Explicit methods have last looked at what touches before or within the step. */
+/* Evaluates contact at the step's end: explicit methods last did so before or within the step. */
 static sw_status look_at_end(sw_scene *s, double t1, sw_error *err) {
   sw_system *y = sw_scene_system(s);
   SW_TRY(sw_system_place_holds(y, t1, NULL, NULL, NULL, err));
@@ -162,7 +163,7 @@ int sw_ledger_referees(const sw_scene *s) {
          !(sw_scene_course(s)->method->flags & SW_INTEGRATOR_NO_CONTACT);
 }
 
-/* What a full step may make besides: less once steps have made more [J]. */
+/* Returns the further allowance of a full step: less once steps have made more [J]. */
 static double usual_gain(const sw_books *b) {
   const double play = b->sums.play;
   if (b->sums.gained > PLENTY * play) return 0.0;
@@ -178,7 +179,7 @@ double sw_ledger_excess(const sw_scene *s, double h, double whole) {
   const double size = fabs(b->now.kinetic) + fabs(b->now.gravity) + fabs(b->now.stored) +
                       fabs(step->to.kinetic) + fabs(step->to.gravity) + fabs(step->to.stored);
   const double rounding = ROUNDING * size + OF_BENDING * b->bending * share;
-  /* what impacts at its start give, of several places at once, no smaller step mends */
+  /* energy that impacts at several places give at the step's start: no smaller step avoids it */
   const double struck = fmin(fmax(0.0, -step->impact), usual_gain(b));
   const double allowed = rounding + OF_WORK * step->work + share * usual_gain(b) + struck;
   if (!isfinite(step->gain)) return step->gain < 0 ? 0.0 : HUGE_VAL;
@@ -189,7 +190,7 @@ double sw_ledger_excess(const sw_scene *s, double h, double whole) {
   return step->gain > allowed ? step->gain : 0.0;
 }
 
-/* The node whose kinetic energy grew most in the trial. */
+/* Returns the node whose kinetic energy grew most in the trial. */
 static size_t fastest_gain(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   const double *v0 = system->v, *v1 = sw_scene_course(s)->stepper.trial_v;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibria at the scene's time: holds go there from where the wires know them, in parts, and the
- * wires come to rest at each. */
+/* Equilibria at the scene's time. Holds go there, from where the wires know them, in parts
+ * (substeps), and the wires come to rest at each. */
 #include "step/rest.h"
 
 #include <math.h>
@@ -14,19 +14,20 @@
 #include "step/statics.h"
 #include "system/system.h"
 
-/* Wires that rub follow their holds to the next pose without going far, or they jump: which
- * continuation finds sooner than many more updates that would take them far [-]. */
+/* Newton updates that would take wires far, after which continuation is tried. Wires with friction
+ * follow their holds to the next pose without going far, or they jump; continuation finds a jump
+ * sooner than many more updates [-]. */
 enum { FAR_IN_POSES = 6 };
-/* Parts of a hold's way from where it was to where it is to be. */
+/* Largest parts of a hold's way from its old place to its new one. */
 static const double LONGEST_PART = 0.4; /* of the shortest edge [-] */
 static const double LONG_PART = 0.1;    /* of the longest wire, where nothing rubs [-] */
 static const double WIDEST_PART = 0.5;  /* [rad] */
 static const double MOST_PARTS = 2000;
-/* Where holds are on their way wires need not come to rest as closely as where they arrive: their
- * nodes to so much, of an edge [-]. */
+/* Accuracy of equilibria on the holds' way, where wires need not be as close to rest as at its end:
+ * largest shift of a node, over an edge [-]. */
 static const double PASSING = 1e-4;
 
-/* Where the holds are as the state's wires know them. */
+/* Finds the poses of the holds that belong to the wires' state. */
 static void find_from_poses(sw_statics *p) {
   const sw_system *s = sw_scene_system(p->s);
   for (size_t i = s->held_count; i-- > 0;) {
@@ -45,7 +46,8 @@ static double shortest_edge(const sw_system *s) {
   return shortest;
 }
 
-/* How far out particles of a mesh are from the axis about which a hold turns them [m]. */
+/* Returns the largest distance of a mesh's particles from the axis about which a hold turns them
+ * [m]. */
 static double widest_mesh(const sw_system *s) {
   double widest = 0;
   for (size_t b = 0; b < s->body_count; b++)
@@ -53,9 +55,9 @@ static double widest_mesh(const sw_system *s) {
   return widest;
 }
 
-/* Number of parts into which the way of the holds to their places is cut, so that no part
- * shifts a hold by more than longest_shift [m] or turns it far. lever: nor may a point so far
- * from the hold shift by more as the hold turns [m]. */
+/* Returns the number of parts of the holds' way for which no part shifts a hold by more than
+ * longest_shift [m] or turns it far. lever: points at this distance from a hold must not shift by
+ * more either [m]. */
 static sw_status count_parts(sw_statics *p, double lever, double longest_shift, size_t *parts,
                              sw_error *err) {
   sw_system *s = sw_scene_system(p->s);
@@ -85,7 +87,7 @@ static sw_status follow_in(sw_statics *p, size_t parts, sw_error *err) {
   return status;
 }
 
-/* Is the rest of the wires independent of their past? */
+/* 1 if the equilibrium does not depend on the wires' past. */
 static int forgets(const sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   if (sw_scene_pairs(s) || sw_scene_crowd(s) || sw_scene_grains(s)) return 0;
@@ -96,8 +98,8 @@ static int forgets(const sw_scene *s) {
   return 1;
 }
 
-/* In parts that do not depend on the mesh, as long as each leads from one stable equilibrium
- * straight to the next. 1: it did; else all is as it was. */
+/* Follows the holds in parts that do not depend on the mesh, as long as each leads from one stable
+ * equilibrium straight to the next. *done: 1 if all did; else the state is as before. */
 static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *err) {
   sw_tape start = {0};
   const double touched = p->touched;
@@ -121,7 +123,7 @@ static sw_status follow_fast(sw_statics *p, size_t parts, int *done, sw_error *e
   return status;
 }
 
-/* How far the holds went, a turn counting as what it does to half a wire. */
+/* Returns the holds' largest shift; a turn counts as what it does to half a wire [m]. */
 static double drive_shift(const sw_statics *p) {
   const sw_system *s = sw_scene_system(p->s);
   double largest = 0;
@@ -133,9 +135,9 @@ static double drive_shift(const sw_statics *p) {
   return largest;
 }
 
-/* Settle at every part of the holds' way. The parts are only for convergence: the memory of
- * forces is brought up to date at the last one alone. Where particles of a mesh are further
- * from the axis than its slices from each other, the usual parts may be too wide to begin with. */
+/* Settles at every part of the holds' way. The parts only help convergence: the memory of forces is
+ * updated at the last one alone. Where particles of a mesh are further from the axis than its
+ * slices from each other, the usual parts may be too wide. */
 static sw_status follow_holds(sw_statics *p, sw_error *err) {
   size_t parts, more, fewer;
   int done = 0;
@@ -155,8 +157,8 @@ static sw_status follow_holds(sw_statics *p, sw_error *err) {
   return follow_in(p, more, err);
 }
 
-/* Did the wires move much further than their holds and obstacles? Then they have left one
- * equilibrium for another. */
+/* Wires that move much further than their holds and obstacles have left one equilibrium for
+ * another. */
 static const double JUMP = 4.0;           /* largest shift over the drives' own [-] */
 static const double SMALLEST_JUMP = 0.01; /* of the longest wire [-] */
 

@@ -9,12 +9,12 @@
 
 /* --- jerks ----------------------------------------------------------------------- */
 
-/* Moments at which something that holds a wire starts, stops or turns a corner at once. The forces
- * of just before, with the velocity that then ends, are no start for the step after it: a method
- * that begins with them counts a dashpot's old force for part of the step, an error of first order.
- */
-static const double BESIDE = 1e-9; /* so long before and after the moment is looked at [s] */
-/* Velocities that jump by less are none: 10 nm in a step of 10 ms [m/s], [rad/s]. */
+/* Moments at which a drive starts, stops or turns a corner abruptly. The forces of just before act
+ * with a velocity that ends then, and must not start the next step: a method that begins with them
+ * counts a dashpot's old force for part of the step, an error of first order. */
+static const double BESIDE = 1e-9; /* velocities are compared this long before and after the moment
+                                      [s] */
+/* Smaller changes of velocity are no jump: 10 nm in a step of 10 ms [m/s], [rad/s]. */
 static const double NO_JUMP = 1e-6;
 
 static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
@@ -22,7 +22,8 @@ static int jumps(sw_vec before, sw_vec after, sw_vec rate1, sw_vec rate2) {
   return sw_dist(before, after) > most;
 }
 
-/* Functions of a script are asked for times of steps only. */
+/* 1 if the drive has a jerk now. Functions of a script are not asked: they are called for times of
+ * steps only. */
 static int drive_jerks(sw_scene *s, const sw_drive *d) {
   sw_motion_state one, two;
   sw_error ignored;
@@ -64,8 +65,8 @@ void sw_restart_struck(sw_scene *s, int dull) {
   c->stepper.restart = 1;
 }
 
-/* Accelerations at a step's end may be those of a shock that is over: the next step starts without
- * them, or it pushes with them for half of it and makes energy. */
+/* 1 if the accelerations at the step's end may be those of a shock that is over. The next step
+ * starts without them; else it pushes with them for half of it and makes energy. */
 static int is_shaken(const sw_scene *s) {
   sw_contact *contact = sw_scene_contact(s);
   const sw_stepper *stepper = &sw_scene_course(s)->stepper;
@@ -83,7 +84,7 @@ void sw_restart_refused(sw_ladder *p, int cut) {
   if (!p->smooth && !cut) sw_course_jump(sw_scene_course(p->s));
 }
 
-/* --- steppers and systems that are new ones ------------------------------------------ */
+/* --- new steppers and systems ---------------------------------------------------------- */
 
 void sw_restart_stepper(sw_scene *s) {
   sw_course *c = sw_scene_course(s);

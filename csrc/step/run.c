@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Running: steps to a given time, frames and observers between them. */
+/* Runs a scene: steps to a given time, frames and observers between them. */
 #include "step/run.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* The next frame is due after t; frames that steps have passed are left out. */
+/* Sets the time of the next frame after t; frames that steps have passed are left out. */
 static void next_frame(sw_scene *s, double every, double t) {
   sw_frames *all = sw_scene_frames_of(s);
   every *= (double)all->stride;
@@ -33,7 +33,7 @@ static void next_frame(sw_scene *s, double every, double t) {
   if (!(all->next > t)) all->next = nextafter(t, HUGE_VAL);
 }
 
-/* A step towards t1, or as long as its error allows, by the run's kind of steps. */
+/* Takes a step towards t1, or as long as its error allows, by the run's kind of steps. */
 static sw_status one_step(sw_ladder *p, double t1, double until, sw_error *err) {
   const sw_scene *s = p->s;
   if (!sw_scene_wire_slots(s)) return sw_step_empty(p, t1, err);
@@ -50,7 +50,7 @@ static sw_status run_loop(sw_ladder *p, double until, int (*interrupted)(void), 
   if (span > 0 && span < SW_SHORTEST_STEP) sw_scene_set_time(s, until);
   const double slack = 1e-12 * fmax(fabs(until), span);
   const size_t first = p->report->steps;
-  double began = t0; /* the last step [s] */
+  double began = t0; /* start of the last step [s] */
   for (size_t k = 1; sw_scene_time(s) < until - slack;) {
     if (interrupted && interrupted()) return SW_EINTR;
     if ((double)(p->report->steps - first) >= (double)p->args->max_steps) return SW_OK;
@@ -79,7 +79,7 @@ static void conclude(sw_scene *s, sw_status status, sw_run_report *report, const
   report->status = status;
   report->time = sw_scene_time(s);
   if (status == SW_OK || status == SW_EINTR || status == SW_ECALLBACK) return;
-  if (status == SW_EEMPTY) report->reason = *why; /* all is well up to here */
+  if (status == SW_EEMPTY) report->reason = *why; /* the state is valid up to here */
   if (status == SW_EEMPTY) return;
   report->status = status == SW_ENOMEM ? SW_ENOMEM : SW_EDIVERGED;
   sw_scene_tell_broken(s, broken, sizeof broken);
@@ -102,7 +102,7 @@ sw_status sw_scene_begin_run(sw_scene *s, int wear, sw_error *err) {
   return SW_OK;
 }
 
-/* The scene is built and can be run like this. */
+/* Builds the scene and checks that it can be run like this. */
 static sw_status prepare(sw_scene *s, const sw_run_args *args, double until, sw_error *err) {
   SW_TRY(sw_scene_ready(s, err));
   SW_TRY(sw_run_check(s, args, err));
@@ -127,7 +127,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   if (!p.v_start) return sw_fail(err, SW_ENOMEM, "scene '%s': out of memory", sw_scene_name(s));
   sw_scene_enter(s, 1);
   sw_ledger_forget(s);
-  sw_status status = /* energies need it */
+  sw_status status = /* energies need this */
       sw_system_place_holds(sw_scene_system(s), sw_scene_time(s), NULL, NULL, NULL, &why);
   if (status == SW_OK && isfinite(args->frame) && sw_scene_frames_of(s)->count == 0) {
     status = sw_scene_store_frame(s, &why);
@@ -141,7 +141,7 @@ sw_status sw_scene_advance(sw_scene *s, const sw_run_args *args, double until,
   sw_scene_system(s)->judged = NULL;
   if (status == SW_OK && !args->quasistatic) status = sw_scene_look_for_buckling(s, &why);
   sw_free(p.v_start);
-  /* the last good state, for pictures of what went wrong */
+  /* stores the last good state, for pictures of the failure */
   if (status == SW_ENOCONV && isfinite(args->frame) && sw_scene_frames_of(s)->count &&
       sw_scene_time(s) > sw_scene_frames_of(s)->list[sw_scene_frames_of(s)->count - 1].time)
     (void)sw_scene_store_frame(s, &ignored);

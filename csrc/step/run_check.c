@@ -60,13 +60,14 @@ static sw_param run_rows[] = {
 };
 const sw_params sw_run_params = SW_PARAMS("scene:run", run_rows);
 
-/* The choice row takes its names from the registry when first needed. */
+/* Fills the choice row with names of the registry, when the program starts. */
 __attribute__((constructor)) static void fill_choices(void) {
   for (size_t i = 0; i < sizeof run_rows / sizeof run_rows[0]; i++)
     if (run_rows[i].type == SW_PARAM_CHOICE) run_rows[i].choices = integrator_names();
 }
 
-/* What a wire slides along sticks, and has ends. */
+/* SW_EINVAL when the method cannot treat a rail on which a wire slides, which may stick and has
+ * ends. */
 static sw_status check_rails(const sw_scene *s, const sw_integrator *m, sw_error *err) {
   SW_EACH(hold, h, s) {
     if (!h->alive || !h->cls->hold->rail) continue;
@@ -118,7 +119,7 @@ sw_status sw_run_check(const sw_scene *s, const sw_run_args *args, sw_error *err
   return SW_OK;
 }
 
-/* A clock near t advances in parts of t times this [-]; a step must be some of them. */
+/* Spacing of the clock's values at t, over t [-]; a step must be at least TICKS of them. */
 static const double CLOCK = 2.3e-16, TICKS = 64;
 static const double MOST_STEPS = 1e15; /* [-] */
 

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run takes, and whether a scene can be run with it. Shared by the files of this room only.
- */
+/* Arguments of a run, and checks whether a scene can be run with them. Shared by the files of this
+ * room only. */
 #ifndef SW_STEP_RUN_CHECK_H
 #define SW_STEP_RUN_CHECK_H
 
 #include "step/step.h"
 
-/* A shorter time counts as zero: its steps would underflow [s]. */
+/* Shorter times count as zero, because their steps would underflow [s]. */
 static const double SW_SHORTEST_STEP = 1e-20;
 
-/* SW_EINVAL: the scene has what the run's method or way cannot do. */
+/* SW_EINVAL: the scene has something that the run's method or kind cannot do. */
 sw_status sw_run_check(const sw_scene *scene, const sw_run_args *args, sw_error *err);
-/* SW_EINVAL when steps do not add up to the time that they are to cover [s]. */
+/* SW_EINVAL when steps would not add up to the time until `until` [s]. */
 sw_status sw_run_check_clock(const sw_scene *scene, const sw_run_args *args, double until,
                              sw_error *err);
-/* SW_EINVAL when an explicit method would take steps above its limit on the way to a time. */
+/* SW_EINVAL when an explicit method would take steps above its stable step on the way to
+ * `until`. */
 sw_status sw_scene_check_step(const sw_scene *scene, const sw_run_args *args, double until,
                               sw_error *err);
 

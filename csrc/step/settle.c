@@ -27,7 +27,7 @@ static void conclude(sw_scene *s, sw_status status, sw_settle_report *report, co
 
 enum { MOST_ROUNDS = 100 };
 
-/* Jaws that hold with a force go on holding with it. */
+/* Finds the equilibrium; jaws that hold with a force go on holding with it. */
 static sw_status settle_held(sw_scene *s, const sw_settle_args *args, int (*interrupted)(void),
                              sw_settle_report *report, sw_error *err) {
   if (!sw_jaw_begin_rest(s))

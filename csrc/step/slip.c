@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Feeds that yield to a force. The speed at which wire slips changes evenly within a
- * step (a jump of it would be a blow to the wire), at the rate for which the drive's force
- * at the step's end is the one wanted: found by false position, since the force is nearly
- * linear in it. With a limit wire slips until it has the speed asked for
- * again, like a slipping clutch. */
+/* Feeds that yield to a force. The speed at which wire slips changes evenly within a step, because
+ * a jump of it would be a blow to the wire. Its rate is the one for which the drive's force at the
+ * step's end is as wanted. It is found by false position, since the force is nearly linear in it.
+ * With a limit wire slips, like a slipping clutch, until it has the asked speed again. */
 #include "step/slip.h"
 
 #include <math.h>
@@ -15,11 +14,12 @@
 #include "scene/parts.h"
 #include "step/obey.h"
 
-static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2 [-] */
+static const double PRECISION = 1e-7; /* of the force, the wire's weight or EI/L2, whichever is
+                                         largest [-] */
 
-static const double NO_WAY = 1e-13; /* of the wire in a step [m] */
+static const double NO_WAY = 1e-13; /* way of the wire in a step that does not count [m] */
 
-/* What gives way at a hold, or NULL. */
+/* Returns the slip of a hold that yields, or NULL. */
 static sw_slip *slip_of(sw_hold *h) {
   return h->alive && h->cls->hold->slips ? h->cls->hold->slips(h) : NULL;
 }
@@ -37,10 +37,10 @@ static int begin(sw_scene *s, double step) {
     sw_slip *f = slip_of(h);
     if (!f) continue;
     any = 1;
-    /* a step that was undone may have left others */
+    /* a discarded step may have left other values */
     f->growth = f->growth_before;
     f->way = f->way_before;
-    if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without */
+    if (!isfinite(f->push) && f->way == 0) f->growth = 0; /* first tried without slip */
   }
   return any;
 }
@@ -54,10 +54,9 @@ static void give_up(sw_scene *s) {
   }
 }
 
-/* The next guess: between a trial with too little force and one with too much, as the false
- * position has it, else by the slope known so far.
- * Returns 1 when both are one place: the force jumps there, as in an impact; or in very short
- * steps, when the next guess is the same place. */
+/* Sets the next guess: by false position between a trial with too little force and one with too
+ * much, else by the slope known so far. Returns 1 when both are one place: the force jumps there,
+ * as in an impact; or, in very short steps, when the next guess is the same place. */
 static int improve(sw_slip *f, double off, int first, double mass, double step) {
   sw_bracket *b = &f->found;
   const double before = f->growth;
@@ -83,7 +82,7 @@ static int improve(sw_slip *f, double off, int first, double mass, double step) 
   return 0;
 }
 
-/* Has the slip come to its end within the step? Then it stops with it. */
+/* 1 if the slip ends within the step; it then stops with the step. */
 static int stops(sw_slip *f, double h) {
   if (isfinite(f->push) || f->way_before == 0) return 0;
   if ((f->speed + f->growth * h) * f->way <= 0) return 0;
@@ -99,7 +98,7 @@ static int correct_slip(sw_scene *s, sw_hold *h, sw_slip *f, double step, int fi
   const double L = p->length;
   const double weight = p->beam.mass * L * sw_norm(sw_scene_gravity(s));
   if (!isfinite(f->push) && f->way == 0) {
-    if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* stopped, or holds */
+    if (f->way_before != 0 || fabs(drive) <= f->limit) return 1; /* it stopped, or it holds */
     f->way = copysign(1.0, drive);
   }
   const double want = isfinite(f->push) ? f->push : copysign(f->limit, f->way);
@@ -119,7 +118,7 @@ static int correct(sw_scene *s, double h, int first) {
 
 /* --- the rung --------------------------------------------------------------------- */
 
-/* Not further than nodes can follow. */
+/* 1 if nodes can follow a step of size h. */
 static int follows(const sw_scene *s, double h) { return !(sw_feed_step(s, h) < h); }
 
 static const sw_obeyer FEEDS = {.begin = begin,

@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-/* 1: there are feeds that yield to a force. */
+/* 1 if there are feeds that yield to a force. */
 int sw_slip_any(const sw_scene *scene);
 
 #endif

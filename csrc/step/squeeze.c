@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibria between jaws that obey a force: repeated with other openings until the force is as
+/* Equilibria between jaws that obey a force, repeated with other openings until the force is as
  * wanted. */
 #include <math.h>
 
@@ -11,18 +11,18 @@
 #include "step/jaw.h"
 #include "step/rest.h"
 
-enum { MOST_ROUNDS = 4 }; /* of looking for a force from where it jumped to [-] */
+enum { MOST_ROUNDS = 4 }; /* searches for a force, each from where it jumped [-] */
 
 typedef struct poser {
   sw_scene *s;
   const sw_settle_args *args;
   int (*interrupted)(void);
   sw_settle_report *report;
-  sw_tape start;  /* what all trials begin with */
-  int next;       /* how the course would go on from there */
-  sw_jaw *before; /* (tools) as the pose found them */
-  double *speed;  /* (tools) of jaws in the trial that came nearest [m/s] */
-  double nearest; /* how far its force was off; INFINITY = none went well [-] */
+  sw_tape start;  /* state with which all trials begin */
+  int next;       /* course->next at that state */
+  sw_jaw *before; /* (tools) at the start of the pose */
+  double *speed;  /* (tools) speeds of jaws in the trial that came nearest [m/s] */
+  double nearest; /* deviation of its force; INFINITY = no trial converged [-] */
 } poser;
 
 static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
@@ -41,7 +41,7 @@ static sw_status try(poser *p, double since, int *too_far, sw_error *err) {
   return SW_OK;
 }
 
-/* The nearest trial again, for the last one did not come to rest. */
+/* Repeats the nearest trial, because the last one did not come to rest. */
 static sw_status fall_back(poser *p, double since, sw_error *err) {
   SW_TRY(sw_live_back(p->s, &p->start, err));
   for (size_t k = 0; k < sw_scene_tool_slots(p->s); k++)
@@ -49,8 +49,8 @@ static sw_status fall_back(poser *p, double since, sw_error *err) {
   return try(p, since, NULL, err);
 }
 
-/* One equilibrium after another, all from one start, until the jaws have the wanted forces or it is
- * known that they cannot. On failure the scene is as at that start. */
+/* Finds one equilibrium after another, all from one start, until the jaws have the wanted forces or
+ * cannot have them. On failure the scene is as at that start. */
 static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   sw_error why;
   p->nearest = HUGE_VAL;
@@ -67,7 +67,8 @@ static sw_status search(poser *p, double since, int *too_far, sw_error *err) {
   }
 }
 
-/* Where the force jumped: look for it from there on. What is found without it counts too. */
+/* Where the force jumped, searches on from there. The equilibrium stays valid if this finds
+ * nothing. */
 static sw_status search_on(poser *p, sw_error *err) {
   for (int round = 1; round < MOST_ROUNDS && sw_jaw_again(p->s); round++) {
     sw_tape_free(&p->start);

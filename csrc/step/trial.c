@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One trial by the run's method, whose stages the system solves: is it one to believe? */
+/* Computes one trial with the run's method, whose stages the system solves, and checks whether it
+ * is believable. */
 #include "scene/course.h"
 #include "scene/parts.h"
 #include "step/believe.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work of holds, feeds and moving obstacles over a step: force times way and moment times turn. Of
- * holds and obstacles by their impulse on the wire in the step, where the method tells that, as
- * stages may be off at the step's ends; else by the trapezoid between these. */
+/* Work of holds, feeds and moving obstacles over a step: force times way and moment times turn. For
+ * holds and obstacles it comes from their impulse on the wire in the step, where the method gives
+ * that, because stages may be off at the step's ends; else from the trapezoid of the ends. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -14,7 +14,7 @@
 #include "step/energy.h"
 #include "system/system.h"
 
-/* A work over a step and its bounds: by the forces at either end alone. */
+/* Work over a step, and the largest by the forces at either end alone. */
 typedef struct bounds {
   double mean, most; /* [J] */
 } bounds;
@@ -29,7 +29,8 @@ static int same_pose(const sw_pose *a, const sw_pose *b) {
          a->q.z == b->q.z;
 }
 
-/* Of force and moment about the pose's place, from the pose noted to the one now. */
+/* Returns the work of force and moment about the pose's place, from the noted pose to the present
+ * one. */
 static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw_vec moment,
                       int changed) {
   const sw_vec way = sw_sub(to->p, from->pose.p);
@@ -38,16 +39,16 @@ static bounds work_of(const sw_worker *from, const sw_pose *to, sw_vec force, sw
                       sw_dot(force, way) + sw_dot(moment, turn), changed);
 }
 
-/* The mean by the impulses in a step of size h. What it may have been at most stays that of the
- * ends: in a blow the impulse is far above them, and its work is not that on the way. */
+/* Replaces the mean by that of the impulses in a step of size h. The bound stays that of the ends:
+ * in a blow the impulse is far above the end forces, but its work is not along the way. */
 static bounds by_impulse(bounds b, const sw_worker *from, const sw_pose *to, sw_vec force,
                          sw_vec moment, double h) {
   b.mean = work_of(from, to, sw_scale(force, 1.0 / h), sw_scale(moment, 1.0 / h), 1).mean;
   return b;
 }
 
-/* Energy of the wire that a feed has let in from a spool: its speed and its height. In mid-wire it
- * comes from the other side. */
+/* Returns the energy of the wire that a feed has let in from a spool: of its speed and its height.
+ * In mid-wire it comes from the other side. */
 static double brought(sw_scene *s, size_t k, double length) {
   const sw_hold *h = sw_scene_held_by(s, k);
   const sw_scene_wire *wire = sw_scene_wire_in(s, h->wire);
@@ -59,8 +60,9 @@ static double brought(sw_scene *s, size_t k, double length) {
   return 0.5 * mass * sw_norm2(at->v) + height;
 }
 
-/* The drive's mean force in a step of size h by the hold's impulse. What the guide's walls bear of
- * it hardly changes in a step; where the guide turns, it points as in the middle of the step. */
+/* Returns the drive's mean force in a step of size h from the hold's impulse. The guide walls'
+ * share of it hardly changes in a step; where the guide turns, the direction is that in the middle
+ * of the step. */
 static double mean_drive(sw_scene *s, size_t k, const sw_hold_way *now, double h) {
   sw_system *system = sw_scene_system(s);
   const sw_hold_sums *sums = &sw_scene_held_by(s, k)->sums;
@@ -76,8 +78,8 @@ static double mean_drive(sw_scene *s, size_t k, const sw_hold_way *now, double h
   return axial - 0.5 * axial * axial / (axial > 0 ? b->EA_push : b->EA) - walls;
 }
 
-/* A drive that slips at its limit lets the wire's speed jump within the step, and with it the
- * impulse; one that pushes by a force is moved by that force. */
+/* 1 if a drive slips at its limit in the step: the wire's speed jumps then, and the impulse with
+ * it. A drive that pushes with a force is moved by that force. */
 static int slips_off(const sw_hold *h, const sw_hold_way *now, const sw_worker *from) {
   return now->slipped != from->slipped && !isfinite(h->feed.slip.push);
 }
@@ -103,7 +105,7 @@ double sw_ledger_effort(const sw_step_energy *step) {
          fabs(step->forces) + step->slipping;
 }
 
-/* What friction on a rail takes. */
+/* Adds the loss by friction on a rail. */
 static void rub_on_rail(sw_scene *s, size_t k) {
   sw_books *b = sw_scene_books(s);
   sw_system *system = sw_scene_system(s);
@@ -127,7 +129,7 @@ static bounds work_of_hold(sw_scene *s, size_t k, double h, int changed) {
   const sw_hold_sums *sums = &sw_scene_held_by(s, k)->sums;
   sw_vec force, moment;
   sw_system_reaction(system, (int)k, to->p, &force, &moment);
-  /* a stage's load within the step is its mean already */
+  /* the load of a stage within the step is already its mean */
   bounds b = work_of(from, to, force, moment, changed || system->loads_kept);
   if (!sums->known || !(h > 0)) return b;
   sw_vec gained = sums->moment[sums->last];
@@ -151,7 +153,7 @@ static double work_of_holds(sw_scene *s, double t1, int changed) {
   return most;
 }
 
-/* A moment about the world's origin, about a place. */
+/* Moves a moment from the world's origin to a place. */
 static sw_vec about(sw_vec moment, sw_vec force, sw_vec place) {
   return sw_sub(moment, sw_cross(place, force));
 }
@@ -211,7 +213,7 @@ static sw_status make_room(sw_scene *s) {
   return SW_OK;
 }
 
-/* What never moves does no work. */
+/* Notes an obstacle's force and moment; an obstacle that never moves does no work. */
 static void note_obstacle(sw_scene *s, size_t k) {
   sw_worker *w = &sw_scene_books(s)->obstacles[k];
   *w = (sw_worker){0};
@@ -221,7 +223,7 @@ static void note_obstacle(sw_scene *s, size_t k) {
   w->force = sw_neg(w->force), w->moment = sw_neg(w->moment);
 }
 
-/* A rail's moment is kept about the place that is on it; work is done about the pose. */
+/* Returns a rail's moment about the pose: it is kept about the place on the rail. */
 static sw_vec moment_of_rail(const sw_rail *rail, const sw_pose *pose, sw_vec force) {
   sw_rail_point on;
   rail->at(rail->curve, rail->p, &on);
