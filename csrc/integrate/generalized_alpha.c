@@ -3,11 +3,11 @@
  * accelerations at 1 - m, with Newmark's beta and gamma for the rest. Motions too fast for the
  * steps keep the share RHO of their size in each step; slow ones are damped as little as that
  * allows:
- * m = (2 RHO - 1)/(RHO + 1), f = RHO/(RHO + 1), gamma = 1/2 - m + f, beta = (1 - m + f)^2/4.
+ *   m = (2 RHO - 1)/(RHO + 1), f = RHO/(RHO + 1), gamma = 1/2 - m + f, beta = (1 - m + f)^2/4.
  * With y, w and A the position, velocity and acceleration at which the forces act
- * y = yhat + C A, w = what + D A, C = (1 - f) beta h^2/(1 - m), D = (1 - f) gamma h/(1 - m),
- * yhat = x_n + (1 - f) h v_n + (1 - f) h^2 (1/2 - beta - beta m/(1 - m)) a_n,
- * what = v_n + (1 - f) h (1 - gamma - gamma m/(1 - m)) a_n.
+ *   y = yhat + C A, w = what + D A, C = (1 - f) beta h^2/(1 - m), D = (1 - f) gamma h/(1 - m),
+ *   yhat = x_n + (1 - f) h v_n + (1 - f) h^2 (1/2 - beta - beta m/(1 - m)) a_n,
+ *   what = v_n + (1 - f) h (1 - gamma - gamma m/(1 - m)) a_n.
  * So w = (y - xhat)/hbar with hbar = C/D = beta h/gamma and xhat = yhat - hbar what, and
  * A = (hbar^2/C) (w - what)/hbar. */
 #include "integrate/integrate.h"

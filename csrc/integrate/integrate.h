@@ -23,8 +23,8 @@ enum { SW_STAGES_MAX = 2 };
 
 /* One stage of an implicit method: weights of the step h and of the states at the step's start (n),
  * after the first stage (1) and before the last step (p):
- * xhat = xn x_n + x1 x_1 + xp x_p + xv hbar v_n + xa hbar^2 a_n,
- * vhat = xn v_n + x1 v_1 + xp v_p + (xv + va) hbar a_n.
+ *   xhat = xn x_n + x1 x_1 + xp x_p + xv hbar v_n + xa hbar^2 a_n,
+ *   vhat = xn v_n + x1 v_1 + xp v_p + (xv + va) hbar a_n.
  * The velocity is (y - xhat)/hbar. inertia above 0 is a factor of the mass: the acceleration is
  * inertia (velocity - vhat)/hbar. */
 typedef struct sw_stage_row {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Eliminates some rows of a symmetric matrix, from the last one to the first. The lower half then
  * becomes the factor row by row: A = L' D L. A row holds its columns among the unknowns that stay
- * ("before"), padded, and then its columns among the eliminated rows. A ring is such a front, and
- * so is each piece of a sparse matrix. */
+ * ("before"), padded, and then its columns among the eliminated rows. A ring is a front, and so is
+ * each piece of a sparse matrix. */
 #ifndef SW_SOLVE_BLOCKS_FRONT_H
 #define SW_SOLVE_BLOCKS_FRONT_H
 

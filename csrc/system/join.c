@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An arm of a hub is the vector a with direction p; r = R d. Its energy k (1 - p.r) has the
  * derivative -k u/|a| with u = r - (p.r) p, and the second derivative
- * k (p u' + u p' + (p.r)(I - p p'))/|a|^2.
+ *   k (p u' + u p' + (p.r)(I - p p'))/|a|^2.
  * A further turn w of the hub has the coupling k (I - p p')[r x]/|a| with the arm, and with itself
  * the sum of k ((p.r) I - (p r' + r p')/2). It is eliminated, since it has no inertia. */
 #include "system/join.h"

@@ -31,7 +31,7 @@ void sw_roll_load(const sw_system *system, const sw_body *body, double *right);
  * to y. */
 void sw_roll_store(const sw_system *system, const sw_body *body, double *y);
 
-/* out = turns in y minus the frames' turns, i.e. what is left to turn [rad]. */
+/* out = turns in y minus the frames' turns, the angle left to turn [rad]. */
 void sw_roll_rest(const sw_system *system, const sw_body *body, const double *y, double *out);
 
 /* Returns the state's kinetic energy of turning [J]. */

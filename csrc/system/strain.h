@@ -32,8 +32,7 @@ void sw_strain_end_stage(sw_system *system);
 void sw_strain_show_held(const sw_system *system, const double *y, double rate, double *v);
 void sw_strain_show_held_rates(const sw_system *system, double *v);
 
-/* Shows a body's field what is known of edges at its clamps. past: in a stage. rates: at a state.
- */
+/* Sets what a body's field knows about edges at its clamps. past: in a stage. rates: at a state. */
 void sw_strain_show_past(const sw_system *system, sw_body *body);
 void sw_strain_show_rates(sw_system *system, sw_body *body);
 
