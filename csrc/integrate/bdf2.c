@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two-step backward differentiation with equal steps: second order, L-stable;
- * sdirk2 takes the first step and every step whose size changed. */
+/* Two-step backward differentiation with equal steps: second order, L-stable. sdirk2 takes the
+ * first step and every step whose size changed. */
 #include "integrate/integrate.h"
 
 const sw_integrator sw_integrator_bdf2 = {

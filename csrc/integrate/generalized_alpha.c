@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Generalized-alpha method (Chung & Hulbert 1993): forces at the share 1 - f of the step,
- * accelerations at 1 - m, Newmark's beta and gamma for the rest, such that what is too fast for the
- * steps keeps RHO of its size in each and what is slow is damped as little as that allows:
- * m = (2 RHO - 1)/(RHO + 1), f = RHO/(RHO + 1), gamma = 1/2 - m + f, beta = (1 - m + f)^2/4.
- * With y, w and A the position, velocity and acceleration that the forces go with
+/* Generalized-alpha method (Chung & Hulbert 1993). Forces are taken at the share 1 - f of the step,
+ * accelerations at 1 - m, with Newmark's beta and gamma for the rest. Motions too fast for the
+ * steps keep the share RHO of their size in each step; slow ones are damped as little as that
+ * allows:
+ *   m = (2 RHO - 1)/(RHO + 1), f = RHO/(RHO + 1), gamma = 1/2 - m + f, beta = (1 - m + f)^2/4.
+ * With y, w and A the position, velocity and acceleration at which the forces act
  *   y = yhat + C A, w = what + D A, C = (1 - f) beta h^2/(1 - m), D = (1 - f) gamma h/(1 - m),
  *   yhat = x_n + (1 - f) h v_n + (1 - f) h^2 (1/2 - beta - beta m/(1 - m)) a_n,
  *   what = v_n + (1 - f) h (1 - gamma - gamma m/(1 - m)) a_n.

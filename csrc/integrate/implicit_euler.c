@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Backward Euler: first order, damps everything; the most forgiving. */
+/* Backward Euler: first order, damps everything; the most robust method. */
 #include "integrate/integrate.h"
 
 const sw_integrator sw_integrator_implicit_euler = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implicit midpoint: second order, no damping at all; conserves quadratic
- * invariants, gains energy in contact. */
+/* Implicit midpoint: second order, no damping; conserves quadratic invariants, gains energy in
+ * contact. */
 #include "integrate/integrate.h"
 
 const sw_integrator sw_integrator_implicit_midpoint = {

@@ -34,7 +34,7 @@ static const sw_newton DYNAMIC_NEWTON = {
 
 sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, sw_system *system) {
   memset(p, 0, sizeof *p);
-  system->first.x = NULL; /* of a stepper that was */
+  system->first.x = NULL; /* a pointer of the previous stepper */
   p->method = method;
   p->start = method->start ? sw_integrator_find(method->start) : method;
   p->n = system->freedoms;
@@ -64,7 +64,7 @@ sw_status sw_stepper_new(sw_stepper *p, const sw_integrator *method, sw_system *
   p->first = p->tension + m;
   p->pulled[0] = p->first + m, p->pulled[1] = p->pulled[0] + m;
   if (!strains) return SW_OK;
-  p->strain_before = w + arrays * p->n; /* beside vp: both go to snapshots */
+  p->strain_before = w + arrays * p->n; /* next to vp: both go to snapshots */
   p->tension = p->strain_before + strains, p->strain_past = p->tension + m;
   p->strain[0] = p->strain_past + strains, p->strain[1] = p->strain[0] + strains;
   p->strain_rate = p->strain[1] + strains;
@@ -96,7 +96,8 @@ static void add(size_t n, double a, const double *restrict x, double *restrict o
   for (size_t i = 0; i < n; i++) out[i] += a * x[i];
 }
 
-/* Reads only what the row uses; two sources, the usual number, take one pass. */
+/* Computes the stage's xhat and vhat. Reads only what the row uses; two sources, the usual number,
+ * take one pass. */
 static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
                           double hbar) {
   const struct {
@@ -123,7 +124,7 @@ static void prepare_stage(const sw_stepper *p, const sw_stage_row *row, const sw
   combine(p->n, row->xn, s->v, 0, s->v, p->vhat);
 }
 
-/* The same for strains; the stage begins with the guess that they change as fast as before. */
+/* The same for strains. The guess for the stage: strains change as fast as before. */
 static void prepare_strains(const sw_stepper *p, const sw_stage_row *row, const sw_system *s,
                             double hbar, double *guess) {
   const size_t m = s->strains;
@@ -151,7 +152,7 @@ static void extend(size_t n, double reach, const double *from, double *out) {
   for (size_t i = 0; i < n; i++) out[i] = reach * out[i] + (1.0 - reach) * from[i];
 }
 
-/* From the only stage to the end of the step. */
+/* Extrapolates from the only stage to the end of the step. */
 static sw_status go_onwards(sw_stepper *p, const sw_integrator *m, sw_system *s, double end,
                             sw_error *err) {
   extend(p->n, m->reach, s->x, p->y[0]);
@@ -165,8 +166,8 @@ static sw_status go_onwards(sw_stepper *p, const sw_integrator *m, sw_system *s,
   return sw_system_place_holds(s, end, p->y[0], p->w[0], NULL, err);
 }
 
-/* What the axial forces did to momenta since the step's start: the stages make it up as they make
- * up the velocity. Before a stage is solved, and after. */
+/* Integral of the axial forces over time since the step's start. The stages combine it as they
+ * combine the velocity. Before a stage is solved, and after. */
 static void begin_pull(const sw_stepper *p, size_t k, const sw_stage_row *row, const sw_system *s,
                        double hbar) {
   double *sum = p->pulled[k];
@@ -179,7 +180,7 @@ static void end_pull(const sw_stepper *p, size_t k, const sw_system *s, double h
   sw_system_add_pull(s, s->tension, p->strain_rate, hbar, p->pulled[k]);
 }
 
-/* The mean over the step. Methods that look back would have to know that of the step before. */
+/* Computes the mean over the step. Methods that look back would need that of the previous step. */
 static void find_mean(sw_stepper *p, const sw_integrator *m, const sw_system *s, double h) {
   double *sum = p->pulled[m->stages - 1];
   const double share = m->flags & SW_INTEGRATOR_ONWARDS ? m->reach : 1.0;
@@ -245,9 +246,9 @@ static sw_status implicit_trial(sw_stepper *p, const sw_integrator *m, sw_system
   return SW_OK;
 }
 
-/* Shares of the velocities at the start and after each stage in the error of the last trial; NULL:
- * none. Implicit Euler, which dull steps are taken with, is off by half the change of velocities.
- */
+/* Returns the weights of the velocities at the start and after each stage in the error of the last
+ * trial; NULL: no estimate. Implicit Euler, which takes the steps of impacts without bounce, has
+ * half the change of velocities. */
 static const double *shares_of_error(const sw_stepper *p) {
   static const double EULER[SW_STAGES_MAX + 1] = {-0.5, 0.5};
   if (!p->used || !(p->method->flags & SW_INTEGRATOR_EMBEDDED)) return NULL;
@@ -255,15 +256,15 @@ static const double *shares_of_error(const sw_stepper *p) {
   return p->used->stages == 1 ? EULER : NULL;
 }
 
-/* h times this is the error, of one component [m/s]. */
+/* Returns the error of one component divided by h [m/s]. */
 static double off_by(const sw_stepper *p, const double *shares, const sw_system *s, size_t i) {
   double e = shares[0] * s->v[i];
   for (size_t k = 0; k < p->used->stages; k++) e += shares[1 + k] * p->w[k][i];
   return e;
 }
 
-/* Spins go along: they are bound to the nodes' motion by friction, or by twist, which is much
- * faster than a step. */
+/* Spins are not judged: friction or twist binds them to the nodes' motion, much faster than a step.
+ */
 double sw_stepper_error(const sw_stepper *p, const sw_system *s, size_t first, size_t end) {
   const double *shares = shares_of_error(p);
   double largest = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL's explicit steppers as members: the state (x, v) as one first-order
- * system, one GSL step of fixed size per step. A user error in a force stops
- * GSL with GSL_EBADFUNC and comes back unchanged. */
+/* GSL's explicit steppers as members. The state (x, v) is one first-order system; each step is one
+ * GSL step of fixed size. A user error in a force stops GSL with GSL_EBADFUNC and is returned
+ * unchanged. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <string.h>
@@ -9,15 +9,15 @@
 #include "base/alloc.h"
 #include "integrate/integrate.h"
 
-enum { MOST_CALLS = 32 }; /* of the right side in a step [-] */
+enum { MOST_CALLS = 32 }; /* of the right-hand side in a step [-] */
 
-/* GSL's stepper, and how much each call of the right side counts in a step [-]. */
+/* GSL's stepper, and the weight of each call of the right-hand side in a step [-]. */
 typedef struct outside {
   gsl_odeiv2_step *step;
   double weight[MOST_CALLS];
 } outside;
 
-/* What GSL's callback needs. */
+/* Data for GSL's callback. */
 typedef struct bridge {
   sw_stepper *stepper;
   sw_system *system;
@@ -27,7 +27,7 @@ typedef struct bridge {
   size_t calls;
 } bridge;
 
-/* Number k of its values grows at a rate of 1 in call k alone. */
+/* Right-hand side for weigh: value number k grows at a rate of 1 in call k only. */
 static int pulses(double t, const double y[], double dydt[], void *user) {
   size_t *calls = user;
   (void)t, (void)y;
@@ -37,7 +37,8 @@ static int pulses(double t, const double y[], double dydt[], void *user) {
   return GSL_SUCCESS;
 }
 
-/* The methods are Runge-Kutta's: a step adds up the calls, each with a weight of its own. */
+/* Finds the weights of the calls: the methods are Runge-Kutta methods, so a step is a weighted sum
+ * of the calls. Returns 0 without memory. */
 static int weigh(outside *o, const gsl_odeiv2_step_type *type) {
   double error[MOST_CALLS];
   size_t calls = 0;
@@ -89,7 +90,7 @@ static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double
     return SW_ENOMEM;
   }
   outside *o = p->outside;
-  double *y = p->extra[0], *error = p->extra[2]; /* each 2 n: two work arrays in a row */
+  double *y = p->extra[0], *error = p->extra[2]; /* each 2 n: two work arrays */
   bridge b = {p, s, SW_OK, err, h, 0};
   const gsl_odeiv2_system system = {derivative, NULL, 2 * p->n, &b};
   memcpy(y, x, p->n * sizeof *y);
@@ -116,9 +117,9 @@ static sw_status advance(sw_stepper *p, sw_system *s, double t, double h, double
       .advance = advance_##id,                                                              \
   };
 
-/* Limits by their stability polynomials on the imaginary axis. GSL's rk2 is a method of third
- * order, its rk4 takes two half steps. The last three let an undamped swing grow a little at every
- * step: their limits allow a hundredfold in 20000 steps. */
+/* Limits from the stability polynomials on the imaginary axis. GSL's rk2 is a method of third
+ * order; its rk4 takes two half steps. The last three let an undamped oscillation grow a little at
+ * every step: at their limits it grows a hundredfold in 20000 steps. */
 MEMBER(rk2, "rk2", gsl_odeiv2_step_rk2, 3, 1.7320508075688772)
 MEMBER(rk4, "rk4", gsl_odeiv2_step_rk4, 4, 5.6568542494923804)
 MEMBER(rkf45, "rkf45", gsl_odeiv2_step_rkf45, 5, 0.827)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* TR-BDF2 (Bank et al. 1985): the trapezoid over gamma h, then BDF2, with
- * gamma = 2 - sqrt 2 so that both stages have the same matrix. Second order,
- * L-stable, little damping of what it resolves. The trapezoid needs the
- * acceleration at the step's start; after a discontinuity sdirk2 takes one step.
- * Its error is that of the trapezoid and BDF2 with the three velocities. */
+/* TR-BDF2 (Bank et al. 1985): the trapezoidal rule over gamma h, then BDF2, with gamma = 2 - sqrt 2
+ * so that both stages have the same matrix. Second order, L-stable, little damping of what it
+ * resolves. The trapezoidal rule needs the acceleration at the step's start, so sdirk2 takes one
+ * step after a discontinuity. The error estimate is that of the trapezoidal rule and BDF2, from the
+ * three velocities. */
 #include "integrate/integrate.h"
 
 #define GAMMA 0.58578643762690495 /* 2 - sqrt 2 */

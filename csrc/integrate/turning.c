@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a method makes of steady turning. An axially stiff edge that turns is drawn to its centre by
- * an axial force that the stages find from how far free flight carries it outwards. Methods whose
- * stages are of first order find a multiple of it that no smaller step mends: sdirk2 -0.7 and 5.1
- * times the force, and the first step after a start 0.5 and 3.4 times; a force that has nothing to
- * do with turning they find as it is. Both multiples follow from the rows of the method, by taking
- * a place that turns at unit acceleration through them, and so does the share of both stages'
- * forces in which the multiple is one. */
+/* Follows a method through steady turning. An axially stiff edge that turns is pulled to its centre
+ * by an axial force. The stages find this force from the distance that free flight carries the edge
+ * outwards. Methods with stages of first order find a wrong multiple of it, whatever the step size:
+ * sdirk2 -0.7 and 5.1 times the force, and in the first step after a start 0.5 and 3.4 times.
+ * Forces that do not come from turning are found correctly. Both multiples follow from the rows of
+ * the method, applied to a place that turns at unit acceleration. So does the mix of both stages'
+ * forces whose multiple is one. */
 #include "integrate/turning.h"
 
 #include <math.h>
 
-/* Multiples nearer to one are left as they are, nearer to each other tell nothing [-]. */
+/* Multiples within CLOSE of one are left as they are; multiples within ALIKE of each other give no
+ * mix [-]. */
 static const double CLOSE = 0.05, ALIKE = 0.5;
 
-/* Towards the centre, of a unit acceleration: how far [s2] and how fast [s]. */
+/* Displacement [s2] and velocity [s] towards the centre, for a unit acceleration. */
 typedef struct place {
   double r, u;
 } place;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination from both ends of the chain at once: lane 0 of each pair goes up from node 0, lane 1
- * down from node n - 1; the two middle nodes come last. One vector holds both chains, which halves
- * the work, and neither waits for the other's divisions. */
+/* Eliminates from both ends of the chain at once: lane 0 of each pair goes up from node 0, lane 1
+ * down from node n - 1; the two middle nodes come last. One vector holds both chains. This halves
+ * the work, and neither chain waits for the other's divisions. */
 #include "solve/band3.h"
 
 #include <math.h>
@@ -13,13 +13,13 @@
 typedef double pair __attribute__((vector_size(16)));
 typedef long long mask __attribute__((vector_size(16)));
 
-/* Updates that eliminated nodes left for the next two of each chain. */
+/* Updates left by eliminated nodes for the next two nodes of each chain. */
 typedef struct pending {
   pair own[6], own_after[6], next[9];
 } pending;
 
-/* An eliminated pair with its own block L D L': the inverse of D and L, in the places of the
- * diagonal and of xy xz yz; then (L D)^-1 times next and second. */
+/* An eliminated pair. Its own block as L D L': the inverse of D in the places of the diagonal, L in
+ * those of xy xz yz; then (L D)^-1 times next and second. */
 typedef struct kept {
   pair split[6], v1[9], v2[9];
 } kept;
@@ -32,13 +32,13 @@ typedef struct signs {
 /* Pairs before the middle two nodes; n >= 2. */
 static size_t pairs_of(size_t n) { return (n - 1) / 2; }
 
-/* 1 when the first pair has no lane 1. */
+/* 1 if the first pair has no lane 1. */
 static size_t odd_of(size_t n) { return n % 2; }
 
 static inline pair of(double a, double b) { return (pair){a, b}; }
 
-/* L D L' of symmetric blocks. (Updates with their inverses would lose the square of the ratio of
- * axial to bending stiffness.) */
+/* L D L' of symmetric blocks. (Updates with inverses of blocks would lose the square of the ratio
+ * of axial to bending stiffness.) */
 static inline void split(const pair d[6], pair out[6], signs *s) {
   const pair r0 = 1.0 / d[0], l1 = d[1] * r0, l2 = d[2] * r0;
   const pair s3 = d[3] - l1 * d[1], s4 = d[4] - l1 * d[2], s5 = d[5] - l2 * d[2];
@@ -59,7 +59,7 @@ static inline void divide(const pair s[6], const pair u[9], pair w[9], pair v[9]
   }
 }
 
-/* d -= w' v, upper half of a product known to be symmetric. */
+/* d -= w' v, upper half; the product is known to be symmetric. */
 static inline void subtract_symmetric(pair d[6], const pair w[9], const pair v[9]) {
   d[0] -= w[0] * v[0] + w[3] * v[3] + w[6] * v[6];
   d[1] -= w[0] * v[1] + w[3] * v[4] + w[6] * v[7];
@@ -78,8 +78,8 @@ static inline void subtract_product(pair m[9], const pair w[9], const pair v[9])
 
 static const int TRANSPOSED[9] = {0, 3, 6, 1, 4, 7, 2, 5, 8};
 
-/* Blocks of the pair (i, j): node i seen upwards, node j downwards. Without a
- * lane 1 (j >= n) that lane is the identity. */
+/* Loads the blocks of the pair (i, j): node i as seen upwards, node j downwards. Without a lane 1
+ * (j >= n) that lane is the identity. */
 static inline void load(const double *a, size_t n, size_t i, size_t j, pair own[6], pair u1[9],
                         pair u2[9]) {
   static const double identity[6] = {1, 0, 0, 1, 0, 1};
@@ -93,7 +93,7 @@ static inline void load(const double *a, size_t n, size_t i, size_t j, pair own[
   for (int k = 0; k < 9; k++) u2[k] = of(up[SW_ROW_SECOND + k], second[TRANSPOSED[k]]);
 }
 
-/* A pair's factor goes where its two rows were: half to each. */
+/* Stores a pair's factor in the place of its two rows, half in each. */
 static inline void store(double *factor, size_t n, size_t i, size_t j, const kept *f) {
   const pair *p = f->split;
   double *up = factor + SW_ROW_SIZE * i;
@@ -116,7 +116,7 @@ static inline void recall(const double *factor, size_t n, size_t i, size_t j, ke
   }
 }
 
-/* The two middle nodes, with the updates of both chains. */
+/* Factorises the two middle nodes, with the updates of both chains. */
 static void factor_middle(const double *a, size_t p, const pending *left, double *factor,
                           signs *s) {
   const double *ra = a + SW_ROW_SIZE * p, *rb = ra + SW_ROW_SIZE;
@@ -169,7 +169,7 @@ sw_status sw_band3_factor(const double *a, size_t n, double *factor, size_t *neg
   return s.bad[0] | s.bad[1] ? SW_ESINGULAR : SW_OK;
 }
 
-/* A pair's factor as it lies in its two rows, and the pair's place in a vector of nodes. */
+/* A pair's factor in the place of its two rows. */
 typedef double loose __attribute__((vector_size(16), aligned(8), may_alias));
 typedef struct rows {
   const double *up, *down;
@@ -182,7 +182,7 @@ static inline pair part(rows f, int k) {
   return *(const loose *)(k < half ? f.up + 2 * k : f.down + 2 * (k - half));
 }
 
-/* Each pair waits for the one before, so terms are subtracted one by one, in the order of their
+/* Each pair waits for the previous one, so terms are subtracted one by one, in the order of their
  * computation. */
 
 /* b -= w' z, z[2] known last */
@@ -197,8 +197,8 @@ static inline void subtract_times(pair b[3], rows f, int w, const pair z[3]) {
     for (int j = 0; j < 3; j++) b[j] -= part(f, w + 3 * j + i) * z[i];
 }
 
-/* Elimination of a pair: z is the rest of its right side; first and second are the updates of the
- * next two pairs. */
+/* Eliminates a pair: z becomes the rest of its right-hand side; first and second are the updates of
+ * the next two pairs. */
 static inline void forward(rows f, pair z[3], pair first[3], pair second[3]) {
   for (int c = 0; c < 3; c++) z[c] += first[c], first[c] = second[c], second[c] = of(0.0, 0.0);
   z[2] -= part(f, SPLIT + 2) * z[0];
@@ -208,7 +208,8 @@ static inline void forward(rows f, pair z[3], pair first[3], pair second[3]) {
   subtract_transposed(second, f, V2, z);
 }
 
-/* And back: x1 and x2 are the solution at the next two of each chain, and then of this one. */
+/* Back substitution: x1 and x2 are the solution at the next two nodes of each chain, and then at
+ * this one and the next. */
 static inline void backward(rows f, pair z[3], pair x1[3], pair x2[3]) {
   z[0] *= part(f, SPLIT), z[1] *= part(f, SPLIT + 3), z[2] *= part(f, SPLIT + 5);
   subtract_times(z, f, V2, x2);
@@ -240,7 +241,7 @@ static void solve_middle(const double *factor, double *b, size_t p, const pair f
   x[0] -= fa[1] * x[1] + fa[2] * x[2];
 }
 
-/* The first pair of an odd number of nodes has no lane 1. */
+/* Loads the first pair of an odd number of nodes, which has no lane 1. */
 static rows alone(const double *factor, kept *room) {
   const double *flat = (const double *)room;
   recall(factor, 3, 0, 3, room);

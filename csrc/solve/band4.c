@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination from both ends of the chain at once, as in band3. A block's row of four is one
- * vector. An eliminated node keeps L D L' of its own block: L' in the first three rows beyond the
- * diagonal of ones, the inverse of D in the last one. It also keeps (L D)^-1 times its blocks to
+/* Eliminates from both ends of the chain at once, as in band3. A block's row of four is one vector.
+ * An eliminated node keeps L D L' of its own block: L' in the first three rows right of the
+ * diagonal of ones, the inverse of D in the last row. It also keeps (L D)^-1 times its blocks to
  * the next two nodes of its chain; downwards these are the two nodes before it. (Inverses of blocks
  * would lose the square of the ratio of axial to bending stiffness.) */
 #include "solve/band4.h"
@@ -31,15 +31,15 @@ static inline void transpose(const quad a[4], quad out[4]) {
 
 typedef struct signs {
   lanes negative; /* minus the count of each step's pivots */
-  lanes bad;      /* a pivot vanished or was no number */
+  lanes bad;      /* a pivot vanished or was not a number */
 } signs;
 
-/* Lanes after one. */
+/* The lanes after lane k. */
 static const lanes AFTER[4] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}, {0, 0, 0, 0}};
 
 static inline quad only(quad x, lanes which) { return (quad)((lanes)x & which); }
 
-/* A symmetric block's upper half as L D L'. */
+/* Factorises a symmetric block's upper half as L D L'. */
 static inline void split(quad d[4], signs *s) {
   quad inverses = {0};
   for (int p = 0; p < 4; p++) {
@@ -59,7 +59,7 @@ static size_t count_of(const lanes *minus) {
   return (size_t)(-(*minus)[0] - (*minus)[1] - (*minus)[2] - (*minus)[3]);
 }
 
-/* u to L^-1 u, and that times D^-1 to v. */
+/* u becomes L^-1 u, and v D^-1 times that. */
 static inline void divide(const double *s, quad u[4], quad v[4]) {
   u[1] -= s[1] * u[0];
   u[2] -= s[2] * u[0] + s[6] * u[1];
@@ -81,7 +81,7 @@ static inline void get(const double *from, quad m[4]) {
   for (int k = 0; k < 4; k++) m[k] = look(from)[k];
 }
 
-/* Eliminate the node of this row upwards, after its own block was split. */
+/* Eliminates the node of this row upwards, after its own block was split. */
 static inline void go_up(double *row) {
   double *u1 = row + SW_ROW4_NEXT, *u2 = row + SW_ROW4_SECOND, *after = row + SW_ROW4_SIZE;
   quad w1[4], w2[4], v1[4], v2[4];
@@ -98,7 +98,7 @@ static inline void go_up(double *row) {
   put(u2, v2);
 }
 
-/* The same downwards: its blocks to the nodes before it stand in their rows. */
+/* The same downwards: its blocks to the nodes before it are stored in their rows. */
 static inline void go_down(double *row) {
   double *before = row - SW_ROW4_SIZE, *first = before - SW_ROW4_SIZE;
   double *u1 = row + SW_ROW4_NEXT, *u2 = row + SW_ROW4_SECOND;
@@ -118,10 +118,10 @@ static inline void go_down(double *row) {
   put(u2, v2);
 }
 
-/* Nodes of each chain; two are left, and node 0 if n is odd. */
+/* Number of nodes of each chain; two are left, and node 0 if n is odd. */
 static size_t pairs_of(size_t n) { return (n - 2) / 2; }
 
-/* The two nodes in the middle. */
+/* Factorises the two nodes in the middle. */
 static void factor_middle(double *row, signs *s) {
   double *next = row + SW_ROW4_NEXT;
   quad d[4], w[4], v[4];

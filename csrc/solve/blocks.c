@@ -5,7 +5,7 @@
 #include "solve/blocks_sparse.h"
 #include "solve/rings.h"
 
-/* One of the two. */
+/* One of the two is set. */
 struct sw_blocks {
   sw_rings *rings;
   sw_blocks_sparse *sparse;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Panels of 6 rows wait until all rows below them are done. Then a tile of 6 x 8 numbers collects
- * in registers all that these rows subtract, and is divided by its panel's own part before it is
- * stored: every number is written once. */
+/* Panels of 6 rows wait until all rows below them are done. Then a tile of 6 x 8 numbers in
+ * registers collects everything that these rows subtract, and is divided by its panel's own part
+ * before it is stored. So each number is written once. */
 #include "solve/blocks_front.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi" /* vectors stay inside this file */
 typedef double quad __attribute__((vector_size(32), aligned(8)));
 enum { TILE = SW_FRONT_TILE, PANEL = SW_FRONT_PANEL, KEPT = SW_FRONT_KEPT };
-enum { COLUMNS = 384 }; /* of SW_FRONT_ROWS rows: these stay in a second-level cache */
+enum { COLUMNS = 384 }; /* of SW_FRONT_ROWS rows: this many stay in a second-level cache */
 #define ALWAYS static inline __attribute__((always_inline))
 
 ALWAYS quad *at(double *p) { return (quad *)(void *)p; }
@@ -37,7 +37,7 @@ ALWAYS void load(quad tile[][2], const double *a, size_t stride, const int rows)
   for (int i = 0; i < rows; i++, a += stride) tile[i][0] = look(a)[0], tile[i][1] = look(a)[1];
 }
 
-/* A panel's tile at a column of its row, less the parts of all rows below the panel. */
+/* Loads a panel's tile at a column and subtracts the parts of all rows below the panel. */
 ALWAYS void gather(const sw_front *f, quad tile[][2], size_t panel, size_t column, const int own,
                    const int rows) {
   const size_t s = f->stride, below = panel + (size_t)rows;
@@ -48,7 +48,7 @@ ALWAYS void gather(const sw_front *f, quad tile[][2], size_t panel, size_t colum
            f->n - below, s, rows);
 }
 
-/* The panel's own part: L' D L of it. */
+/* Factorises the panel's own part: L' D L. */
 ALWAYS void split(sw_front *f, size_t panel, const int rows) {
   quad tile[PANEL][2];
   double m[PANEL][TILE];
@@ -68,7 +68,7 @@ ALWAYS void split(sw_front *f, size_t panel, const int rows) {
   }
 }
 
-/* One tile of the panel's rows of L and D L. */
+/* Computes one tile of the panel's rows of L and D L. */
 ALWAYS void finish(sw_front *f, size_t panel, size_t column, const int own, const int rows) {
   const double *kept = f->kept + KEPT * panel;
   const size_t place = panel * f->stride + column;
@@ -92,7 +92,7 @@ ALWAYS void finish(sw_front *f, size_t panel, size_t column, const int own, cons
 ALWAYS void eliminate(sw_front *f, size_t panel, const int rows) {
   split(f, panel, rows);
   for (size_t j = 0; j < panel; j += TILE) finish(f, panel, f->place + j, 1, rows);
-  /* end of the last tile within the panel and beyond, which solving runs over */
+  /* the rest of the last tile, in the panel and beyond, which solving reads */
   const size_t beyond = sw_front_pad(panel) - panel;
   for (size_t k = panel; k < panel + (size_t)rows; k++)
     memset(f->factor + k * f->stride + f->place + panel, 0, beyond * sizeof *f->factor);
@@ -116,8 +116,8 @@ void sw_front_eliminate(sw_front *f) {
   }
 }
 
-/* to: some rows of a lower half, tiles from begin to end; d: what the front's rows hold of
- * these. */
+/* Subtracts from some rows of a lower half, in tiles from begin to end. to: the rows; d: the
+ * front's columns for these rows. */
 ALWAYS void take(const sw_front *f, const double *d, double *to, size_t stride, size_t begin,
                  size_t end, const int rows) {
   for (size_t j = begin; j < end; j += TILE) {
@@ -131,7 +131,7 @@ ALWAYS void take(const sw_front *f, const double *d, double *to, size_t stride, 
   }
 }
 
-/* Subtract the products of the front's rows from count rows of a matrix, which stand for its
+/* Subtracts the products of the front's rows from count rows of a matrix, which belong to its
  * columns from `first` on: the lower half, up to full tiles. */
 SW_HOT
 static void take_all(const sw_front *f, size_t first, double *to, size_t stride, size_t count) {
@@ -151,7 +151,7 @@ static void take_all(const sw_front *f, size_t first, double *to, size_t stride,
 
 void sw_front_reduce(sw_front *f, double *rest, size_t rows) {
   for (size_t begin, end = f->n; end > 0; end = begin) {
-    if (sw_interrupted()) return; /* whoever asked looks too */
+    if (sw_interrupted()) return; /* the caller checks too */
     begin = (end - 1) / SW_FRONT_ROWS * SW_FRONT_ROWS;
     sw_front part = *f;
     part.n = end - begin;

@@ -16,8 +16,8 @@ void sw_blocks_sparse_free(sw_blocks_sparse *s) {
   SW_FREE_ALL(s->first, s->column, s->under, s->values, s);
 }
 
-/* Blocks of the lower half by a sort into columns and then, of these, into rows: both lists
- * then ascend. order: (count + nodes) indices of pairs. */
+/* Sorts the blocks of the lower half into columns and then these into rows, so that both lists
+ * ascend. order: (count + nodes) indices of pairs. */
 static void sort_by_column(size_t nodes, const sw_blocks_pair *pairs, size_t count, uint32_t *start,
                            uint32_t *order) {
   for (size_t k = 0; k < count; k++) {
@@ -31,7 +31,8 @@ static void sort_by_column(size_t nodes, const sw_blocks_pair *pairs, size_t cou
   }
 }
 
-/* Rows with their columns, repeats together: column (count + nodes) and first (nodes + 1). */
+/* Lists rows with their columns, repeats next to each other: column (count + nodes) and first
+ * (nodes + 1). */
 static void sort_by_row(size_t nodes, const sw_blocks_pair *pairs, size_t count,
                         const uint32_t *order, uint32_t *first, uint32_t *column) {
   for (size_t k = 0; k < count; k++) {
@@ -46,12 +47,12 @@ static void sort_by_row(size_t nodes, const sw_blocks_pair *pairs, size_t count,
   }
   for (size_t i = nodes; i-- > 0;) {
     column[first[i]] = (uint32_t)i;
-    first[i + 1] = first[i] + 1; /* where this row ends, and the next one began */
+    first[i + 1] = first[i] + 1; /* where this row ends and the next one began */
   }
   first[0] = 0;
 }
 
-/* Leave out repeats. */
+/* Removes repeats. */
 static void unite(size_t nodes, uint32_t *first, uint32_t *column) {
   uint32_t filled = 0, from = 0;
   for (size_t i = 0; i < nodes; i++) {
@@ -74,7 +75,7 @@ static sw_status find_pattern(sw_blocks_sparse *s, const sw_blocks_pair *pairs, 
   return SW_OK;
 }
 
-/* The blocks below each node's own one. */
+/* Lists the blocks below each node's own block. */
 static sw_status find_below(sw_blocks_sparse *s) {
   const size_t n = s->nodes, blocks = s->first[n];
   s->under = sw_alloc(n + 2 + 2 * blocks, sizeof *s->under);
@@ -146,7 +147,7 @@ static inline void add_mirrored(const double *a, const double *x, double *y) {
   for (int i = 0; i < 3; i++) y[i] += a[i] * x[0] + a[3 + i] * x[1] + a[6 + i] * x[2];
 }
 
-/* The same for a node's own block, of which the lower half counts. */
+/* The same for a node's own block, of which only the lower half is read. */
 static inline void add_own(const double *a, const double *x, double *y) {
   y[0] += a[0] * x[0] + a[3] * x[1] + a[6] * x[2];
   y[1] += a[3] * x[0] + a[4] * x[1] + a[7] * x[2];

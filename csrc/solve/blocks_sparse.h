@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symmetric matrices of 3 x 3 blocks with any pattern, as in solve/blocks.h: the blocks of the
- * lower half row by row, in the order of their columns. */
+/* Symmetric matrices of 3 x 3 blocks with any pattern, as in solve/blocks.h. Stores the blocks of
+ * the lower half row by row, with ascending columns. */
 #ifndef SW_SOLVE_BLOCKS_SPARSE_H
 #define SW_SOLVE_BLOCKS_SPARSE_H
 
@@ -15,8 +15,8 @@ typedef struct sw_blocks_sparse {
   size_t nodes;
   uint32_t *first;  /* (nodes + 1) a node's first block; its own block is the last one */
   uint32_t *column; /* (blocks) nodes, ascending in each row */
-  uint32_t *under;  /* (nodes + 1) a node's first block in later rows */
-  uint32_t *below;  /* (blocks x 2) row and number of these */
+  uint32_t *under;  /* (nodes + 1) index in below of a node's first block in later rows */
+  uint32_t *below;  /* (blocks x 2) row and number of these blocks */
   double *values;   /* (blocks x 9) */
   sw_tree *tree;
 } sw_blocks_sparse;

@@ -8,23 +8,23 @@
 #include "solve/blocks_front.h"
 #include "solve/cholmod_adapter.h"
 
-/* A front's rows are nodes, ascending: those that it leaves (rest), then its own. */
+/* A front. Its rows are nodes, ascending: those that it leaves (rest), then its own. */
 typedef struct piece {
-  uint32_t row;          /* where its list of rows begins */
+  uint32_t row;          /* start of its list of rows */
   uint32_t rest, own;    /* counts */
-  uint32_t child, other; /* its last child; the child before it of the same parent; NONE */
+  uint32_t child, other; /* its last child; the previous child of the same parent; or NONE */
   size_t before, stride; /* as in sw_front */
-  size_t factor;         /* where its factor begins */
-  size_t left;           /* start of its remainder among the others' */
+  size_t factor;         /* start of its factor */
+  size_t left;           /* start of its remainder in left */
 } piece;
 
 #define NONE UINT32_MAX
 
-/* A block of the matrix, in the rows of the node eliminated first. */
+/* A block of the matrix, in the rows of the node that is eliminated first. */
 typedef struct entry {
   uint32_t block;
-  uint32_t other;  /* its columns' number */
-  uint32_t turned; /* 1: the block stands the other way round */
+  uint32_t other;  /* number of the node of its columns */
+  uint32_t turned; /* 1: the block is stored transposed */
 } entry;
 
 struct sw_tree {
@@ -32,7 +32,7 @@ struct sw_tree {
   const uint32_t *first, *column;
   uint32_t *number;  /* (nodes) node -> its number */
   uint32_t *node;    /* (nodes) number -> node */
-  piece *piece;      /* (pieces) as they are eliminated */
+  piece *piece;      /* (pieces) in the order of elimination */
   uint32_t *row;     /* numbers */
   uint32_t *entries; /* (nodes + 1) a number's first entry */
   entry *entry;      /* (blocks) */
@@ -47,7 +47,7 @@ void sw_tree_free(sw_tree *t) {
 
 /* --- analysis ------------------------------------------------------------------- */
 
-/* Rows turned round, and who is whose child. */
+/* Reverses the order of rows, and finds each front's children. */
 static void find_pieces(sw_tree *t, const sw_cholmod_plan *plan) {
   const uint32_t last = (uint32_t)t->nodes - 1;
   uint32_t *owner = t->place; /* of each number */
@@ -88,13 +88,13 @@ static void find_entries(sw_tree *t) {
     }
 }
 
-/* Sizes of all memory [doubles]. */
+/* Sizes of all arrays [doubles]. */
 typedef struct sizes {
   size_t factor, scaled, left, before;
 } sizes;
 
-/* Remainders stand on two stacks, by turns from parent to child, so that a front is written while
- * its children's are read. Both are walked here once. */
+/* Remainders are on two stacks, which alternate from parent to child, so that a front is written
+ * while its children's are read. Walks through both once. */
 static void lay_out(sw_tree *t, sizes *size) {
   size_t top[2] = {0, 0}, most[2] = {0, 0};
   uint32_t *turn = t->place;
@@ -170,14 +170,14 @@ static sw_front front_of(const sw_tree *t, const piece *p) {
                     .scaled = t->scaled};
 }
 
-/* Columns of a front's nodes. */
+/* Finds the columns of a front's nodes. */
 static void find_places(const sw_tree *t, const piece *p) {
   const uint32_t *row = t->row + p->row;
   for (uint32_t k = 0; k < p->rest; k++) t->place[row[k]] = 3 * k;
   for (uint32_t k = 0; k < p->own; k++) t->place[row[p->rest + k]] = (uint32_t)p->before + 3 * k;
 }
 
-/* The matrix's part of a front's own rows. */
+/* Adds the matrix to a front's own rows. */
 static void add_entries(const sw_tree *t, const piece *p, const double *values,
                         const unsigned char *fixed) {
   for (uint32_t k = 0; k < p->own; k++) {
@@ -197,7 +197,7 @@ static void add_entries(const sw_tree *t, const piece *p, const double *values,
   }
 }
 
-/* One row of a child's remainder, up to its node number k, to the places of its nodes in the
+/* Adds one row of a child's remainder, up to its node number k, at the places of its nodes in the
  * parent. */
 static inline void add_row(const uint32_t *places, uint32_t k, const double *from, double *to) {
   for (uint32_t j = 0; j <= k;) {
@@ -209,7 +209,7 @@ static inline void add_row(const uint32_t *places, uint32_t k, const double *fro
   }
 }
 
-/* places: work, a column a node. */
+/* places: work space, one column per node. */
 static void add_child(const sw_tree *t, const piece *p, const piece *child, uint32_t *places) {
   const uint32_t *row = t->row + child->row;
   const double *from = t->left + child->left;

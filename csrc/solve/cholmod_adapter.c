@@ -14,7 +14,7 @@ static sw_status status_of(const cholmod_common *common) {
   }
 }
 
-/* CHOLMOD tries minimum degree first and nested dissection where that fills a lot. */
+/* CHOLMOD tries minimum degree first, then nested dissection if that fills a lot. */
 static sw_status analyse(size_t nodes, const uint32_t *first, const uint32_t *column,
                          const int32_t *order, cholmod_common *common, cholmod_factor **out) {
   const size_t blocks = first[nodes];
@@ -51,7 +51,7 @@ sw_status sw_cholmod_analyse(size_t nodes, const uint32_t *first, const uint32_t
   cholmod_factor *factor = NULL;
   cholmod_start(&common);
   common.print = 0;
-  common.metis_memory = 2.0; /* asked for on trial before METIS runs, which may end the process */
+  common.metis_memory = 2.0; /* allocated on trial before METIS runs, which may end the process */
   common.supernodal = CHOLMOD_SUPERNODAL;
   sw_status status = analyse(nodes, first, column, order, &common, &factor);
   if (status == SW_OK) {

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* The row from k on with the largest number in column k takes the place of row k; 1: another. */
+/* Swaps row k with the row from k on that has the largest number in column k; 1: it is another row.
+ */
 static int swap_rows(double *a, size_t n, double *b, size_t k) {
   size_t best = k;
   for (size_t i = k + 1; i < n; i++)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination order of Cuthill and McKee (1969), turned round (George 1971): wires of a bundle are
- * coupled all along it, and elimination that goes from one end to the other never holds more than a
- * few rows of nodes across, whichever of these are coupled. */
+/* Elimination order of Cuthill and McKee (1969), reversed (George 1971). Wires of a bundle are
+ * coupled all along it. An elimination from one end to the other never holds more than a few rows
+ * of nodes across, whichever of these are coupled. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -20,7 +20,7 @@ sw_status sw_sparse_neighbours(size_t n, const sw_sparse_pair *pairs, size_t cou
   return SW_OK;
 }
 
-/* Work of the search. */
+/* Work space of the search. */
 typedef struct walk {
   size_t n;
   int32_t *first, *next;
@@ -30,8 +30,8 @@ typedef struct walk {
 
 static int32_t degree(const walk *w, int32_t node) { return w->first[node + 1] - w->first[node]; }
 
-/* Neighbours of a node that were not seen yet, those with fewest of their own first. Returns where
- * the order ends. */
+/* Appends a node's unseen neighbours, those with fewest neighbours first. Returns the new end of
+ * the order. */
 static size_t add_neighbours(walk *w, int32_t node, size_t end) {
   const size_t begin = end;
   for (int32_t e = w->first[node]; e < w->first[node + 1]; e++) {
@@ -46,8 +46,8 @@ static size_t add_neighbours(walk *w, int32_t node, size_t end) {
   return end;
 }
 
-/* All that hangs together with a node, the nearest first, from place begin of the order on. Returns
- * where it ends; *last: where the farthest begin. */
+/* Appends all nodes connected to a node, the nearest first, from place begin of the order on.
+ * Returns their end; *last: where the farthest begin. */
 static size_t spread(walk *w, int32_t node, size_t begin, size_t *last) {
   size_t end = begin, at = begin;
   w->order[end++] = node;
@@ -59,7 +59,8 @@ static size_t spread(walk *w, int32_t node, size_t begin, size_t *last) {
   return end;
 }
 
-/* Looks for an end of what hangs together, each time from the loosest of the farthest nodes [-]. */
+/* Number of searches for an end of the connected nodes, each from the farthest node with fewest
+ * neighbours [-]. */
 enum { TURNS = 3 };
 
 static int32_t find_end(walk *w, int32_t node, size_t begin) {
@@ -81,7 +82,8 @@ static void turn_round(int32_t *order, size_t n) {
   }
 }
 
-/* Nodes that a step of the elimination holds, its own one too, squared and summed. */
+/* Returns the sum, over the elimination's steps, of the square of the number of nodes held in a
+ * step, including its own. */
 static double find_work(walk *w) {
   size_t held = 0;
   double sum = 0;

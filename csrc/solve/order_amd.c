@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination order by approximate minimum degree (Amestoy, Davis and Duff 1996), the
- * only place that knows the AMD library. */
+/* Elimination order by approximate minimum degree (Amestoy, Davis and Duff 1996). The only file
+ * that uses the AMD library. */
 #include <suitesparse/amd.h>
 
 #include "solve/order.h"

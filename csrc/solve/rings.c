@@ -65,8 +65,8 @@ void sw_rings_unpad(const sw_rings *r, const double *padded, double *x) {
     memcpy(x + k * r->n, padded + k * r->padded, r->n * sizeof *x);
 }
 
-/* Three rows, columns 0 to columns, times x and, mirrored, into y: sum += rows x, y += rows' own.
- */
+/* Multiplies three rows, columns 0 to columns, and their mirror image: sum += rows x, y += rows'
+ * own. */
 static inline void mirror(const double *row, size_t stride, size_t columns, const double own[3],
                           const double *x, double *y, double sum[3]) {
   const double *a = row, *b = row + stride, *c = b + stride;
@@ -86,7 +86,7 @@ static inline void mirror(const double *row, size_t stride, size_t columns, cons
   }
 }
 
-/* A node's own block, of which the lower half counts, times x. */
+/* sum += a node's own block, of which only the lower half is read, times x. */
 static inline void add_own(const double *block, size_t stride, const double x[3], double sum[3]) {
   const double *second = block + stride, *third = second + stride;
   sum[0] += block[0] * x[0] + second[0] * x[1] + third[0] * x[2];
@@ -112,7 +112,7 @@ void sw_rings_multiply(const sw_rings *r, const double *x, double *y) {
   sw_rings_unpad(r, r->y, y);
 }
 
-/* sum += the transposes of blocks below one another, times x. */
+/* sum += the transposes of blocks below one another times x. */
 static void add_below(const double *column, size_t stride, size_t rows, const double *x,
                       double sum[3]) {
   for (size_t k = 0; k < rows; k++)

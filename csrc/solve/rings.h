@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Block-tridiagonal symmetric matrices with dense blocks: nodes in rings, as in solve/blocks.h.
- * A ring's row holds its columns in the ring before, padded, and in its own ring: one stretch
- * of memory. Each ring is eliminated as a front (solve/blocks_front.h), the last one first. */
+/* Block-tridiagonal symmetric matrices with dense blocks: nodes in rings, as in solve/blocks.h. A
+ * ring's row holds its columns in the previous ring, padded, and then those in its own ring,
+ * contiguously. Each ring is eliminated as a front (solve/blocks_front.h), the last one first. */
 #ifndef SW_SOLVE_RINGS_H
 #define SW_SOLVE_RINGS_H
 
@@ -12,12 +12,12 @@
 typedef struct sw_rings {
   size_t rings, per_ring;
   size_t n;      /* rows of a ring: 3 per_ring */
-  size_t padded; /* n, up to a full tile */
+  size_t padded; /* n, rounded up to a full tile */
   size_t stride; /* a row: two rings and a line of zeros, so that columns do not share cache sets */
   double *values; /* (rings x n x stride) */
   double *factor; /* (rings x n x stride) */
   double *kept;   /* (rings x n x SW_FRONT_KEPT) */
-  double *scaled; /* (2 x n x stride) D L of this ring and the one before it in the elimination */
+  double *scaled; /* (2 x n x stride) D L of this ring and the one eliminated before it */
   double *masked; /* (n x stride) rows of a ring without its fixed nodes */
   double *x, *y;  /* (rings x padded) vectors */
 } sw_rings;
@@ -31,7 +31,7 @@ void sw_rings_solve(const sw_rings *rings, double *x);
 void sw_rings_multiply(const sw_rings *rings, const double *x, double *y);
 void sw_rings_row_times(const sw_rings *rings, size_t node, const double *x, double y[3]);
 
-/* Between user's vectors (n a ring) and padded ones. */
+/* Copies between the user's vectors (n per ring) and padded ones. */
 void sw_rings_pad(const sw_rings *rings, const double *x, double *padded);
 void sw_rings_unpad(const sw_rings *rings, const double *padded, double *x);
 

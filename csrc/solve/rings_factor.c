@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elimination ring by ring, and solving. */
+/* Eliminates ring by ring, and solves. */
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -12,7 +12,7 @@ static int any(const unsigned char *flags, size_t n) {
   return found;
 }
 
-/* The ring's values without the rows and columns of fixed nodes. */
+/* Returns the ring's values without the rows and columns of fixed nodes. */
 static const double *mask_ring(const sw_rings *r, const unsigned char *fixed, size_t ring) {
   const unsigned char *here = fixed + ring * r->per_ring;
   const double *values = r->values + ring * r->n * r->stride;

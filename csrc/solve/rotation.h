@@ -5,10 +5,10 @@
 
 #include "base/vec.h"
 
-/* The rotation R that makes the sum of B's entries times R's, over all nine, largest: for
- * B = sum k p d' the one that turns directions d nearest to p. Where it is not unique, one of
- * them. B is row by row; the identity where it is not finite. Davenport's q method: the
- * quaternion is an eigenvector (Wahba's problem, SIAM Review 7, 1965). */
+/* Returns the rotation R that maximises the sum of the products of B's and R's entries. For B = sum
+ * k p d' it turns the directions d nearest to p. If R is not unique, it is one of the solutions. B
+ * is row by row; if B is not finite, R is the identity. Davenport's q method: the quaternion is an
+ * eigenvector (Wahba's problem, SIAM Review 7, 1965). */
 sw_quat sw_rotation_fit(const double B[9]);
 
 #endif

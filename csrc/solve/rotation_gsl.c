@@ -15,7 +15,7 @@ sw_quat sw_rotation_fit(const double B[9]) {
     for (int j = 0; j < 3; j++)
       K[4 * (1 + i) + 1 + j] = B[3 * i + j] + B[3 * j + i] - (i == j ? trace : 0.0);
   }
-  /* the library's own work space for four unknowns, without asking it for memory */
+  /* GSL's work space for four unknowns, without an allocation */
   gsl_eigen_symmv_workspace space = {
       .size = 4, .d = work[0], .sd = work[1], .gc = work[2], .gs = work[3]};
   gsl_matrix_view k = gsl_matrix_view_array(K, 4, 4), v = gsl_matrix_view_array(vector, 4, 4);

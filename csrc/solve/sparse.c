@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The analysis: the order, the pattern of L, and the target block of every product. */
+/* The analysis of a sparse matrix: the order, the pattern of L, and the target block of each
+ * product. */
 #include "solve/sparse.h"
 
 #include "base/alloc.h"
@@ -7,8 +8,8 @@
 #include "solve/order.h"
 #include "solve/sparse_inner.h"
 
-/* With more blocks than this in a column of L, dense fronts make the factors, many numbers at once
- * [-]. */
+/* With more blocks than this per column of L, dense fronts make the factors, which treat many
+ * numbers at once [-]. */
 static const size_t DENSE = 12;
 
 void sw_sparse_free(sw_sparse *s) {
@@ -30,15 +31,15 @@ static void sort(uint32_t *a, size_t n) {
   }
 }
 
-/* Work of the analysis, each (n) or (n + 1). */
+/* Work space of the analysis, each (n) or (n + 1). */
 typedef struct analysis {
   int32_t *first, *next, *order;
   uint32_t *seen, *child, *sibling;
   size_t row_capacity;
 } analysis;
 
-/* Rows of column k of L: those of the matrix and those of the columns whose first
- * row is k. */
+/* Finds the rows of column k of L: those of the matrix and those of the columns whose first row is
+ * k. */
 static sw_status find_column(sw_sparse *s, analysis *a, uint32_t k) {
   const uint32_t none = (uint32_t)s->n, node = (uint32_t)a->order[k];
   size_t most = (size_t)(a->first[node + 1] - a->first[node]);
@@ -74,7 +75,8 @@ static uint32_t find_slot(const sw_sparse *s, uint32_t column, uint32_t row) {
   return after - 1;
 }
 
-/* Target of the product of rows a < b of each column, in the order of the factorisation. */
+/* Finds the target of the product of rows a < b of each column, in the order of the factorisation.
+ */
 static sw_status find_targets(sw_sparse *s) {
   size_t total = 0;
   for (size_t k = 0; k < s->n; k++) {
@@ -119,8 +121,8 @@ static sw_status analyse(sw_sparse *s, const sw_sparse_pair *pairs, size_t count
   return status;
 }
 
-/* slot[k]: where the block of pair k begins in the fronts' values, times 2, + 1 when given
- * transposed. */
+/* Makes the fronts. slot[k]: where the block of pair k begins in their values, times 2, + 1 if
+ * given transposed. */
 static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count,
                             const int32_t *order) {
   sw_blocks_pair *same SW_LOCAL = sw_alloc(count, sizeof *same);
@@ -135,7 +137,7 @@ static sw_status use_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t co
   return status;
 }
 
-/* Blocks that the order of least fill changes. */
+/* Returns the number of blocks that the elimination in the order of least fill changes. */
 static double work_of(const sw_sparse *s) {
   double sum = 0;
   for (size_t k = 0; k < s->n; k++) {
@@ -145,7 +147,7 @@ static double work_of(const sw_sparse *s) {
   return sum;
 }
 
-/* The pattern in fronts, eliminated along where that is less work. */
+/* Makes fronts for the pattern, eliminated from end to end if that is less work. */
 static sw_status choose_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t count) {
   int32_t *order SW_LOCAL = sw_alloc(s->n, sizeof *order);
   double work;
@@ -155,7 +157,7 @@ static sw_status choose_fronts(sw_sparse *s, const sw_sparse_pair *pairs, size_t
   return use_fronts(s, pairs, count, s->along ? order : NULL);
 }
 
-/* Memory of the values, where there are no fronts. */
+/* Allocates the values, if there are no fronts. */
 static sw_status make_room(sw_sparse *s) {
   const size_t b = s->block, bb = b * b;
   SW_TRY(find_targets(s));

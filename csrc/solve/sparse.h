@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symmetric matrices of square blocks with any pattern: chains of nodes that are
- * linked to one another, by contact or at branches. Factorised without pivoting as
- * L D L' in an order that keeps L sparse, so that the signs of the pivots count
- * negative directions. The pattern is analysed once; values come anew each time. */
+/* Symmetric matrices of square blocks with any pattern: chains of nodes that are coupled to one
+ * another, by contact or at branches. Factorised without pivoting as L D L' in an order that keeps
+ * L sparse; the signs of the pivots count negative directions. The pattern is analysed once; values
+ * are set anew each time. */
 #ifndef SW_SOLVE_SPARSE_H
 #define SW_SOLVE_SPARSE_H
 
@@ -20,32 +20,33 @@ typedef struct sw_sparse_pair {
 
 enum { SW_SPARSE_BLOCK_MAX = 4 };
 
-/* A matrix of nodes x nodes blocks of block x block values (3 or 4), zero apart from
- * the diagonal and the given pairs, which may repeat. like: one of the same block with some pairs
- * less, which spares a part of the search for an order; or NULL. SW_ENOMEM. */
+/* Makes a matrix of nodes x nodes blocks of block x block values (3 or 4), zero except for the
+ * diagonal and the given pairs, which may repeat. like: a matrix of the same block with some pairs
+ * fewer, which saves part of the search for an order; or NULL. SW_ENOMEM. */
 sw_status sw_sparse_new(size_t nodes, size_t block, const sw_sparse_pair *pairs, size_t count,
                         const sw_sparse *like, sw_sparse **out);
 void sw_sparse_free(sw_sparse *sparse); /* NULL is allowed */
 
-/* All values to zero. */
+/* Sets all values to zero. */
 void sw_sparse_clear(sw_sparse *sparse);
 
-/* Where to add the values of a node's own block (block x block, row by row). */
+/* Returns where to add the values of a node's own block (block x block, row by row). */
 double *sw_sparse_own(sw_sparse *sparse, size_t node);
 
-/* Add a block, row by row with i's rows, to pair number k of the list. */
+/* Adds a block, row by row with i's rows, to pair number k of the list. */
 void sw_sparse_add(sw_sparse *sparse, size_t pair, const double *values);
 
-/* Factorise in place. negative (may be NULL) receives the number of negative pivots.
- * SW_ESINGULAR when a pivot block vanishes or is not finite. */
+/* Factorises in place. negative (may be NULL) receives the number of negative pivots. SW_ESINGULAR
+ * if a pivot block vanishes or is not finite. */
 sw_status sw_sparse_factor(sw_sparse *sparse, size_t *negative);
 
-/* Solve in place for b (nodes x block). */
+/* Solves in place for b (nodes x block). */
 void sw_sparse_solve(sw_sparse *sparse, double *b);
-/* The same for two at once, in little more time than one; other may be NULL. */
+/* The same for two right-hand sides at once, in little more time than for one; other may be NULL.
+ */
 void sw_sparse_solve_two(sw_sparse *sparse, double *one, double *other);
 
-/* Blocks below the diagonal of the factor. */
+/* Returns the number of blocks below the diagonal of the factor. */
 size_t sw_sparse_fill(const sw_sparse *sparse);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of a sparse matrix, its factors and its solutions, through the lists of its analysis. */
+/* Values of a sparse matrix, its factors and its solutions, by the lists of its analysis. */
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -42,17 +42,18 @@ void sw_sparse_add(sw_sparse *s, size_t pair, const double *values) {
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* L D L' of a symmetric block from its lower half: L below the diagonal, the inverse of D on
- * it; counts negative pivots. 0 when a pivot vanishes or is not finite. (With the block's
- * inverse instead, a wire aslant to the axes would lose the square of the ratio of its axial
- * to its bending stiffness; with a block whose halves differ by rounding, everything.) */
+/* Factorises a symmetric block as L D L' from its lower half: L below the diagonal, the inverse of
+ * D on it; counts negative pivots. Returns 0 if a pivot vanishes or is not finite. (With the
+ * block's inverse instead, a wire that is oblique to the axes would lose the square of the ratio of
+ * its axial to its bending stiffness; with a block whose halves differ by rounding, everything
+ * would be lost.) */
 ALWAYS int split(double *m, const int b, size_t *negative) {
   double product = 1.0;
   for (int k = 0; k < b; k++) {
     const double pivot = m[b * k + k], r = 1.0 / pivot;
     double below[SW_SPARSE_BLOCK_MAX];
     *negative += pivot < 0;
-    product *= r * pivot; /* not a number: a pivot vanished */
+    product *= r * pivot; /* NaN if a pivot vanished */
     for (int i = k + 1; i < b; i++) below[i] = m[b * i + k];
     for (int i = k + 1; i < b; i++) {
       const double l = below[i] * r;
@@ -64,7 +65,7 @@ ALWAYS int split(double *m, const int b, size_t *negative) {
   return product > 0;
 }
 
-/* a to a L'^-1, and that times D^-1 to w. */
+/* a becomes a L'^-1, and w that times D^-1. */
 ALWAYS void divide(double *restrict a, const double *restrict d, double *restrict w, const int b) {
   for (int i = 0; i < b; i++)
     for (int j = 0; j < b; j++) {

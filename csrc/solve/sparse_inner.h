@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of a sparse matrix: its analysis makes it, its factorisation runs through its lists.
- * Of these files only. */
+/* The inside of a sparse matrix: the analysis makes its lists, the factorisation runs through them.
+ * Private to the sparse files. */
 #ifndef SW_SOLVE_SPARSE_INNER_H
 #define SW_SOLVE_SPARSE_INNER_H
 
@@ -10,17 +10,17 @@
 #include "solve/blocks.h"
 #include "solve/sparse.h"
 
-/* Two right-hand sides at once: a chain's solution is mostly waiting. */
+/* Two right-hand sides at once: solving for one chain is mostly waiting. */
 typedef double sw_two __attribute__((vector_size(16)));
 
 struct sw_sparse {
   size_t n, block, pairs;
-  sw_blocks *fronts;     /* the matrix, if L is that dense; only slot is used besides */
-  int along;             /* 1: these are in the order from end to end */
+  sw_blocks *fronts;     /* the matrix, if L is dense enough; then only slot is used as well */
+  int along;             /* 1: the fronts are eliminated in the order from end to end */
   uint32_t *place;       /* (n) node -> its number in the elimination */
   uint32_t *start, *row; /* (n + 1), (fill): rows of each column of L, ascending */
-  uint32_t *slot;        /* (pairs) block of L, times 2, + 1 when given transposed */
-  uint32_t *target;      /* target blocks of products of two rows of a column */
+  uint32_t *slot;        /* (pairs) block of L, times 2, + 1 if given transposed */
+  uint32_t *target;      /* blocks to which the products of two rows of a column are added */
   size_t targets, fill, widest;
   sw_two *x;         /* (n x block) */
   double *own, *off; /* (n), (fill) blocks */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The angle phi of a hinge as functions of u = sin^2(phi/2): s = phi/sin(phi), its
- * derivative's negative w = -ds/dcos(phi), and that one's, v = -dw/dcos(phi). */
+/* The angle phi of a hinge, by functions of u = sin^2(phi/2): s = phi/sin(phi), w = -ds/dcos(phi)
+ * and v = -dw/dcos(phi). */
 #ifndef SW_STATE_ANGLE_H
 #define SW_STATE_ANGLE_H
 
@@ -64,11 +64,11 @@ static const double SW_ANGLE_FIT = 0.25; /* largest u of the fits [-] */
 #define SW_FIT_W12 (-9.4903230920523001)
 #define SW_FIT_W13 12.120085660545596
 
-/* sin^2 of half the largest angle the formula is used for: 0.98 * pi. Beyond
- * it s and w grow without bound; a hinge so sharp is out of the model's range. */
+/* sin^2 of half the largest angle for which the formulas are used: 0.98 * pi. Beyond it s and w
+ * grow without bound; so sharp a hinge is outside the model's range [-]. */
 static const double SW_ANGLE_SHARPEST = 0.999;
 
-/* phi/sin(phi) and its derivative's negative, for any u. */
+/* Computes s = phi/sin(phi) and w for any u. */
 static inline void sw_angle_factors(double u, double *s, double *w) {
   const double v = u < SW_ANGLE_SHARPEST ? u : SW_ANGLE_SHARPEST;
   if (v <= SW_ANGLE_FIT) {
@@ -81,7 +81,7 @@ static inline void sw_angle_factors(double u, double *s, double *w) {
   *w = (1.0 - *s * c) / sine2;
 }
 
-/* v for given u, s and w: from the differential equation of s, near 0 by its series. */
+/* Returns v for given u, s and w: from the differential equation of s, near 0 by its series. */
 static inline double sw_angle_third(double u, double s, double w) {
   if (u < 0.01)
     return 4.0 / 15.0 +

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The hinge at a clamp that is softer about one axis than about others. The rotation vector from
- * the held director d to the edge's tangent t is s d x t, s = phi/sin(phi); its part about the axis
- * a is f = s t.n with n = a x d. */
+/* A clamp's hinge that is softer about one axis than about others. The rotation vector from the
+ * held director d to the edge's tangent t is s d x t, with s = phi/sin(phi). Its part about the
+ * axis a is f = s t.n with n = a x d. */
 #ifndef SW_STATE_CLAMP_H
 #define SW_STATE_CLAMP_H
 
@@ -18,7 +18,7 @@ typedef struct sw_clamp_bend {
   double w, v;  /* see angle.h */
 } sw_clamp_bend;
 
-/* directors, normals: of all holds, as they are now. */
+/* directors, normals: present ones of all holds. */
 static inline sw_clamp_bend sw_clamp_bend_of(const sw_clamp_hinge *h, const double *directors,
                                              const double *normals, sw_vec t) {
   const sw_vec d = sw_vec_at(directors, sw_clamp_place(h));
@@ -33,7 +33,7 @@ static inline sw_clamp_bend sw_clamp_bend_of(const sw_clamp_hinge *h, const doub
   return b;
 }
 
-/* Of the wire at the clamp [1/m]. */
+/* Returns the wire's curvature at the clamp [1/m]. */
 static inline double sw_clamp_curvature(const sw_clamp_hinge *h, const double *directors,
                                         const double *normals, sw_vec t) {
   const sw_vec d = sw_vec_at(directors, sw_clamp_place(h));

@@ -3,14 +3,16 @@
 
 #include <math.h>
 
-/* So near a line, of the largest of all, a force grows or falls evenly: those that are found wrong
- * are off by more than ten times that [-]. */
+/* A force within this distance of a straight line, over the largest of its three values, changes
+ * linearly. Wrong forces are off by more than ten times that [-]. */
 static const double EVENLY = 0.1;
-/* A force that holds against turning changes from step to step by less than this share, and the
- * last stage has less than so many times of it (sdirk2 5.1); else it is of a blow [-]. */
+/* A force that holds against turning changes from step to step by less than SLOWLY of its value,
+ * and at the last stage it is below MOST times that value (sdirk2: 5.1). Any other force comes from
+ * a blow [-]. */
 static const double SLOWLY = 0.5, MOST = 6.0;
 
-/* Is the last stage's force as it should be, by that before the step and what would be even? */
+/* 1 if the last stage's force is right, judged by the value before the step and by the mix `even`.
+ */
 static int holds(const sw_first_stage *at, sw_vec before, sw_vec first, sw_vec now, sw_vec even) {
   const double size = sw_norm(before);
   const sw_vec line = sw_madd(before, sw_sub(first, before), 1.0 / at->time);

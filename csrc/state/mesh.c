@@ -8,9 +8,9 @@
 #include "base/halving.h"
 #include "state/hinge.h"
 
-enum { ARRAYS = 12, PLAIN = 6 }; /* the later ones with frames only */
+enum { ARRAYS = 12, PLAIN = 6 }; /* the arrays after the plain ones exist only with frames */
 
-/* The arrays and their doubles per node. */
+/* Lists the arrays and their doubles per node. */
 static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
   double **const all[ARRAYS] = {&m->s,           &m->tension, &m->rate, &m->x,
                                 &m->v,           &m->a,       &m->rest, &m->normal,
@@ -20,7 +20,7 @@ static void arrays(sw_mesh *m, double **out[ARRAYS], size_t width[ARRAYS]) {
   memcpy(width, widths, sizeof widths);
 }
 
-/* Room for need nodes in the first count arrays, keeping what is there. */
+/* Makes room for need nodes in the first count arrays and keeps their contents. */
 static sw_status make_room(sw_mesh *m, size_t need, size_t count) {
   double **at[ARRAYS], *more[ARRAYS] = {NULL};
   size_t width[ARRAYS];
@@ -113,7 +113,7 @@ size_t sw_mesh_node(const sw_mesh *m, double s) {
 static sw_vec tangent_of(const sw_mesh *m, const double *nodes, size_t i) {
   const sw_vec x = sw_vec_at(nodes, i), fallback = sw_v(1, 0, 0);
   if (m->n == 2) return sw_unit_or(sw_sub(sw_vec_at(nodes, 1), sw_vec_at(nodes, 0)), fallback);
-  if (i == 0 || i == m->n - 1) { /* straight on from the two last edges */
+  if (i == 0 || i == m->n - 1) { /* extrapolated from the two last edges */
     const size_t j = i == 0 ? 1 : i - 1, k = i == 0 ? 2 : i - 2;
     const double sign = i == 0 ? 1.0 : -1.0;
     const double l1 = fabs(m->s[j] - m->s[i]), l2 = fabs(m->s[k] - m->s[j]);
@@ -151,7 +151,7 @@ static sw_vec turned_about(sw_vec n, sw_vec t, double angle) {
 
 static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
 
-/* Frames without twist along the nodes, from normal at the first edge on. */
+/* Makes frames without twist along the nodes; normal: at the first edge. */
 static void frames_along(const double *nodes, size_t n, sw_vec normal, double *out) {
   sw_vec before = edge_of(nodes, 0);
   sw_vec m = sw_unit_or(sw_madd(normal, before, -sw_dot(normal, before)), sw_perpendicular(before));
@@ -176,8 +176,8 @@ sw_status sw_mesh_add_frames(sw_mesh *m, sw_vec normal, int straight, double res
   return SW_OK;
 }
 
-/* The normal at arc length s: the twist goes evenly from edge middle to edge middle, and on
- * to the ends. */
+/* Returns the normal at arc length s. The twist varies linearly between the edges' middles, and is
+ * extrapolated to the ends. */
 static sw_vec normal_at(const sw_mesh *m, const double *nodes, const double *normals, double s,
                         sw_vec tangent) {
   const size_t i = sw_mesh_node(m, s), last = m->n - 2;
@@ -202,13 +202,13 @@ sw_mesh_frame sw_mesh_frame_at(const sw_mesh *m, double s) {
 
 /* --- editing ------------------------------------------------------------------ */
 
-/* Chord of an edge of rest length l under its tension. */
+/* Returns the chord of an edge of rest length l under its tension. */
 static double chord(const sw_mesh *m, size_t edge, double l) {
   return l * (1.0 + m->tension[edge] / m->EA);
 }
 
-/* Move node i to the point of its bending plane at distances la and lc from its
- * neighbours; normals (may be NULL) go with the edges. */
+/* Moves node i, in its bending plane, to distances la and lc from its neighbours; normals (may be
+ * NULL) follow the edges. */
 static void bend_node(double *nodes, double *normals, size_t i, double la, double lc) {
   const sw_vec a = sw_vec_at(nodes, i - 1), b = sw_vec_at(nodes, i), c = sw_vec_at(nodes, i + 1);
   const sw_vec before[2] = {edge_of(nodes, i - 1), edge_of(nodes, i)};
@@ -226,7 +226,7 @@ static void bend_node(double *nodes, double *normals, size_t i, double la, doubl
   }
 }
 
-/* Move node i to arc length s keeping both edges' strains. */
+/* Moves node i to arc length s, keeping both edges' strains. */
 static void move_node(sw_mesh *m, size_t i, double s) {
   const double rest_a = s - m->s[i - 1], rest_c = m->s[i + 1] - s;
   bend_node(m->x, m->normal, i, chord(m, i - 1, rest_a), chord(m, i, rest_c));
@@ -271,7 +271,7 @@ sw_status sw_mesh_insert(sw_mesh *m, size_t edge, double s) {
   return SW_OK;
 }
 
-/* The unit mean of vectors i - 1 and i, put at i - 1; weights a, b. */
+/* Puts the unit mean of vectors i - 1 and i, with weights a and b, at i - 1. */
 static void merge_units(double *list, size_t i, double a, double b) {
   const sw_vec u = sw_vec_at(list, i - 1), v = sw_vec_at(list, i);
   sw_store(list + 3 * (i - 1), sw_unit_or(sw_add(sw_scale(u, a), sw_scale(v, b)), u));
@@ -297,7 +297,7 @@ void sw_mesh_remove(sw_mesh *m, size_t i) {
   m->n--;
 }
 
-/* [-] */
+/* Shortest stub at a wire's end, over the edge there [-]. */
 static const double SHORTEST_STUB = 0.004;
 
 double sw_mesh_snap(const sw_mesh *m, double s) {
@@ -319,7 +319,7 @@ static int may_move(const sw_mesh *m, size_t i, double s, const double *keep, si
 sw_status sw_mesh_place(sw_mesh *m, double s, const double *keep, size_t keep_count,
                         double *placed) {
   const double total = m->s[m->n - 1] - m->s[0];
-  const double same = 1e-9 * total; /* closer is the same node [m] */
+  const double same = 1e-9 * total; /* nearer is the same node [m] */
   size_t i = sw_mesh_node(m, s);
   if (i > 0 && s - m->s[i - 1] < m->s[i] - s) i--;
   if (fabs(m->s[i] - s) <= same) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire's nodes while nothing runs: a growable list that can be edited (node
- * moved to a given arc length, node inserted) and is turned into a plan before
- * the next step. */
+/* A wire's nodes while nothing runs: a growable list that can be edited (move a node to a given arc
+ * length, insert a node). It becomes a plan before the next step. */
 #ifndef SW_STATE_MESH_H
 #define SW_STATE_MESH_H
 
@@ -12,79 +11,78 @@
 
 typedef struct sw_mesh {
   size_t n, capacity;
-  double *s;       /* (n) arc length, from the wire's start as it was made; below 0 where wire
-                      was fed at the start [m] */
-  double *x, *v;   /* (n x 3) [m], [m/s] */
-  double *a;       /* (n x 3) of the last step, good while nothing jumps [m/s2] */
+  double *s;     /* (n) arc length from the wire's original start; below 0 where wire was fed at the
+                    start [m] */
+  double *x, *v; /* (n x 3) [m], [m/s] */
+  double *a;     /* (n x 3) of the last step; valid while nothing jumps [m/s2] */
   double *tension; /* (n) of the edge that starts at each node; last unused [N] */
-  double *rate;    /* (n) the same: rate of its strain, where dashpots know it [1/s] */
+  double *rate;    /* (n) the same: its strain rate, where dashpots know it [1/s] */
   double EA;       /* to keep edge strains when nodes move [N] */
-  double spacing;  /* of the even nodes it was made of, before holds moved and added some [m] */
-  int drawn;       /* 1: as it was drawn, nothing has moved yet */
-  double scale;    /* its length over that of the first mesh of the wire [-] */
+  double spacing;  /* of the original even nodes, before holds moved and added some [m] */
+  int drawn;       /* 1: as drawn, nothing has moved yet */
+  double scale;    /* its length over that of the wire's first mesh [-] */
 
   /* of a wire with material frames; NULL without */
   double *rest;        /* (n x 3) nodes of the unloaded wire, somewhere in space [m] */
   double *normal;      /* (n x 3) first material axis of the edge that starts there [-] */
   double *rest_normal; /* (n x 3) the same when unloaded [-] */
   double *twist;       /* (n) of the hinge at each node, both sides of a clamp [rad] */
-  double *turn, *spin; /* (n) how far the edge that starts there has turned about itself, and how
-                          fast it does, if it rolls [rad], [rad/s] */
+  double *turn, *spin; /* (n) for the edge that starts there, if it rolls: turn about itself, and
+                          its rate [rad], [rad/s] */
 } sw_mesh;
 
-/* What frames have at one arc length. */
+/* The frames at one arc length. */
 typedef struct sw_mesh_frame {
   sw_vec tangent, normal;           /* [-] */
   sw_vec rest_tangent, rest_normal; /* of the unloaded wire [-] */
 } sw_mesh_frame;
 
-/* Even nodes along the polyline through points (count x 3): segments + 1 nodes,
- * at rest, unstressed: the arc length of each edge is its chord. SW_ENOMEM. */
+/* Makes even nodes along the polyline through points (count x 3): segments + 1 nodes, at rest and
+ * unstressed: the arc length of each edge is its chord. SW_ENOMEM. */
 sw_status sw_mesh_along(sw_mesh *mesh, const double *points, size_t count, size_t segments);
 void sw_mesh_free(sw_mesh *mesh);
 
-/* A copy of its own. SW_ENOMEM. */
+/* Makes an independent copy. SW_ENOMEM. */
 sw_status sw_mesh_copy(const sw_mesh *from, sw_mesh *to);
 
-/* An empty mesh of n nodes, else like the other one. SW_ENOMEM. */
+/* Makes an empty mesh of n nodes, otherwise like the other one. SW_ENOMEM. */
 sw_status sw_mesh_like(const sw_mesh *other, size_t n, sw_mesh *to);
 
-/* The same wire with nodes at other arc lengths s (count; from 0 to its length), with
- * its shape, motion, strains, frames. held: stretches (held_count x 2: from, to) that
- * stay as they are; both meshes have nodes at their ends. SW_ENOMEM. */
+/* Makes the same wire with nodes at other arc lengths s (count; from 0 to its length), keeping its
+ * shape, motion, strains and frames. held: stretches (held_count x 2: from, to) that stay as they
+ * are; both meshes have nodes at their ends. SW_ENOMEM. */
 sw_status sw_mesh_resample(const sw_mesh *from, const double *s, size_t count, const double *held,
                            size_t held_count, sw_mesh *out);
 
-/* Give the wire frames that are not twisted, as it lies: their first axis is that
- * of normal across the wire's start. straight: unloaded it is straight, else as it
- * lies; rest_twist: and twisted [rad/m]. SW_ENOMEM. */
+/* Gives the wire frames without twist in its present shape. Their first axis at the wire's start is
+ * the part of normal across it. straight: 1 if the unloaded wire is straight, else it has the
+ * present shape; rest_twist: twist of the unloaded wire [rad/m]. SW_ENOMEM. */
 sw_status sw_mesh_add_frames(sw_mesh *mesh, sw_vec normal, int straight, double rest_twist);
 
-/* The frames at arc length s of a mesh that has them. */
+/* Returns the frames at arc length s of a mesh that has frames. */
 sw_mesh_frame sw_mesh_frame_at(const sw_mesh *mesh, double s);
 
-/* The wire's end where s is nearer to it than 0.4 % of the edge there, else s: a stub of no
- * length would be stiffer than all else. */
+/* Returns the wire's end if s is nearer to it than 0.4 % of the edge there, else s. A much shorter
+ * stub would be stiffer than all else. */
 double sw_mesh_snap(const sw_mesh *mesh, double s);
 
-/* Make s a node: take the nearest node when it may be moved (not an end, not in
- * keep), else insert one. keep: arc lengths (count) of nodes that must stay.
- * SW_ENOMEM leaves the mesh as it was. */
+/* Makes s a node: moves the nearest node if allowed (not an end, not in keep), else inserts one.
+ * keep: arc lengths (count) of nodes that must stay. SW_ENOMEM leaves the mesh as it was. */
 sw_status sw_mesh_place(sw_mesh *mesh, double s, const double *keep, size_t keep_count,
                         double *placed);
 
-/* A new node inside an edge, on its chord. SW_ENOMEM leaves the mesh as it was. */
+/* Inserts a node inside an edge, on its chord. SW_ENOMEM leaves the mesh as it was. */
 sw_status sw_mesh_insert(sw_mesh *mesh, size_t edge, double s);
-/* Make one edge of the two beside an inner node. */
+/* Removes an inner node and joins the two edges beside it. */
 void sw_mesh_remove(sw_mesh *mesh, size_t node);
 
-/* The node at arc length s exactly; the mesh must have one. */
+/* Returns the node at arc length s exactly; the mesh must have one. */
 size_t sw_mesh_node(const sw_mesh *mesh, double s);
 
-/* Unit tangent of the wire at node i, second-order in the spacing. */
+/* Returns the wire's unit tangent at node i, second-order in the spacing. */
 sw_vec sw_mesh_tangent(const sw_mesh *mesh, size_t i);
 
-/* The same at arc length s, between nodes too. */
+/* The same at any arc length s. */
 sw_vec sw_mesh_tangent_at(const sw_mesh *mesh, double s);
 
 #endif

@@ -19,15 +19,14 @@ void sw_plan_release(sw_plan *plan) {
               plan->held, plan->clamps, plan->spans, plan->rest_bend, plan->rest_twist, plan);
 }
 
-/* Hinge lengths near a clamp whose first edge has length b * l, the second l:
- * an end-point quadrature exact for curvature moments 0, 1 and 2, so that the
- * clamp acts at its arc length and not half a cell inside. Valid for
- * b in [0.5, 1.5); b = 1 gives 5/12 and 13/12. */
+/* Hinge lengths near a clamp whose first edge has length b * l and whose second has l. An end-point
+ * quadrature, exact for curvature moments 0, 1 and 2, so that the clamp acts at its arc length and
+ * not half a cell inside. Valid for b in [0.5, 1.5); b = 1 gives 5/12 and 13/12. */
 static double clamp_hinge_length(double b) { return 0.5 * b - 1.0 / (12.0 * b); }
 static double next_hinge_length(double b) { return 0.5 * (1.0 + b) + 1.0 / (12.0 * b); }
 
-/* A clamp with a single edge behind it (a short free stub): exact for a load at
- * the stub's end. */
+/* Hinge length of a clamp with a single edge behind it (a short free stub): exact for a load at the
+ * stub's end. */
 static const double STUB_HINGE = 1.0 / 3.0; /* of the edge's length [-] */
 static const double SMALLEST_RATIO = 0.45;  /* below this b the quadrature fails [-] */
 
@@ -40,13 +39,14 @@ void sw_plan_clamp_lengths(double first, double second, double *clamp, double *n
   *next = next_hinge_length(b) * second;
 }
 
-/* Node k places from a clamp's own, to the side that it looks to; -1 beyond the wire. */
+/* Returns the node k places from a clamp's own, on the side to which it looks; -1 beyond the wire.
+ */
 static long node_from(const sw_plan *p, const sw_clamp_hinge *c, long k) {
   const long i = (long)c->node + k * c->side;
   return i < (long)p->nodes ? i : -1;
 }
 
-/* The clamp's own hinge, and what it adds to the next one. */
+/* Sets the length of the clamp's own hinge and adds its part to the next one. */
 static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
   const long near = node_from(p, c, 1), far = node_from(p, c, 2);
   const double first = p->rest[c->edge];
@@ -64,12 +64,12 @@ static void size_clamp(sw_plan *p, sw_clamp_hinge *c) {
   p->hinge[near] += next_hinge_length(b) * l - 0.5 * (first + l);
 }
 
-/* Of each hinge so much is left at least: one that hardly turns would be very stiff [-]. */
+/* Least share of each hinge that is kept: a hinge that hardly turns would be very stiff [-]. */
 static const double LEAST_HINGE = 1.0 / 30.0;
 
-/* The bending wire begins further out than the clamp: hinges from there on are shorter. */
+/* The bending wire begins further out than the clamp: shortens the hinges from there on. */
 static void shorten(sw_plan *p, sw_clamp_hinge *c, double by) {
-  double cut = fmin(by, (1.0 - LEAST_HINGE) * c->length); /* of a negative one, all */
+  double cut = fmin(by, (1.0 - LEAST_HINGE) * c->length); /* all of a negative length */
   c->length -= cut;
   for (long k = 1; by - cut > 0; k++) {
     const long i = node_from(p, c, k);
@@ -121,7 +121,8 @@ static void set_holds(sw_plan *p, const sw_hold_place *holds, size_t count) {
   }
 }
 
-/* The nearest clamp hinge of an edge from `from` on that looks to this side, or clamp_count. */
+/* Returns the nearest clamp hinge, at an edge from `from` on, that looks to this side, or
+ * clamp_count. */
 static size_t next_clamp(const sw_plan *p, int side, size_t from) {
   size_t best = p->clamp_count;
   for (size_t c = 0; c < p->clamp_count; c++) {
@@ -131,7 +132,7 @@ static size_t next_clamp(const sw_plan *p, int side, size_t from) {
   return best;
 }
 
-/* Between its clamps, as they give way. */
+/* Length between its clamps, with their give. */
 static double span_length(const sw_plan *p, const sw_span *span) {
   const double length = p->s[span->last + 1] - p->s[span->first];
   const double give = p->clamps[span->left].twist + p->clamps[span->right].twist;
@@ -152,7 +153,7 @@ static void set_spans(sw_plan *p) {
   }
 }
 
-/* A plan with room for n nodes and all that goes with so many holds. */
+/* Makes a plan with room for n nodes and all that belongs to this many holds. */
 static sw_plan *new_plan(const sw_beam *beam, size_t n, size_t edges, size_t holds) {
   sw_plan *p = sw_alloc(1, sizeof *p);
   if (!p) return NULL;
@@ -240,7 +241,7 @@ size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction) {
   const size_t at = after - 1;
   const double from = plan->s[first ? first[at] : at];
   const double apart = plan->s[first ? first[at + 1] : at + 1] - from;
-  /* not of the rest length, which beside a feed is longer than the arc by what it holds back */
+  /* not by the rest length: beside a feed it exceeds the arc by what the feed holds back */
   *fraction = fmin(1.0, fmax(0.0, (s - from) / apart));
   return at;
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The plan of a wire: everything that does not change during a step. Node and
- * edge lists, masses, which nodes are held, where the bending hinges sit. A
- * plan is reference-counted and immutable but for one thing: through a node that is
- * held by a guide the wire may slide. A clamp put on or taken off makes a
- * new plan between two steps. */
+/* The plan of a wire: everything that does not change during a step. Node and edge lists, masses,
+ * held nodes, bending hinges. A plan is reference-counted and immutable, with one exception: the
+ * wire may slide through a node that is held by a guide. Adding or removing a clamp makes a new
+ * plan between two steps. */
 #ifndef SW_STATE_PLAN_H
 #define SW_STATE_PLAN_H
 
@@ -13,7 +12,7 @@
 #include "base/vec.h"
 #include "state/web.h"
 
-/* A section in terms of beams. */
+/* A section's data as a beam. */
 typedef struct sw_beam {
   double EA;           /* axial stiffness [N] */
   double EI;           /* bending stiffness, the smaller of two [N m2] */
@@ -21,10 +20,10 @@ typedef struct sw_beam {
   double mass;         /* mass per length [kg/m] */
   double radius;       /* outer radius [m] */
   double E;            /* of the material, for stresses [Pa] */
-  double rest_twist;   /* of the unloaded wire [rad/m] */
+  double rest_twist;   /* twist of the unloaded wire [rad/m] */
   double EI_axis[2];   /* in the plane of the normal and across it [N m2] */
   double spin_inertia; /* of turning about the axis, per length [kg m] */
-  int rolls;           /* 1: it has that inertia, and contact takes hold of its surface */
+  int rolls;           /* 1: it has that inertia, and contact acts on its surface */
   int curved;          /* 1: not straight when unloaded */
   int framed;          /* 1: needs material frames (two stiffnesses, curved at rest, rolls) */
 } sw_beam;
@@ -32,47 +31,46 @@ typedef struct sw_beam {
 /* How a node is held. */
 enum { SW_FREE = 0, SW_HELD = 1 };
 
-/* Give of a hold on one side, where it is no rigid clamp, as other lengths of wire. 0: it has
- * none. */
+/* Give of a hold on one side that is no rigid clamp, expressed in lengths of wire. 0: none. */
 typedef struct sw_clamp_give {
-  double shorter; /* the bending wire begins so much further out than where it is held [m] */
-  double softer;  /* but about the axis so much further in than that [m] */
-  double twist;   /* longer by so much as to twist [m] */
+  double shorter; /* how much further out than the held place the bending wire begins [m] */
+  double softer;  /* how much further in than that it begins to bend about the axis [m] */
+  double twist;   /* added length of wire for twist [m] */
   sw_vec axis;    /* across the director, in the hold's frame [-] */
 } sw_clamp_give;
 
-/* A place where a hold fixes the wire's direction: the hinge between the held
- * director and one edge. */
+/* A place where a hold fixes the wire's direction: the hinge between the held director and one
+ * edge. */
 typedef struct sw_clamp_hinge {
   size_t node;   /* held node */
   size_t edge;   /* edge that starts or ends there */
   int side;      /* +1: the edge leaves the node, -1: it arrives there */
   int hold;      /* index of the hold that owns the director */
   double length; /* hinge length: angle = curvature * length [m] */
-  double softer; /* more of it about the axis of the hold's give [m] */
-  double twist;  /* what it adds to the length of its span [m] */
+  double softer; /* added length about the axis of the hold's give [m] */
+  double twist;  /* added length of its span for twist [m] */
 } sw_clamp_hinge;
-/* Whose directors are those of the hinge, among all holds' [-]. */
+/* Returns the place of the hinge's directors among those of all holds [-]. */
 static inline size_t sw_clamp_place(const sw_clamp_hinge *h) {
   return 2 * (size_t)h->hold + (h->side > 0 ? 1 : 0);
 }
 
-/* A stretch of wire between two holds that both keep it from turning about its
- * axis: the only place where a straight wire of equal bending stiffness can be
- * twisted, since anywhere else it unwinds through a free end. */
+/* A stretch of wire between two holds that both keep it from turning about its axis. Only there can
+ * a straight wire of equal bending stiffness be twisted; elsewhere it unwinds through a free end.
+ */
 typedef struct sw_span {
   size_t first, last; /* its edges, both included */
   size_t left, right; /* its clamp hinges, indices into clamps */
-  double length;      /* as to twist [m] */
+  double length;      /* for twist, with the give of its clamps [m] */
 } sw_span;
 
-/* Of a wire that is a mesh of particles the nodes are these; it has no edges, hinges, clamps and
+/* For a wire that is a mesh of particles, these are the nodes. It has no edges, hinges, clamps and
  * spans, and its mass is lumped. */
 typedef struct sw_plan {
   int references;
   size_t nodes; /* n */
   size_t edges; /* m = n - 1, or 0 with a web */
-  sw_web *web;  /* what the particles hang together by; NULL: nodes one after another */
+  sw_web *web;  /* connects the particles; NULL: nodes in a line */
   sw_beam beam;
   double length;          /* unstressed wire length [m] */
   double *s;              /* (n) arc length of each node [m] */
@@ -86,46 +84,46 @@ typedef struct sw_plan {
   size_t clamp_count;
   sw_span *spans; /* (span_count) from the wire's start on */
   size_t span_count;
-  double *rest_bend;  /* (n + clamps x 2) what a hinge is bent when unloaded, or NULL [rad] */
-  double *rest_twist; /* (n + clamps) and twisted [rad] */
+  double *rest_bend;  /* (n + clamps x 2) bend of the unloaded hinges, or NULL [rad] */
+  double *rest_twist; /* (n + clamps) twist of the unloaded hinges, or NULL [rad] */
 } sw_plan;
 
-/* A hold's demands on the mesh: nodes at s1 and s2 (equal for a point) and every node between
- * them held; direction fixed too when clamped. */
+/* What a hold requires of the mesh: nodes at s1 and s2 (equal for a point) and every node between
+ * them held; the direction fixed too if clamped. */
 typedef struct sw_hold_place {
   double s1, s2; /* [m] */
   int clamped;
   int hold;              /* the owner's index */
-  sw_clamp_give give[2]; /* where the wire arrives, and where it leaves */
+  sw_clamp_give give[2]; /* on the side where the wire arrives and where it leaves */
 } sw_hold_place;
 
-/* Build a plan for nodes at arc lengths s (n values, increasing; the first is 0 unless
- * wire was fed at the start) under
- * the given holds; every s1 and s2 must be one of the nodes (see
+/* Makes a plan for nodes at arc lengths s (n values, increasing; the first is 0 unless wire was fed
+ * at the start) under the given holds. Every s1 and s2 must be one of the nodes (see
  * sw_mesh_place). The result has one reference. SW_ENOMEM. */
 sw_status sw_plan_new(const sw_beam *beam, const double *s, size_t n, const sw_hold_place *holds,
                       size_t hold_count, sw_plan **out);
 
-/* The first node at arc length s or after it; nodes when there is none [m]. */
+/* Returns the first node at or after arc length s, or nodes if there is none [m]. */
 size_t sw_plan_first(const sw_plan *plan, double s);
 
-/* Which of its web's shapes a solid element has. */
+/* Returns the number of the shape, among its web's, that a solid element has. */
 size_t sw_plan_shape(const sw_plan *plan, const sw_web_solid *element);
 
-/* The same for particles, held where the flags (particles) say so; retains the web. SW_ENOMEM. */
+/* Makes a plan for particles, held where the flags (particles) say so; retains the web. SW_ENOMEM.
+ */
 sw_status sw_plan_of_web(const sw_beam *beam, sw_web *web, const int *held, sw_plan **out);
 
-/* Axial forces that the body's state has: of its edges, or springs [-]. */
+/* Returns the number of axial forces in the body's state: of its edges, or springs [-]. */
 static inline size_t sw_plan_axial(const sw_plan *plan) {
   return plan->web ? plan->web->links : plan->edges;
 }
 
-/* Arc length of a node from where the wire begins now; of a particle, as its web has it [m]. */
+/* Returns a node's arc length from the wire's present start; a particle's as in its web [m]. */
 static inline double sw_plan_place(const sw_plan *plan, size_t node) {
   return plan->s[node] - (plan->web ? 0.0 : plan->s[0]);
 }
 
-/* How far the surface is from a node that touches something [m]. */
+/* Returns the distance of the surface from a node that touches something [m]. */
 static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   const sw_web *web = plan->web;
   if (!web) return plan->beam.radius;
@@ -133,25 +131,25 @@ static inline double sw_plan_skin(const sw_plan *plan, size_t node) {
   return lines && !sw_web_is_ring(web, sw_web_ring_of(web, node)) ? web->line_skin : web->skin;
 }
 
-/* The shortest of its edges, of its links or, along a mesh of rings, between these; infinite: it
- * has none [m]. */
+/* Returns the shortest of its edges, of its links or, along a mesh of rings, of the distances
+ * between rings; infinite if it has none [m]. */
 double sw_plan_spacing(const sw_plan *plan);
-/* How far out its particles are from the axis of its wire; of nodes 0 [m]. */
+/* Returns the distance of the outer particles from their wire's axis; 0 for nodes [m]. */
 double sw_plan_lever(const sw_plan *plan);
 
-/* Let the wire slide through a held node until its arc length there is s: changes all
- * that depends on the edges beside it. spare: how much longer than by their arc lengths the
- * edges before and after are [m]. */
+/* The wire slides through a held node until the node's arc length is s: changes all that depends on
+ * the edges beside it. spare: by how much the edges before and after are longer than their arc
+ * lengths [m]. */
 void sw_plan_slide(sw_plan *plan, size_t node, double s, const double spare[2]);
 
-/* Lengths of a clamp's hinge and the one after it, whose first two edges are first and
- * second long; second 0: the wire ends after the first [m]. */
+/* Computes the lengths of a clamp's hinge and the next hinge. first, second: lengths of the clamp's
+ * first two edges; second 0: the wire ends after the first [m]. */
 void sw_plan_clamp_lengths(double first, double second, double *clamp, double *next);
 
-/* Make room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
+/* Makes room for the unloaded shape of a wire with material frames. SW_ENOMEM. */
 sw_status sw_plan_add_rest(sw_plan *plan);
 
-/* Torque of a span for twist stiffness GJ: of its twist beyond that of the unloaded wire
+/* Returns a span's torque for twist stiffness GJ, from its twist beyond that of the unloaded wire
  * [N m]. */
 static inline double sw_span_torque(const sw_plan *plan, const sw_span *span, double GJ,
                                     double twist) {
@@ -161,8 +159,8 @@ static inline double sw_span_torque(const sw_plan *plan, const sw_span *span, do
 sw_plan *sw_plan_retain(sw_plan *plan);
 void sw_plan_release(sw_plan *plan); /* NULL is allowed */
 
-/* The edge (of a mesh of particles: the ring before it) that contains arc length s, and the
- * place within it in [0, 1]. */
+/* Returns the edge (for a mesh of particles: the ring before) that contains arc length s; fraction:
+ * the place within it in [0, 1]. */
 size_t sw_plan_locate(const sw_plan *plan, double s, double *fraction);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The same wire with other nodes: a smooth curve through the old ones, whose nodes are
- * then shifted as little as gives every edge the strain that the wire has there. (A
- * curve is longer than the chords that were the wire; without the shift the wire would
- * start stretched, and ring.) */
+/* Gives a wire other nodes. A smooth curve through the old nodes gives the new ones. These are then
+ * shifted as little as possible so that every edge has the strain of the wire there. (A curve is
+ * longer than the wire's chords; without the shift the wire would start stretched, and ring.) */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +10,10 @@
 #include "state/mesh.h"
 
 enum { MOST_SHIFTS = 40 };
-static const double SAME_CHORD = 1e-14; /* of an edge: strains are right [-] */
-/* A wire stretched straight between two holds has no room to shift; what is below this
- * share of an edge's own give then stays as it is. */
+static const double SAME_CHORD = 1e-14; /* relative error at which chords are right [-] */
+/* Added to each edge's compliance against shifts, which is 1 per free node [-]. A wire stretched
+ * straight between two holds has no room to shift: this keeps its equations regular, and its error
+ * stays. */
 static const double STIFFENING = 1e-7;
 
 typedef struct resample {
@@ -31,7 +31,7 @@ static int is_held(const resample *p, double from, double to) {
   return 0;
 }
 
-/* Does a held stretch begin or end here? Tension and curvature may jump there. */
+/* 1 if a held stretch begins or ends here. Tension and curvature may jump there. */
 static int is_break(const resample *p, double s) {
   for (size_t k = 0; k < 2 * p->held_count; k++)
     if (p->held[k] == s) return 1;
@@ -43,8 +43,8 @@ static sw_vec slope_between(const sw_mesh *m, const double *values, size_t a, si
   return sw_scale(d, 1.0 / (m->s[b] - m->s[a]));
 }
 
-/* Derivative of a node quantity at node i as the edge between i and j has it: of the
- * parabola through both and the one before i, or after j where i is an end or break. */
+/* Returns the derivative of a node quantity at node i, for the edge between i and j: from the
+ * parabola through both and the node before i, or after j where i is an end or break. */
 static sw_vec slope_at(const resample *p, const double *values, size_t i, size_t j) {
   const sw_mesh *m = p->old;
   const int up = j > i;
@@ -63,14 +63,14 @@ static sw_vec slope_at(const resample *p, const double *values, size_t i, size_t
   return sw_madd(own, sw_sub(own, slope_between(m, values, j, k)), l1 / (l1 + l2));
 }
 
-/* The old edge that arc length s is in. */
+/* Returns the old edge that contains arc length s. */
 static size_t edge_at(const sw_mesh *m, double s) {
   const size_t i = sw_mesh_node(m, s);
   if (i == 0) return 0;
   return m->s[i] == s && i + 1 < m->n ? i : i - 1;
 }
 
-/* A node quantity at arc length s: cubic between nodes, straight where held. */
+/* Returns a node quantity at arc length s: cubic between nodes, linear where held. */
 static sw_vec curve_at(const resample *p, const double *values, double s) {
   const sw_mesh *m = p->old;
   const size_t e = edge_at(m, s);
@@ -86,8 +86,8 @@ static sw_vec curve_at(const resample *p, const double *values, double s) {
 
 static double middle(const sw_mesh *m, size_t e) { return 0.5 * (m->s[e] + m->s[e + 1]); }
 
-/* An edge quantity at arc length s: straight between the middles of old edges, straight
- * on beside ends and breaks. */
+/* Returns an edge quantity at arc length s: linear between the middles of old edges, extrapolated
+ * beside ends and breaks. */
 static double edge_value_at(const resample *p, const double *values, double s) {
   const sw_mesh *m = p->old;
   const size_t e = edge_at(m, s);
@@ -109,7 +109,7 @@ static sw_vec direction(const double *x, size_t e) {
   return sw_unit_or(edge_vector(x, e), sw_v(1, 0, 0));
 }
 
-/* Solve for the edges' multipliers, which are left in rhs. */
+/* Solves for the edges' multipliers, into rhs. */
 static void solve_tridiagonal(resample *p) {
   const size_t m = p->out->n - 1;
   for (size_t e = 0; e + 1 < m; e++) {
@@ -127,8 +127,8 @@ static double weight(const resample *p, size_t i) {
   return is_held(p, p->out->s[i], p->out->s[i]) ? 0.0 : 1.0;
 }
 
-/* Shift node quantities (positions or velocities) so that what they are off along the
- * edges, in rhs, goes away. */
+/* Shifts node quantities (positions or velocities) to remove their error along the edges, given in
+ * rhs. */
 static void shift(resample *p, double *values) {
   const sw_mesh *m = p->out;
   double w = weight(p, 0);
@@ -149,7 +149,7 @@ static void shift(resample *p, double *values) {
   }
 }
 
-/* Chords as long as the tension makes them. */
+/* Shifts nodes until each chord has the length that its tension requires. */
 static void give_strains(resample *p) {
   sw_mesh *m = p->out;
   double before = HUGE_VAL;
@@ -166,7 +166,7 @@ static void give_strains(resample *p) {
   }
 }
 
-/* Rate at which an edge gets longer, over its length [1/s]. */
+/* Computes the rate at which each edge gets longer, over its length [1/s]. */
 static void old_rates(const sw_mesh *m, double *rate) {
   for (size_t e = 0; e + 1 < m->n; e++)
     rate[e] = sw_dot(direction(m->x, e), edge_vector(m->v, e)) / (m->s[e + 1] - m->s[e]);
@@ -187,8 +187,8 @@ static sw_edge_frame frame_of(const double *x, const double *normals, size_t e) 
   return (sw_edge_frame){direction(x, e), sw_vec_at(normals, e)};
 }
 
-/* Normals of the new edges: carried from the old edge before, and turned by their share
- * of the twist to the next one. p->turned has the twist up to each old edge. */
+/* Computes the normals of the new edges: each is carried from the old edge before it and turned by
+ * its share of the twist to the next old edge. p->turned has the twist up to each old edge. */
 static void carry_normals(const resample *p, const double *old_x, const double *old_normals,
                           const double *x, double *normals) {
   const sw_mesh *m = p->old, *out = p->out;
@@ -207,7 +207,8 @@ static void carry_normals(const resample *p, const double *old_x, const double *
   }
 }
 
-/* Twist from the first edge on, near what the hinges are known to have. */
+/* Sums up the twist from the first edge on; of equal angles, takes those nearest to the hinges'
+ * known twist. */
 static void add_up_twist(resample *p, const double *x, const double *normals, const double *known) {
   p->turned[0] = 0;
   for (size_t e = 1; e + 1 < p->old->n; e++) {
@@ -231,7 +232,7 @@ static void give_frames(resample *p) {
   for (size_t i = 1; i + 1 < out->n; i++)
     out->twist[i] = edge_value_at(p, p->turned, middle(out, i)) -
                     edge_value_at(p, p->turned, middle(out, i - 1));
-  for (size_t i = 0; i < out->n; i++) { /* at clamps, both their sides */
+  for (size_t i = 0; i < out->n; i++) { /* at clamps, for both their sides */
     const size_t k = sw_mesh_node(m, out->s[i]);
     const int same = k < m->n && m->s[k] == out->s[i];
     if (same && (k == 0 || k + 1 == m->n || is_break(p, m->s[k]))) out->twist[i] = m->twist[k];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where two lines of particles that face each other are, in a ring and the next one: the offset r
- * between the middles of both edges, split into u along the unit vector t of the edges' sum e and
- * d across it. By middles, both are the same seen from either ring, and an even bend, in which
- * sections stay plane, has u = 0. */
+/* Geometry of two lines of particles that face each other, in a ring and the next one: the offset r
+ * between the middles of both edges. It is split into u along t, the unit vector of the edges' sum
+ * e, and d across it. Middles look the same from either ring, and an even bend, in which sections
+ * stay plane, has u = 0. */
 #ifndef SW_STATE_SLIDE_H
 #define SW_STATE_SLIDE_H
 
@@ -11,17 +11,17 @@
 #include "base/vec.h"
 #include "state/web.h"
 
-/* Shares of the four particles in r and e [-]. */
+/* Weights of the four particles in r and e [-]. */
 static const double sw_slide_offset[SW_SLIDE_NODES] = {0.5, 0.5, -0.5, -0.5};
 static const double sw_slide_edge[SW_SLIDE_NODES] = {-1, 1, -1, 1};
 
 typedef struct sw_slide_place {
-  double l;          /* of e [m] */
-  double u, apart;   /* along t, |d| [m] */
-  double t[3], n[3]; /* n: of d [-] */
+  double l;          /* length of e [m] */
+  double u, apart;   /* part of r along t; |d| [m] */
+  double t[3], n[3]; /* n: direction of d [-] */
 } sw_slide_place;
 
-/* at: of the four particles. */
+/* at: places of the four particles. */
 static inline sw_slide_place sw_slide_measure(const double *const at[SW_SLIDE_NODES]) {
   sw_slide_place p;
   double r[3], l2 = 0, apart2 = 0;

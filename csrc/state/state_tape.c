@@ -23,7 +23,7 @@ void sw_tape_mesh_frame(sw_tape *t, sw_mesh_frame *x) {
   sw_tape_vec(t, &x->rest_tangent), sw_tape_vec(t, &x->rest_normal);
 }
 
-/* Arc lengths that nodes can have. */
+/* Expects at least two nodes with rising arc lengths. */
 static void expect_rising(sw_tape *t, const double *s, size_t n) {
   sw_tape_expect(t, n >= 2, "a wire without nodes");
   if (!sw_tape_reads(t) || !sw_tape_good(t)) return;
@@ -31,7 +31,7 @@ static void expect_rising(sw_tape *t, const double *s, size_t n) {
   for (size_t i = 0; i + 1 < n; i++) sw_tape_expect(t, s[i] < s[i + 1], "arc lengths do not rise");
 }
 
-/* What a system has anew, where it has not said yet. */
+/* Allocates zeroed arrays for what is not on the tape because a system sets it. */
 static void fill_up(sw_tape *t, sw_mesh *x) {
   double **const lists[] = {&x->a, &x->tension, &x->rate, &x->turn, &x->spin};
   const size_t width[] = {3, 1, 1, 1, 1}, count = x->rest ? 5 : 3;
@@ -102,14 +102,14 @@ static void tape_lists(sw_tape *t, sw_web *x, size_t shape_size) {
   sw_tape_expect(t, x->side_first[n] == sides, "the surface of a mesh");
 }
 
-/* Each below the limit. */
+/* 1 if all are below the limit. */
 static int all_below(const uint32_t *x, size_t count, size_t limit) {
   for (size_t i = 0; i < count; i++)
     if (x[i] >= limit) return 0;
   return 1;
 }
 
-/* Rises from 0, never above the limit. */
+/* 1 if the list rises from 0 and never exceeds the limit. */
 static int is_index(const size_t *x, size_t count, size_t limit) {
   if (!x || x[0] != 0 || x[count - 1] > limit) return 0;
   for (size_t i = 0; i + 1 < count; i++)
@@ -117,8 +117,8 @@ static int is_index(const size_t *x, size_t count, size_t limit) {
   return 1;
 }
 
-/* Particles of a part: they exist, no two are the same, and in a banded web they are no more than
- * a ring apart. */
+/* 1 if the particles of a part exist, are all different and, in a banded web, are no more than a
+ * ring apart. */
 static int is_part(const sw_web *w, const uint32_t *node, size_t count) {
   if (!all_below(node, count, w->particles)) return 0;
   size_t low = SIZE_MAX, high = 0;

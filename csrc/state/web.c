@@ -35,7 +35,7 @@ void sw_web_release(sw_web *w) {
               w->yield, w->hardening, w->along, w->slide, w->face, w->crease, w->behind, w);
 }
 
-/* Edges of the surface: around each ring, and along the wire to the next one. */
+/* Edges of the surface: around each ring, and along the wire to the next ring. */
 sw_status sw_web_add_surface(sw_web *w) {
   const size_t n = w->around_count;
   if (!w->per_ring) return SW_OK; /* no rings */
@@ -43,7 +43,7 @@ sw_status sw_web_add_surface(sw_web *w) {
   w->side = sw_alloc(2 * w->particles, sizeof *w->side);
   if (!w->side) return SW_ENOMEM;
   uint32_t *next SW_LOCAL =
-      sw_alloc(w->per_ring, sizeof *next); /* round the section; itself: inside */
+      sw_alloc(w->per_ring, sizeof *next); /* next around the section; itself: inside */
   if (!next) return SW_ENOMEM;
   for (size_t i = 0; i < w->per_ring; i++) next[i] = (uint32_t)i;
   for (size_t k = 0; k < n; k++) next[w->around[k]] = w->around[(k + 1) % n];
@@ -84,7 +84,7 @@ sw_status sw_web_bound_rate(sw_web *w) {
   return SW_OK;
 }
 
-/* Along, the force on one edge has the other's distance as its lever. */
+/* Along the edges, the force on one edge has the distance of the other one as its lever. */
 sw_status sw_web_bound_slides(sw_web *w) {
   double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
   if (!sum) return SW_ENOMEM;

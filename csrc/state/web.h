@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Particles that springs, folds and solid elements hold together: the inside of a wire that is
- * a mesh (a tube of rings, layers around a line, voxels) or of anything else that is soft. A web
- * is immutable once made and reference-counted; where its particles are is the body's state. */
+/* Particles that springs, folds and solid elements hold together: the inside of a wire that is a
+ * mesh (a tube of rings, layers around a line, voxels) or of any other soft object. A web is
+ * immutable once made, and reference-counted; the places of its particles are in the body's state.
+ */
 #ifndef SW_STATE_WEB_H
 #define SW_STATE_WEB_H
 
@@ -17,47 +18,47 @@ typedef struct sw_web_link {
   double rest; /* unstressed length [m] */
 } sw_web_link;
 
-/* A spring against the angle at b by which a, b and c are off a straight line. */
+/* A spring against the angle at b by which a, b and c deviate from a straight line. */
 typedef struct sw_web_fold {
   uint32_t a, b, c;
   double k;    /* moment per angle [N m] */
   double rest; /* the angle without moment, 0 or well inside (0, pi) [rad] */
 } sw_web_fold;
 
-/* A spring against the angle by which the strip from b to c is turned from that from a to b, about
- * the edge from b to d: see state/crease.h. */
+/* A spring against the angle by which the strip from b to c is turned against the strip from a to
+ * b, about the edge from b to d: see state/crease.h. */
 typedef struct sw_web_crease {
   uint32_t a, b, c, d;
   double k;    /* moment per angle [N m] */
   double rest; /* the angle without moment [rad] */
 } sw_web_crease;
 
-enum { SW_WEB_SOLID_NODES = 8 }; /* most of one solid element [-] */
+enum { SW_WEB_SOLID_NODES = 8 }; /* most nodes of a solid element [-] */
 
 /* Corners of a solid element; its other data are in the web's shapes. */
 typedef struct sw_web_solid {
   uint32_t count; /* [-] */
-  uint32_t shape; /* which one of these it has */
+  uint32_t shape; /* number of its shape */
   uint32_t node[SW_WEB_SOLID_NODES];
 } sw_web_solid;
 
 enum { SW_SLIDE_NODES = 4 };
 
-/* Two edges that face each other, of parts that slide on each other: see state/slide.h. */
+/* Two facing edges of parts that slide on each other: see state/slide.h. */
 typedef struct sw_web_slide {
-  uint32_t node[SW_SLIDE_NODES]; /* of one part, in a ring and in the next, then of the other */
-  double press, stick;           /* stiffness across and, before they slip, along [N/m] */
-  double apart, along;           /* their offset at rest across and along [m] */
-  double grip;                   /* presses them together from the start [N] */
+  uint32_t node[SW_SLIDE_NODES]; /* of one part in a ring and in the next, then of the other part */
+  double press, stick;           /* stiffness across and, until they slip, along [N/m] */
+  double apart, along;           /* offset at rest across and along [m] */
+  double grip;                   /* initial force that presses them together [N] */
 } sw_web_slide;
 
 typedef struct sw_web {
   int references;
   size_t particles;
-  size_t rings, per_ring; /* particles ring by ring along a wire; per_ring 0: in no order [-] */
-  size_t *first;          /* (rings + 1) particle that each ring begins with; those of rings that
-                           * are one particle, where the wire is a line, are one apart */
-  int banded;             /* 1: nothing reaches further than to the next ring */
+  size_t rings, per_ring; /* particles ring by ring along a wire; per_ring 0: no order [-] */
+  size_t *first; /* (rings + 1) first particle of each ring. Where the wire is a line, each ring is
+                    one particle */
+  int banded;    /* 1: nothing reaches further than the next ring */
   sw_web_link *link;
   size_t links;
   sw_web_fold *fold;
@@ -68,41 +69,40 @@ typedef struct sw_web {
   size_t solids;
   sw_web_slide *slide;
   size_t slides;
-  double friction;           /* between parts that slide [-] */
-  double slide_rate2;        /* the same as rate2 of what presses and sticks them [1/s2] */
-  double *yield, *hardening; /* (links) strain at which they yield, and gain of that force
-                                over their stiffness, NAN: never [-]; or NULL */
+  double friction;    /* between parts that slide [-] */
+  double slide_rate2; /* the same as rate2, for the springs that press and stick them [1/s2] */
+  double *yield, *hardening; /* (links) yield strain, and slope of the yield force over the
+                                stiffness; NAN: never [-]; or NULL */
   size_t shape_count;
-  void *shapes;          /* (shape_count) prepared by the force of the solids, or NULL */
-  size_t clamped_shapes; /* number of shapes from here to the shape of an element with one held
-                            ring; 0: the same shape */
-  size_t *ring_links, *ring_solids; /* (rings + 1) where those begin that start at each ring */
+  void *shapes;          /* (shape_count) prepared by the solids' force, or NULL */
+  size_t clamped_shapes; /* offset to an element's shape with one held ring; 0: the same shape */
+  size_t *ring_links, *ring_solids; /* (rings + 1) first link and solid that start at each ring */
   double *mass;                     /* (particles) [kg] */
-  double *s;                        /* (particles) arc length; place along the size [m] */
-  double length;                    /* without rings: size of the whole [m] */
-  double *along; /* (particles) unstressed distance of the same one in the next ring; 0: none [m] */
-  double *share; /* (per_ring) of the mass of a slice [-] */
-  double *section;  /* (per_ring x 2) where they are across the wire [m] */
-  uint32_t *around; /* (around_count) of a section's surface, in their order */
+  double *s;     /* (particles) arc length; without rings, place along length [m] */
+  double length; /* without rings: size of the whole [m] */
+  double *along; /* (particles) unstressed distance to the same one in the next ring; 0: none [m] */
+  double *share; /* (per_ring) share of a slice's mass [-] */
+  double *section;  /* (per_ring x 2) their places across the wire [m] */
+  uint32_t *around; /* (around_count) particles of a section's surface, in order */
   size_t around_count;
   uint32_t *face; /* (faces x 3) triangles of a section of springs, anticlockwise */
   size_t faces;
-  uint32_t axis;      /* a section's particle on the axis; per_ring: there is none */
-  double solid_rate2; /* the same of the solid elements [1/s2] */
-  double rate2;       /* most of twice the springs of a particle over its mass [1/s2] */
-  double *behind;     /* (particles) bound on the stiffness that ties each to others [N/m] */
-  double repel_distance, repel_stiffness; /* particles nearer than that push each other apart;
-                                             stiffness 0: they do not [m], [N/m] */
+  uint32_t axis;      /* a section's particle on the axis; per_ring: none */
+  double solid_rate2; /* the same as rate2, for the solid elements [1/s2] */
+  double rate2;   /* largest, over particles, of twice the springs' stiffness over mass [1/s2] */
+  double *behind; /* (particles) bound on the stiffness that connects each to others [N/m] */
+  double repel_distance, repel_stiffness; /* particles nearer than this repel each other; stiffness
+                                             0: they do not [m], [N/m] */
   double wall;          /* bending stiffness of a ring's wall per length, 0: none [N m] */
-  double line_skin;     /* distance of the surface from particles of a line [m] */
-  double skin;          /* distance of the surface from the particles there [m] */
-  double proud;         /* how far that surface is outside of the section's own [m] */
+  double line_skin;     /* distance of the surface from the particles of a line [m] */
+  double skin;          /* distance of the surface from the particles at the surface [m] */
+  double proud;         /* how far that surface lies outside the section's own [m] */
   unsigned char *outer; /* (particles) 1: at the surface */
-  size_t *side_first;   /* (particles + 1) where the sides of each begin */
+  size_t *side_first;   /* (particles + 1) first side of each particle */
   uint32_t *side;       /* other ends of the surface's edges, each edge once */
 } sw_web;
 
-/* An empty web for so many particles, of one reference. SW_ENOMEM. */
+/* Makes an empty web for this many particles, with one reference. SW_ENOMEM. */
 sw_status sw_web_new(size_t particles, size_t links, size_t folds, size_t solids, sw_web **out);
 sw_web *sw_web_retain(sw_web *web);
 void sw_web_release(sw_web *web); /* NULL is allowed */
@@ -112,20 +112,21 @@ static inline int sw_web_is_ring(const sw_web *web, size_t r) {
   return web->first[r + 1] - web->first[r] == web->per_ring;
 }
 
-/* The ring that has a particle. */
+/* Returns the ring of a particle. */
 size_t sw_web_ring_of(const sw_web *web, size_t particle);
 
-/* Once particles, rings and around are known: which particles and edges are the surface of a
- * wire. SW_ENOMEM. */
+/* When particles, rings and around are known: finds the particles and edges of a wire's surface.
+ * SW_ENOMEM. */
 sw_status sw_web_add_surface(sw_web *web);
 
-/* Once springs and masses are known: the square of a bound on how fast they swing. SW_ENOMEM. */
+/* When springs and masses are known: computes rate2, the square of a bound on their angular
+ * frequency. SW_ENOMEM. */
 sw_status sw_web_bound_rate(sw_web *web);
 
-/* The same of the springs that press and stick parts that slide. SW_ENOMEM. */
+/* The same for the springs that press and stick sliding parts (slide_rate2). SW_ENOMEM. */
 sw_status sw_web_bound_slides(sw_web *web);
 
-/* Mass-weighted middle of ring i, of positions or anything else that particles have
+/* Computes the mass-weighted middle of ring i, for positions or any other values of particles
  * (particles x 3). */
 void sw_web_middle(const sw_web *web, const double *x, size_t ring, double out[3]);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solving an iterate's equations again with other forces. */
+/* Solves an iterate's equations again for other forces. */
 #include "solve/band3.h"
 #include "system/bridge.h"
 #include "system/system.h"

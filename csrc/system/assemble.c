@@ -41,7 +41,7 @@ void sw_gather_residual(const sw_field *f, double rate2, const double *restrict 
                         const double *restrict yhat, double *restrict right) {
   const sw_plan *p = f->plan;
   const size_t n = p->nodes;
-  double before[3] = {0, 0, 0}; /* M_next of the edge before times its shift */
+  double before[3] = {0, 0, 0}; /* M_next of the previous edge times its shift */
   for (size_t i = 0; i < n; i++) {
     const double own = p->mass_own[i] * rate2, next = i + 1 < n ? p->mass_next[i] * rate2 : 0.0;
     const size_t j = i + 1 < n ? i + 1 : i;

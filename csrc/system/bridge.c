@@ -67,7 +67,6 @@ static size_t hash_of(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   return (size_t)(h >> 20) & (l->table_size - 1);
 }
 
-/* Number of the pair in the pattern, or NONE. */
 uint32_t sw_bridges_find(const struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (!l->table_size) return NONE;
   for (size_t h = hash_of(l, i, j); l->table[h]; h = (h + 1) & (l->table_size - 1)) {
@@ -84,7 +83,7 @@ static void enter(struct sw_bridges *l, uint32_t number) {
   l->table[h] = number + 1;
 }
 
-/* A table for at least count pairs, holding those known now. */
+/* Makes a table for at least count pairs and enters the known ones. */
 static sw_status make_table(struct sw_bridges *l, size_t count) {
   size_t size = 64;
   while (size < 2 * count) size *= 2;
@@ -95,7 +94,7 @@ static sw_status make_table(struct sw_bridges *l, size_t count) {
   return SW_OK;
 }
 
-/* One more bridge for the pattern. */
+/* Adds a bridge to the pattern unless it is there. */
 static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   if (sw_bridges_find(l, i, j) != NONE) return SW_OK;
   SW_TRY(sw_grow((void **)&l->known, &l->known_capacity, l->known_count + 1, sizeof *l->known));
@@ -105,8 +104,8 @@ static sw_status add_known(struct sw_bridges *l, uint32_t i, uint32_t j) {
   return SW_OK;
 }
 
-/* Return to the planned pattern. Pairs that came in a step are dropped with it: else the next
- * step's rounding would depend on more than the scene's state. */
+/* Returns to the planned pattern. Pairs that were added in a step are dropped with it; otherwise
+ * the next step's rounding would depend on more than the scene's state. */
 static sw_status take_plan(struct sw_bridges *l) {
   const size_t n = l->planned_count;
   const int more = l->anew && l->known_count > l->from_plan;
@@ -125,7 +124,7 @@ static sw_status take_plan(struct sw_bridges *l) {
   return SW_OK;
 }
 
-/* Mark the bridged bodies and number their nodes one after another. */
+/* Marks the bridged bodies and numbers their nodes consecutively. */
 static sw_status number_nodes(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   if (!l->number) l->number = sw_alloc(s->nodes, sizeof *l->number);
@@ -149,7 +148,7 @@ static sw_status number_nodes(sw_system *s) {
   return sw_grow((void **)&l->x, &l->x_capacity, l->block * l->nodes, sizeof *l->x);
 }
 
-/* Of a web, in the matrix' numbers. */
+/* Lists a web's pairs in the matrix' numbers. */
 static size_t list_couples(sw_body *b, size_t first, sw_sparse_pair *out) {
   const size_t count = sw_web_couples(b, out);
   for (size_t k = 0; k < count; k++) {
@@ -160,7 +159,7 @@ static size_t list_couples(sw_body *b, size_t first, sw_sparse_pair *out) {
   return count;
 }
 
-/* All pairs of the matrix: two along each chain's node or a web's own, then the bridges. */
+/* Lists all pairs of the matrix: two for each node of a chain, or a web's own; then the bridges. */
 static sw_status list_pairs(sw_system *s) {
   struct sw_bridges *l = s->bridges;
   size_t n = 0, room = 2 * l->nodes + l->known_count;

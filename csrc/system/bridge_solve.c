@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of bridged bodies: values of their matrix, twist, solution, reactions. */
+/* Equations of bridged bodies: values of their matrix, twist, solution, reactions. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -16,7 +16,7 @@ static const uint32_t NONE = UINT32_MAX;
 
 /* --- values --------------------------------------------------------------------- */
 
-/* A block of three unknowns among those of the matrix. */
+/* Copies a 3 x 3 block into one of the matrix' size. */
 static void widen(const struct sw_bridges *l, const double *from, double *to) {
   for (size_t i = 0; i < 3; i++)
     for (size_t j = 0; j < 3; j++) to[l->block * i + j] = from[3 * i + j];
@@ -41,7 +41,7 @@ static void load_chain(struct sw_bridges *l, const sw_body *b, size_t first, siz
   }
 }
 
-/* The same of a body with frames, whose rows have spins already. */
+/* The same for a body with frames, whose rows already include spins. */
 static void load_spinning(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   const size_t n = b->plan->nodes;
   for (size_t i = 0; i < n; i++) {
@@ -52,7 +52,7 @@ static void load_spinning(struct sw_bridges *l, const sw_body *b, size_t first, 
   }
 }
 
-/* A web has its blocks in its own matrix; held particles are taken out. */
+/* Copies a web's blocks from its own matrix; held particles get a unit block and no couplings. */
 static void load_web(struct sw_bridges *l, const sw_body *b, size_t first, size_t *pair) {
   static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   double block[9];
@@ -93,7 +93,8 @@ static void load(sw_system *s) {
   }
 }
 
-/* The bridged bodies' right-hand sides, from nodes' (nodes x 3) or with spins, into x. */
+/* Fills x with the bridged bodies' right-hand sides: those of nodes (nodes x 3), or spin_delta of
+ * bodies with frames. */
 static void load_right(const sw_system *s, const double *nodes) {
   struct sw_bridges *l = s->bridges;
   for (size_t b = 0; b < s->body_count; b++) {
@@ -111,7 +112,7 @@ static void load_right(const sw_system *s, const double *nodes) {
   }
 }
 
-/* And the solution back. */
+/* Copies the solution back. */
 static void take_solution(sw_system *s, double *nodes) {
   const struct sw_bridges *l = s->bridges;
   for (size_t b = 0; b < s->body_count; b++) {
@@ -127,7 +128,7 @@ static void take_solution(sw_system *s, double *nodes) {
 
 /* --- twist ---------------------------------------------------------------------- */
 
-/* The bridged bodies' spans, one after another. */
+/* Number of spans of all bridged bodies. */
 static size_t count_spans(const sw_system *s) {
   size_t count = 0;
   for (size_t b = 0; b < s->body_count; b++)
@@ -135,7 +136,7 @@ static size_t count_spans(const sw_system *s) {
   return count;
 }
 
-/* A span's slope among the matrix' unknowns, held nodes zero. */
+/* Writes a span's slope in the matrix' unknowns, zero at held nodes. */
 static void put_slope(const struct sw_bridges *l, const sw_body *b, size_t first,
                       const sw_span *span, double *out) {
   memset(out, 0, l->block * l->nodes * sizeof *out);
@@ -144,7 +145,7 @@ static void put_slope(const struct sw_bridges *l, const sw_body *b, size_t first
       sw_store(out + l->block * (first + i), sw_vec_at(b->twist_rank, i));
 }
 
-/* The slope times x, of the matrix' unknowns. */
+/* Returns the slope times x, in the matrix' unknowns. */
 static double slope_dot(const struct sw_bridges *l, const sw_body *b, size_t first,
                         const sw_span *span, const double *x) {
   double sum = 0;
@@ -154,7 +155,7 @@ static double slope_dot(const struct sw_bridges *l, const sw_body *b, size_t fir
   return sum;
 }
 
-/* The right-hand sides l->x and, with them, the spans' slopes are solved for. */
+/* Solves for the right-hand sides l->x and for the spans' slopes. */
 static sw_status solve_slopes(sw_system *s, size_t count) {
   struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
@@ -173,9 +174,9 @@ static sw_status solve_slopes(sw_system *s, size_t count) {
   return SW_OK;
 }
 
-/* Each span adds stiffness g g' to the matrix K. With the compliances C^-1 and the solved slopes
- * K^-1 g: the formula of Sherman, Morrison and Woodbury for all at once, because bridges carry
- * twist from wire to wire. Returns how many directions are not negative any more. */
+/* Each span adds the stiffness g g' to the matrix K. With the compliances C^-1 and the solved
+ * slopes K^-1 g, the formula of Sherman, Morrison and Woodbury treats all spans at once, because
+ * bridges carry twist from wire to wire. Returns how many directions stop being negative. */
 static size_t correct_twist(sw_system *s, size_t m) {
   struct sw_bridges *l = s->bridges;
   const size_t n = l->block * l->nodes;
@@ -276,7 +277,7 @@ void sw_bridges_take_solution(sw_system *s) {
 /* --- reactions ------------------------------------------------------------------ */
 
 static sw_held_node *held_at(sw_system *s, uint32_t node) {
-  size_t low = 0, high = s->held_count; /* a hold's nodes ascend, holds may not */
+  size_t low = 0, high = s->held_count; /* a hold's nodes ascend, but holds may not */
   for (; low < high; low++)
     if (s->held[low].node == node) return &s->held[low];
   return NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Is a stage's iterate good enough? */
+/* Decides whether a stage's iterate is good enough. */
 #include "system/converged.h"
 
 #include <math.h>
@@ -17,25 +17,25 @@ static double largest_shift(const sw_system *s) {
   return largest;
 }
 
-/* A force without stiffness is at its fixed point, one with jumps of its stiffness
- * on the right side of them, when nodes move less than
- * this share of the wire in an iteration [-]. */
+/* Largest shift in an iteration, over the wire's length, at which a force without stiffness counts
+ * as at its fixed point, and a force whose stiffness jumps counts as on the right side of its jumps
+ * [-]. */
 static const double FIXED_POINT = 1e-9;
 
-/* Rounding in the solve: a shift delta is known to eps (ka/kb) delta along stiff
- * edges, ka and kb being an edge's stiffness along and across, which makes an
- * error of ka times that in its axial force. */
+/* Rounding in the solve: along stiff edges, a shift delta is known to eps (ka/kb) delta, where ka
+ * and kb are an edge's stiffness along and across. The error of its axial force is ka times that.
+ */
 static const double ROUNDING = 2.3e-16; /* [-] */
-/* Accepted error of an axial force, of the wire's weight or bending force [-]. */
+/* Accepted error of an axial force, over the wire's weight or bending force [-]. */
 static const double FORCE_NOISE = 1e-3;
 
-/* A body's weight or bending force [N]. */
+/* Returns a body's weight or bending force, the larger [N]. */
 static double usual_force(const sw_system *s, const sw_body *b) {
   const double L = b->plan->length, EI = b->plan->beam.EI;
   return fmax(b->plan->beam.mass * L * sw_norm(sw_load(s->gravity)), EI / (L * L));
 }
 
-/* Largest shift with which the axial forces of a body can still be trusted [m]. */
+/* Returns the largest shift with which a body's axial forces can be trusted [m]. */
 static double trusted_shift(const sw_system *s, const sw_body *b, double hbar, int statics) {
   const sw_plan *p = b->plan;
   const double L = p->length, l = L / (double)p->edges;
@@ -49,15 +49,15 @@ static int drowned_in_rounding(const sw_system *s, const sw_stage *stage, int st
   const double shift = largest_shift(s);
   for (size_t b = s->part; b < s->part_end; b++) {
     const sw_body *body = &s->bodies[b];
-    if (body->plan->web) continue; /* its springs are no chain that adds rounding up */
+    if (body->plan->web) continue; /* its springs form no chain that adds up rounding */
     const double trusted = trusted_shift(s, body, stage->hbar, statics);
     if (trusted < body->plan->length && trusted > 0 && shift > trusted) return 1;
   }
   return 0;
 }
 
-/* Error of a bending moment that is left to an update, of the wire's weight, or of what accelerates
- * it, times its length [-]; rounding is no error [-]. */
+/* Error of a bending moment that an update may leave, over the wire's length times the sum of its
+ * weight and inertia force; updates smaller than the second are rounding [-]. */
 static const double MOMENT_NOISE = 1e-4, LEAST_UPDATE = 1e-5;
 
 static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stage, double rate2) {
@@ -69,11 +69,10 @@ static double fastest(const sw_system *s, const sw_body *b, const sw_stage *stag
   return sqrt(largest2) * rate2;
 }
 
-/* An update by the share u of an edge, along it or across, leaves a hinge's moment wrong by about
- * EI u^2 / l, dashpots included: it is linear in the update, the edges are not. Of soft wires the
- * limit of rotation sees to that; of stiff ones that are turned fast it was a thousand times the
- * moment of inertia.
- */
+/* An update by the share u of an edge's length, along or across, leaves an error of about EI u^2 /
+ * l in a hinge's moment, dashpots included: the moment is linear in the update, the edges are not.
+ * For soft wires the rotation limit keeps this small. For stiff wires that turn fast the error was
+ * a thousand times the moment of the inertia forces. Returns 1 if it is too large. */
 static int bends_roughly(const sw_system *s, const sw_stage *stage, const sw_newton *newton,
                          double rate2) {
   for (size_t k = s->part; k < s->part_end && !newton->statics; k++) {
@@ -100,8 +99,8 @@ static double usual_force_at(const sw_system *s, size_t node) {
   return usual_force(s, &s->bodies[sw_system_body_of(s, node)]);
 }
 
-/* Is the pull of some tie at the new places another one than the linearised one that the solve went
- * by? It is where the tie was slack before the update, or turned far in it. */
+/* 1 if some tie's pull at the new places differs from the linearised pull that the solve used. This
+ * happens if the tie was slack before the update, or turned far in it. */
 static int mistakes_ties(const sw_system *s, const double *y) {
   const size_t first = sw_part_node(s, s->part), end = sw_part_node(s, s->part_end);
   for (size_t k = 0; s->joins && k < s->joins->spring_count; k++) {
@@ -117,7 +116,7 @@ static int mistakes_ties(const sw_system *s, const double *y) {
 
 int sw_stage_converged(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                        const sw_stage_report *report, double rate2) {
-  /* contact is told of rough updates too: the next iteration goes on from what it finds */
+  /* contact is told of rough updates too: the next iteration starts from what it finds */
   s->rough = sw_factors_stale(s, report) || report->rotation > newton->accept_rotation ||
              bends_roughly(s, stage, newton, rate2);
   const int settled =

@@ -8,7 +8,7 @@
 #include "system/spin.h"
 #include "system/strain.h"
 
-/* Where what is followed from step to step lies in the state. */
+/* Start of the part of the state that is followed from step to step: twist, turn and frames. */
 static double *followed(const sw_system *s) { return s->tension + s->edges; }
 
 void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double *v,
@@ -16,7 +16,7 @@ void sw_system_look_at(sw_system *s, sw_glance *g, const double *x, const double
   *g = (sw_glance){s->x, s->v, s->strain_rate};
   memcpy(s->aside, followed(s), s->follow_size * sizeof *s->aside);
   if (s->follow_size) sw_system_follow(s, x);
-  /* read only from here on */
+  /* only read from here on */
   s->x = (double *)(uintptr_t)x;
   s->v = (double *)(uintptr_t)v;
   s->strain_rate = (double *)(uintptr_t)rates;
@@ -29,7 +29,7 @@ void sw_system_look_back(sw_system *s, const sw_glance *g) {
   memcpy(followed(s), s->aside, s->follow_size * sizeof *s->aside);
 }
 
-/* Of what has no energy the power is told. */
+/* 1 for forces without an energy, of which the power is computed. */
 static int has_power(const sw_force_class *cls) {
   return (cls->flags & (SW_FORCE_DISSIPATIVE | SW_FORCE_EXPLICIT | SW_FORCE_DRIVEN)) != 0;
 }
@@ -53,7 +53,7 @@ static double *place_of(const sw_force_class *cls, sw_energies *out) {
   return strcmp(cls->name, "gravity") == 0 ? &out->gravity : &out->stored;
 }
 
-/* The term as it is once it is committed. */
+/* Replaces the term's history by what it will be after the commit. */
 static void commit_aside(const sw_system *s, sw_body *b, sw_term *term, sw_committed *end) {
   sw_field *f = &b->field;
   double *room = s->trial_history;
@@ -113,7 +113,7 @@ static double power_of(const sw_field *f) {
   return sum;
 }
 
-/* Some know it better than their forces and the velocities tell: see field.h. */
+/* Forces with SW_FORCE_POWER know their power better than force times velocity (field.h). */
 static sw_status power_of_term(const sw_term *term, sw_field *f, double *power, sw_error *err) {
   const int knows = (term->cls->flags & SW_FORCE_POWER) != 0;
   f->want = knows ? SW_WANT_POWER : SW_WANT_FORCE;

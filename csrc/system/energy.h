@@ -5,13 +5,13 @@
 
 #include "system/system.h"
 
-/* What sw_system_look_at keeps aside. */
+/* What sw_system_look_at saves for sw_system_look_back. */
 typedef struct sw_glance {
   double *x, *v, *rates;
 } sw_glance;
 
-/* Show the system with nodes at x and velocities v (freedoms each), rates of strain (edges; NULL:
- * from the velocities), holds as last placed and axial forces as stored. Read-outs see that until
+/* Shows the system with nodes at x and velocities v (freedoms each), strain rates (edges; NULL:
+ * from the velocities), holds as last placed and axial forces as stored. Read-outs see this until
  * sw_system_look_back. */
 void sw_system_look_at(sw_system *system, sw_glance *glance, const double *x, const double *v,
                        const double *rates);
@@ -19,20 +19,20 @@ void sw_system_look_back(sw_system *system, const sw_glance *glance);
 
 typedef struct sw_energies {
   double kinetic, gravity, stored; /* [J] */
-  double loads;                    /* potential of dead loads, which counts as outside work [J] */
+  double loads;                    /* potential of dead loads, counted as outside work [J] */
 } sw_energies;
 
-/* A trial as it is once it is committed. */
+/* A trial, evaluated as it will be once committed. */
 typedef struct sw_committed {
   double time; /* at its end [s] */
-  double lost; /* what forces with a history dissipate by that, not set before [J] */
+  double lost; /* out: what forces with a history dissipate in that commit [J] */
 } sw_committed;
 
-/* All but those of contact and joins. lumped: masses of explicit methods, whose axial forces come
- * from the edges' lengths alone. committed: of a trial; NULL: of the state. */
+/* Computes all energies but those of contact and joins. lumped: masses of explicit methods, whose
+ * axial forces follow from the edges' lengths alone. committed: of a trial; NULL: of the state. */
 void sw_system_energies(sw_system *system, int lumped, sw_committed *committed, sw_energies *out);
 
-/* Of what sw_system_dissipated counts, what friction took [J]. */
+/* Returns friction's part of sw_system_dissipated [J]. */
 double sw_system_rubbed(const sw_system *system);
 
 typedef struct sw_powers {
@@ -40,9 +40,9 @@ typedef struct sw_powers {
   double given;   /* by forces without potential [W] */
 } sw_powers;
 
-/* 1: the system has forces without a potential. */
+/* 1 if the system has forces without a potential. */
 int sw_system_has_powers(const sw_system *system);
-/* Of these at the state, whose fields sw_system_energies has just measured. */
+/* Computes their powers at the state. sw_system_energies must just have measured its fields. */
 sw_status sw_system_powers(sw_system *system, double time, sw_powers *out, sw_error *err);
 
 #endif

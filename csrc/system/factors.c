@@ -8,19 +8,20 @@
 #include "system/bridge.h"
 #include "system/web.h"
 
-/* Factors serve while no edge has changed by more than this share of its length [-], and for this
- * many solves of a stage in a row. */
+/* Factors are reused while no edge has changed by more than this share of its length [-], and for
+ * at most this many solves in a row in a stage. */
 static const double SERVES = 0.02;
 enum { MOST_SOLVES = 3 };
 
 /* A Newton step leaves an error of about half the square of the edges' change. Solves with old
- * factors may leave at most half of that, judged by the decrease of the last two solves, or a
- * change below any force [-]. Their speed is not known before: a turn of a stiff part goes into a
- * soft one, multiplied by the ratio of stiffnesses. */
+ * factors may leave at most half of that, estimated from the decrease of the last two solves, or a
+ * change too small to cause any force [-]. Their convergence is not known in advance: a turn of a
+ * stiff part acts on a soft one, multiplied by the ratio of stiffnesses. */
 static const double GOOD = 0.25, NOTHING = 1e-8;
-static const double SLOW = 0.3; /* solves that decrease more slowly are given up [-] */
+static const double SLOW = 0.3; /* slower decrease of the change: old factors are given up [-] */
 
-/* Stiffness without jumps: of elements, and of terms that take power from the motion. */
+/* 1 if the stiffness has no jumps: from elements, and from terms that take power from the motion.
+ */
 static int is_smooth(const sw_body *b) {
   const sw_web *w = b->plan->web;
   if (!w || !w->solids || w->links || w->folds || w->creases || w->slides || b->web_room) return 0;
@@ -53,7 +54,7 @@ void sw_factors_keep(sw_system *s, const sw_stage *stage, const sw_newton *newto
   memcpy(s->factor_at, stage->y, 3 * s->nodes * sizeof *s->factor_at);
 }
 
-/* The largest relative change of an edge by the move from - to. */
+/* Returns the largest relative change of an edge by the move to - from. */
 static double change(const sw_system *s, const double *from, const double *to) {
   double largest = 0;
   SW_ITEMS(const sw_body, body, s->bodies, s->body_count) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Held nodes of a body in its equations: taken out, and what they bear. */
+/* Held nodes in a body's equations: takes them out and computes their reactions. */
 #include "system/held.h"
 
 #include <string.h>
@@ -16,12 +16,11 @@ static void transpose(const double *u, double *out) {
     for (int j = 0; j < 3; j++) out[3 * i + j] = u[3 * j + i];
 }
 
-/* Take a held node out of the equations, keeping its couplings for the
- * reaction. */
+/* Takes a held node out of the equations and keeps its couplings for the reaction. */
 static void hold_row(sw_held_node *h, double *rows, size_t n, size_t i, double *right) {
   const double *row = rows + SW_ROW_SIZE * i;
   memset(h->saved, 0, sizeof h->saved);
-  memset(h->own, 0, sizeof h->own); /* rails see to their own */
+  memset(h->own, 0, sizeof h->own); /* rails keep their own block */
   if (!h->rail) memcpy(h->own, row + SW_ROW_OWN, sizeof h->own);
   if (i >= 2) transpose(rows + SW_ROW_SIZE * (i - 2) + SW_ROW_SECOND, h->saved);
   if (i >= 1) transpose(rows + SW_ROW_SIZE * (i - 1) + SW_ROW_NEXT, h->saved + 9);
@@ -44,7 +43,7 @@ static void add_own(sw_vec *f, const double *u, const double *d) {
   f->z += u[2] * d[0] + u[4] * d[1] + u[5] * d[2];
 }
 
-/* Reaction after the update delta, linearised as the solve was. */
+/* Computes the reaction after the update delta, linearised as in the solve. */
 static void update_reaction(sw_held_node *h, const sw_body *b, const double *delta) {
   const size_t i = h->node - b->first_node, n = b->plan->nodes;
   const double *d = delta + 3 * h->node;

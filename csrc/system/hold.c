@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds: where they keep their nodes, and what they bear. */
+/* Holds: places their nodes and computes the loads they bear. */
 #include <math.h>
 
 #include "base/each.h"
@@ -52,7 +52,8 @@ void sw_system_held_velocity(const sw_system *s, const sw_held_node *held, doubl
   place_node(&s->hold_states[held->hold], held->local, NULL, v, NULL);
 }
 
-/* Adds what clamps that have a hold (-1: all) do to directions to out, of each hold or of this. */
+/* Adds the moments of clamps on directions: of hold `hold` to *out, or for -1 of every hold to
+ * out[hold]. */
 static void add_clamp_moments(const sw_system *s, int hold, sw_hold_load *out) {
   for (size_t b = 0; b < s->body_count; b++) {
     const sw_body *body = &s->bodies[b];

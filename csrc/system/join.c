@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A hub's arm has the vector a of direction p, and r = R d. Its energy k (1 - p.r) has the
- * derivative -k u/|a| with u = r - (p.r) p, and the second one
+/* An arm of a hub is the vector a with direction p; r = R d. Its energy k (1 - p.r) has the
+ * derivative -k u/|a| with u = r - (p.r) p, and the second derivative
  *   k (p u' + u p' + (p.r)(I - p p'))/|a|^2.
- * A turn w of the hub more has with the arm k (I - p p')[r x]/|a|, with itself the sum of
- * k ((p.r) I - (p r' + r p')/2); it is eliminated, since no inertia goes with it. */
+ * A further turn w of the hub has the coupling k (I - p p')[r x]/|a| with the arm, and with itself
+ * the sum of k ((p.r) I - (p r' + r p')/2). It is eliminated, since it has no inertia. */
 #include "system/join.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ static struct sw_joins *joins_of(sw_system *s) {
 
 /* --- plan ------------------------------------------------------------------------ */
 
-/* Is the block of nodes i < j in the rows of their body's own band? */
+/* 1 if the block of nodes i < j is in the rows of their body's own band. */
 static int in_band(const sw_system *s, uint32_t i, uint32_t j) {
   return j - i <= 2 && sw_system_body_of(s, i) == sw_system_body_of(s, j);
 }
@@ -80,7 +80,7 @@ static void add_force(sw_system *s, uint32_t node, sw_vec f) {
   sw_accumulate(b->field.force + 3 * (node - b->first_node), f);
 }
 
-/* Stiffness between nodes i and j, i's rows; for i == j all of it, which is symmetric. */
+/* Adds stiffness between nodes i and j, with i's rows; for i == j the whole symmetric block. */
 static sw_status add_block(sw_system *s, uint32_t i, uint32_t j, const double k[9]) {
   static const size_t upper[6] = {0, 1, 2, 4, 5, 8};
   if (i > j) {
@@ -110,7 +110,7 @@ sw_vec sw_join_spring_force(const sw_join_spring *p, const double *x) {
   return force_at(p, apart_at(p, x));
 }
 
-/* Of the nodes' difference, times a sign. */
+/* Stiffness for the nodes' difference, times a sign. */
 static void spring_stiffness(const sw_join_spring *p, const double *x, double sign, double out[9]) {
   const sw_vec apart = apart_at(p, x);
   memset(out, 0, 9 * sizeof *out);
@@ -163,7 +163,7 @@ static void transpose(const double a[9], double out[9]) {
     for (int j = 0; j < 3; j++) out[3 * i + j] = a[3 * j + i];
 }
 
-/* Of a regular symmetric matrix. */
+/* Inverts a regular symmetric matrix. */
 static void invert(const double a[9], double out[9]) {
   const double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8];
   const double c2 = a[3] * a[7] - a[4] * a[6];
@@ -175,9 +175,9 @@ static void invert(const double a[9], double out[9]) {
 
 /* --- hubs ------------------------------------------------------------------------ */
 
-/* An arm as it is. */
+/* The present state of an arm. */
 typedef struct arm {
-  sw_vec p, r;       /* its direction, where the hub has it [-] */
+  sw_vec p, r;       /* its direction; its rest direction turned with the hub [-] */
   double inverse, c; /* 1 over its length [1/m], p.r [-] */
 } arm;
 
@@ -211,11 +211,12 @@ sw_vec sw_join_hub_moment(const sw_join_hub *h, size_t number, const double *x) 
   return sw_scale(sw_cross(arms[number].p, arms[number].r), h->arms[number].k);
 }
 
-/* Keeps a free axis from being singular, share of all arms' stiffness [-]. */
+/* Stiffness about a free axis that keeps the matrix regular, over the sum of all arms' stiffness
+ * [-]. */
 static const double FREE_AXIS = 1e-9;
 
-/* The inverse of the hub's own stiffness against turning; zero about an axis along all arms, about
- * which the hub is free. */
+/* Computes the inverse of the hub's own stiffness against turning. An axis along all arms is free:
+ * FREE_AXIS makes the matrix regular. */
 static void turn_compliance(const sw_join_hub *h, const arm *arms, double out[9]) {
   double H[9] = {0}, sum = 0;
   for (size_t a = 0; a < h->count; a++) {
@@ -230,7 +231,7 @@ static void turn_compliance(const sw_join_hub *h, const arm *arms, double out[9]
   invert(H, out);
 }
 
-/* out = (I - p p') [r x] k/|a| of an arm. */
+/* Computes (I - p p') [r x] k/|a| of an arm. */
 static void turn_coupling(const arm *v, double k, double out[9]) {
   const sw_vec r = v->r, columns[3] = {{0, r.z, -r.y}, {-r.z, 0, r.x}, {r.y, -r.x, 0}};
   for (size_t j = 0; j < 3; j++) {
@@ -239,7 +240,7 @@ static void turn_coupling(const arm *v, double k, double out[9]) {
   }
 }
 
-/* Stiffness K of the vectors of two arms, for their nodes. */
+/* Adds the stiffness K between the vectors of two arms to their nodes. */
 static sw_status add_arms(sw_system *s, const struct sw_join_arm *a, const struct sw_join_arm *b,
                           const double K[9]) {
   double minus[9], both[9];
@@ -253,14 +254,14 @@ static sw_status add_arms(sw_system *s, const struct sw_join_arm *a, const struc
   for (size_t m = 0; m < 2; m++)
     for (size_t n = 0; n < 2; n++) {
       const double *k = m == n ? K : minus;
-      /* a node of both arms has the block and its transpose */
+      /* a node of both arms gets the block and its transpose */
       for (int c = 0; c < 9; c++) both[c] = k[c] + k[3 * (c % 3) + c / 3];
       SW_TRY(add_block(s, i[m], j[n], i[m] == j[n] ? both : k));
     }
   return SW_OK;
 }
 
-/* Of an arm's vector while the hub stays. */
+/* Stiffness of an arm's vector while the hub does not turn. */
 static void own_stiffness(const arm *v, double k, double out[9]) {
   const sw_vec u = sw_madd(v->r, v->p, -v->c);
   const double f = k * v->inverse * v->inverse;
@@ -305,8 +306,8 @@ sw_status sw_joins_eval(sw_system *s, const double *y) {
   return SW_OK;
 }
 
-/* Length along the wire from the edge that starts at a node to another node; infinite on
- * another wire [m]. */
+/* Returns the length along the wire from the edge that starts at a node to another node; infinite
+ * on another wire [m]. */
 static double along(const sw_system *s, uint32_t edge, uint32_t node) {
   const sw_body *b = &s->bodies[sw_system_body_of(s, edge)];
   if (node < b->first_node || node >= b->first_node + b->plan->nodes) return HUGE_VAL;
@@ -314,7 +315,8 @@ static double along(const sw_system *s, uint32_t edge, uint32_t node) {
   return to < at[0] ? at[0] - to : to > at[1] ? to - at[1] : 0.0;
 }
 
-/* So near a join wires do not touch each other; of the radii's sum along both [-]. */
+/* Distance from a join along both wires, over the sum of their radii, within which they do not
+ * touch each other [-]. */
 static const double AT_A_JOIN = 4.0;
 
 static double radius_at(const sw_system *s, uint32_t node) {
@@ -326,7 +328,7 @@ int sw_joins_near(const sw_system *s, uint32_t one, uint32_t two) {
   const double reach = all ? AT_A_JOIN * (radius_at(s, one) + radius_at(s, two)) : 0;
   for (size_t k = 0; all && k < all->spring_count; k++) {
     const sw_join_spring *p = &all->springs[k];
-    if (p->tie) continue; /* wires that are tied lie on each other */
+    if (p->tie) continue; /* tied wires lie on each other */
     if (along(s, one, p->i) <= reach && along(s, two, p->j) <= reach) return 1;
     if (along(s, one, p->j) <= reach && along(s, two, p->i) <= reach) return 1;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Joins of wires: springs that keep nodes together, and hubs that keep directions of edges. */
+/* Joins of wires: springs, which keep nodes together, and hubs, which keep directions of edges. */
 #ifndef SW_SYSTEM_JOIN_H
 #define SW_SYSTEM_JOIN_H
 
@@ -7,24 +7,24 @@
 
 #include "system/system.h"
 
-/* Keeps x_i - x_j at offset; or a tie: pulls x_i and x_j together where they are further apart than
- * slack, with the energy 1/2 k (|x_i - x_j| - slack)^2. */
+/* Keeps x_i - x_j at offset. Or a tie, with energy 1/2 k (|x_i - x_j| - slack)^2: pulls x_i and x_j
+ * together if they are further apart than slack. */
 typedef struct sw_join_spring {
   uint32_t i, j; /* nodes */
   double k;      /* [N/m] */
   sw_vec offset; /* [m] */
-  int tie;       /* 1: it is one */
+  int tie;       /* 1: a tie */
   double slack;  /* [m] */
 } sw_join_spring;
 
 enum { SW_HUB_ARMS = 8 };
 
-/* A rigid piece with wires stuck in. With the directions p of their arms, the given ones d and the
- * best rotation R its energy is sum k (1 - p . R d). */
+/* A rigid piece in which wires are fixed. Its arms have directions p and rest directions d; with
+ * the best fitting rotation R, its energy is sum k (1 - p . R d). */
 typedef struct sw_join_hub {
   size_t count;
   struct sw_join_arm {
-    uint32_t from, to; /* nodes that the arm's direction is between */
+    uint32_t from, to; /* nodes at the ends of the arm */
     double k;          /* [N m] */
     sw_vec rest;       /* d [-] */
   } arms[SW_HUB_ARMS];
@@ -37,30 +37,30 @@ struct sw_joins {
   size_t hub_count, hub_capacity;
 };
 
-/* Add one, and plan the bridges it makes. SW_ENOMEM. */
+/* Adds a spring or hub and plans its bridges. SW_ENOMEM. */
 sw_status sw_system_add_spring(sw_system *system, const sw_join_spring *spring);
 sw_status sw_system_add_hub(sw_system *system, const sw_join_hub *hub);
 
-/* Plan all of them again. SW_ENOMEM. */
+/* Plans the bridges of all joins again. SW_ENOMEM. */
 sw_status sw_joins_plan(sw_system *system);
 
-/* Add forces and stiffness at y to the bodies' fields and to the bridges. SW_ENOMEM. */
+/* Adds forces and stiffness at y to the bodies' fields and to the bridges. SW_ENOMEM. */
 sw_status sw_joins_eval(sw_system *system, const double *y);
 
-/* Force of a spring on its node i at x [N]. */
+/* Returns the force of a spring on its node i at x [N]. */
 sw_vec sw_join_spring_force(const sw_join_spring *spring, const double *x);
 
-/* Force of a tie on its node i at x, linearised about the places before the last update [m], [N].
- */
+/* Returns the force of a tie on its node i at x, linearised about the places before the last update
+ * [m], [N]. */
 sw_vec sw_join_tie_expected(const sw_join_spring *tie, const double *x, const double *update);
 
-/* Moment of a hub on its arm at x, about any point [N m]. */
+/* Returns the moment of a hub on its arm at x, about any point [N m]. */
 sw_vec sw_join_hub_moment(const sw_join_hub *hub, size_t arm, const double *x);
 
 double sw_joins_energy(const sw_system *system); /* at the state [J] */
 
-/* 1: the edges that start at nodes one and two are so near a join of their wires, along both, that
- * they do not touch each other. */
+/* 1 if the edges that start at nodes one and two are, each along its wire, so near a join of their
+ * wires that contact between them is ignored. */
 int sw_joins_near(const sw_system *system, uint32_t one, uint32_t two);
 
 void sw_joins_free(sw_system *system);

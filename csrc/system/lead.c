@@ -3,9 +3,9 @@
 
 #include "base/each.h"
 
-/* Solves at one place while touches come and go. */
+/* Most solves in a row at one place while touches come and go. */
 enum { MOST_WAITS = 40 };
-/* Solves that come to rest need up to 7. */
+/* Most shortened updates; solves that converge need up to 7. */
 enum { MOST_SHORTENED = 16 };
 
 static int is_led(const sw_system *s, const sw_held_node *h) {
@@ -52,7 +52,7 @@ void sw_lead_update(sw_system *s, const double *y) {
   }
 }
 
-/* Wires alone, and something to touch? */
+/* 1 if there are only wires, and something to touch. */
 static int wires_touch(const sw_system *s) {
   for (size_t b = 0; b < s->body_count; b++)
     if (s->bodies[b].plan->web) return 0;

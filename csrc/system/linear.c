@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small motions of a body about the state: stiffness K, consistent mass M, and factors of K - shift
  * M. Held nodes do not move. The product with K goes edge by edge. Rows of the matrix would add
- * blocks larger than the force of a smooth motion by up to the fourth power of the number of
- * segments, and their rounding would drown it. */
+ * blocks that exceed the force of a smooth motion by up to the fourth power of the number of
+ * segments, and their rounding would drown that force. */
 #include "system/linear.h"
 
 #include <math.h>
@@ -59,9 +59,9 @@ size_t sw_system_free_unknowns(const sw_system *s, size_t body) {
   return 3 * (b->plan->nodes - held) + (b->spin_block ? sw_spin_free_turns(s, b) : 0);
 }
 
-/* A factor: of the band; for twist also its inverse times the slopes of the spans (nodes x 3), and
- * each span's term of Sherman and Morrison. With frames: the band of four, and work space for
- * three. */
+/* A factor consists of the band's factor; with twist also of its inverse times the spans' slopes
+ * (nodes x 3), and each span's term of Sherman and Morrison. With frames: the band of four, and
+ * work space for a band of three. */
 size_t sw_system_factor_size(const sw_system *s, size_t body) {
   const sw_body *b = &s->bodies[body];
   if (b->spin_block) return (SW_ROW4_SIZE + SW_ROW_SIZE) * b->plan->nodes;
@@ -121,7 +121,7 @@ static void shifted_rows(const sw_system *s, size_t body, double shift, double *
     if (s->held[i].body == body) sw_drop_row(rows, s->held[i].node - b->first_node);
 }
 
-/* Spans are apart in the matrix: a held node is between them. */
+/* A held node separates the spans in the matrix, so each is corrected by itself. */
 static size_t factor_twist(const sw_system *s, size_t body, double *factor) {
   const sw_body *b = &s->bodies[body];
   double *solved = factor + SW_ROW_SIZE * b->plan->nodes, *self = solved + 3 * b->plan->nodes;
@@ -218,7 +218,7 @@ void sw_body_stiffness_times(sw_body *b, const double *d, double *out) {
   sw_blocks_multiply(b->blocks, d, out);
 }
 
-/* The nodes of a motion (unknowns), and back. */
+/* Copies the nodes' part of a motion (unknowns) to (nodes x 3), and back. */
 static void take_nodes(size_t n, const double *motion, double *out) {
   for (size_t i = 0; i < n; i++) memcpy(out + 3 * i, motion + 4 * i, 3 * sizeof *out);
 }
@@ -230,7 +230,7 @@ static void put_nodes(size_t n, const double *nodes, double *out) {
   }
 }
 
-/* With frames, in the room of the last update. */
+/* The same with frames; uses the memory of the last update as work space. */
 static void framed_stiffness_times(const sw_body *b, const double *motion, double *out) {
   const size_t n = b->plan->nodes;
   double *nodes = b->spin_delta, *pushes = b->spin_rows;

@@ -8,7 +8,7 @@ int sw_parts_any(const sw_system *s, const sw_newton *newton) {
   if (s->body_count < 2 || newton->statics || s->joins || sw_bridges_any(s)) return 0;
   if ((c->eval || c->settled) && !c->part) return 0;
   for (size_t b = 0; b < s->body_count; b++)
-    if (s->bodies[b].plan->web) return 0; /* their factors serve from stage to stage */
+    if (s->bodies[b].plan->web) return 0; /* their factors are kept from stage to stage */
   return 1;
 }
 

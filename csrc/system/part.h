@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bodies without coupling are solved one after another. Each iterates until it has converged, with
- * its data in the cache. Of this room only. */
+/* Solves bodies without coupling one after another. Each iterates until it converges, with its data
+ * in the cache. Private to this room. */
 #ifndef SW_SYSTEM_PART_H
 #define SW_SYSTEM_PART_H
 
 #include "system/system.h"
 
-/* Does nothing couple the bodies in this stage? */
+/* 1 if nothing couples the bodies in this stage. */
 int sw_parts_any(const sw_system *system, const sw_newton *newton);
-/* A stage begins: all bodies at once, with each one's list of held nodes. */
+/* A stage begins: selects all bodies at once and lists each body's held nodes. */
 void sw_parts_begin(sw_system *system);
 
-/* The nodes and edges of the bodies that are solved now. */
+/* First node and first edge of a body, or the system's number of them after the last body. */
 static inline size_t sw_part_node(const sw_system *s, size_t body) {
   return body < s->body_count ? s->bodies[body].first_node : s->nodes;
 }

@@ -7,7 +7,8 @@
 #include "system/axial.h"
 #include "system/rail.h"
 
-/* Relative changes in a step above this are blows, which do not last [-]. */
+/* Larger relative changes in a step are blows, which do not last: read-outs are extrapolated by at
+ * most this share [-]. */
 static const double SMOOTH = 0.1;
 
 sw_status sw_system_add_even(sw_system *s) {
@@ -41,7 +42,7 @@ void sw_system_add_pull(const sw_system *s, const double *tension, const double 
   }
 }
 
-/* Axial forces between those of both stages, as they were `behind` ago, and from there on. */
+/* An axial force: the mix of both stages, `behind` ago, and its extrapolation to the step's end. */
 typedef struct evened {
   double between, now;
 } evened;
@@ -88,7 +89,7 @@ const double *sw_system_elastic(const sw_system *s, const sw_body *body) {
   return s->tension + body->first_edge;
 }
 
-/* Force at a node along a link to another one [N]. */
+/* Force at a node along its link to another node [N]. */
 static sw_vec along(const double *x, size_t node, size_t other, double pull) {
   const sw_vec d = sw_sub(sw_vec_at(x, other), sw_vec_at(x, node));
   const double l = sw_norm(d);
@@ -100,14 +101,14 @@ static void add_at(sw_hold_load *load, sw_vec force, sw_vec at, sw_vec point) {
   load->moment = sw_add(load->moment, sw_cross(sw_sub(at, point), force));
 }
 
-/* The hold of a held particle. */
+/* Returns the hold of a held particle, or -1. */
 static int hold_of(const sw_system *s, const sw_body *b, size_t node) {
   for (size_t k = b->held; k; k = s->held[k - 1].next)
     if (s->held[k - 1].node == node) return s->held[k - 1].hold;
   return -1;
 }
 
-/* What the springs of a mesh pull held particles with beyond what is read out. */
+/* Adds the part of a mesh's spring forces on held particles that exceeds the forces read out. */
 static void add_excess_of_web(const sw_system *s, const sw_body *b, const double *x, int hold,
                               sw_vec point, sw_hold_load *out) {
   const sw_plan *p = b->plan;
@@ -122,7 +123,7 @@ static void add_excess_of_web(const sw_system *s, const sw_body *b, const double
   }
 }
 
-/* A node that goes along its rail bears nothing along it. */
+/* Removes the force along a rail on which the node moves: it bears nothing along it. */
 static sw_vec across_rail(const sw_system *s, const sw_held_node *h, sw_vec force) {
   const sw_rail *rail = h->rail ? &s->rails[h->rail - 1] : NULL;
   if (!rail || rail->state != SW_RAIL_GOES) return force;

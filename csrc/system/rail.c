@@ -8,8 +8,8 @@
 #include "system/rail_inner.h"
 
 /* An update is the last one if the curve leaves its tangent by less than this share of an edge,
- * relative to the known strain; with a hundred times that a stiff wire's tension was off by 1e-3
- * [-]. */
+ * which is the error of its strain. With a hundred times that, a stiff wire's tension was off by
+ * 1e-3 [-]. */
 static const double STRAIGHT = 1e-10;
 
 size_t sw_rail_freedom(const sw_system *s, size_t k) { return 3 * s->nodes + s->rolls + k; }
@@ -29,7 +29,8 @@ sw_status sw_system_set_rails(sw_system *s, const sw_rail *rails, size_t count) 
 
 /* --- where nodes are ---------------------------------------------------------------- */
 
-/* At place p with rates v and a; results that are not NULL are filled. */
+/* Computes place, velocity and acceleration (each may be NULL) of a rail's node for its place, rate
+ * and acceleration p. */
 static void place(const sw_system *s, const sw_rail *r, const double p[3], double *x, double *v,
                   double *a) {
   const sw_hold_state *h = &s->hold_states[sw_rail_node(s, r)->hold];
@@ -78,7 +79,7 @@ static double rate_of(const sw_stage *stage, int statics) {
   return statics || !isfinite(stage->hbar) ? 0.0 : 1.0 / stage->hbar;
 }
 
-/* Place, speed and acceleration of the iterate. */
+/* p = place, speed and acceleration of the iterate. */
 static void iterate_of(const sw_system *s, const sw_stage *stage, int statics, size_t k,
                        double p[3]) {
   const size_t at = sw_rail_freedom(s, k);
@@ -113,7 +114,7 @@ void sw_rails_follow(sw_system *s, const sw_stage *stage, int statics) {
     if (sw_rail_is_part(s, &s->rails[k])) follow(s, stage, statics, k);
 }
 
-/* Ends are ends also when the free flight goes beyond them. */
+/* The ends also limit a free flight that goes beyond them. */
 static void keep_between(const sw_rail *r, double *p) { *p = fmin(fmax(*p, r->from), r->to); }
 
 void sw_rails_begin(sw_system *s, const sw_stage *stage, int statics) {
@@ -154,8 +155,8 @@ void sw_rails_finish(sw_system *s, const sw_stage *stage) {
   }
 }
 
-/* Does the curve leave its tangent on the way, by more than the error that edges beside it may
- * have? */
+/* 1 if the curve leaves its tangent in the step by more than the error allowed to the edges beside
+ * it. */
 static int is_long(const sw_system *s, const sw_rail *r) {
   const sw_held_node *h = sw_rail_node(s, r);
   const sw_body *b = &s->bodies[h->body];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rails' own equations: a shift of each of their nodes, what it does to all other unknowns, and
- * how far each goes. */
+/* Solves the rails' own equations: the effect of a shift of each rail's node on all other unknowns,
+ * and the step of each rail. */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +11,9 @@
 #include "system/rail_inner.h"
 #include "system/twist.h"
 
-/* Largest turn of the curve in one update [rad]. */
+/* Largest turn of the curve's tangent in one update [rad]. */
 static const double LARGEST_TURN = 0.5;
-/* Force across, by which friction is known [-]. */
+/* Relative accuracy of the friction's balance with the force across [-]. */
 static const double KNOWN = 1e-7;
 
 /* --- what a shift does to the others -------------------------------------------------- */
@@ -28,7 +28,7 @@ void sw_rail_take(sw_rail *r, const sw_body *b, size_t i) {
   for (int k = 0; k < 9; k++) r->own[k] = b->field.rows[SW_ROW_SIZE * i + (size_t)whole[k]];
 }
 
-/* The four neighbours whose blocks a held node has saved. */
+/* Offsets of the four neighbours whose blocks a held node has saved. */
 static const long BESIDE[4] = {-2, -1, 1, 2};
 
 static int is_free(const sw_body *b, size_t i, long beside) {
@@ -36,9 +36,9 @@ static int is_free(const sw_body *b, size_t i, long beside) {
   return j >= 0 && j < (long)b->plan->nodes && b->plan->held[j] == SW_FREE;
 }
 
-/* The slope of the twist of a body's span at node i, or zero. */
+/* Returns the slope of the twist of a body's span at node i, or zero. */
 static sw_vec slope_of(const sw_body *b, const sw_span *span, size_t i) {
-  if (i <= span->first || i > span->last) return sw_v(0, 0, 0); /* clamps are at its ends */
+  if (i <= span->first || i > span->last) return sw_v(0, 0, 0); /* clamps are at the span's ends */
   return sw_vec_at(b->twist_rank, i);
 }
 
@@ -47,7 +47,7 @@ static void add_spin_rights(const sw_body *b, size_t i, sw_vec d, double *spins)
   const size_t edges = b->plan->edges;
   for (int side = 0; side < 2; side++) {
     const size_t e = side ? i : i - 1;
-    const sw_vec way = side ? d : sw_neg(d); /* minus what the edge is changed by */
+    const sw_vec way = side ? d : sw_neg(d); /* minus the change of the edge */
     if ((!side && i == 0) || e >= edges) continue;
     spins[e] += sw_dot(sw_vec_across(f->spin_edge, e), way);
     if (e > 0) spins[e - 1] += sw_dot(sw_vec_across(f->spin_edge + 3, e), way);
@@ -58,7 +58,8 @@ static void add_spin_rights(const sw_body *b, size_t i, sw_vec d, double *spins)
   if (i < edges) spins[i] -= sw_dot(sw_vec_across(f->spin_node + 3, i), d);
 }
 
-/* Right-hand sides of all nodes (nodes x 3) and spins (nodes) when a rail's node shifts by d. */
+/* Computes the right-hand sides of all nodes (nodes x 3) and spins (nodes) for a shift d of a
+ * rail's node. */
 static void load_shift(const sw_system *s, const sw_rail *r, sw_vec d, double *nodes,
                        double *spins) {
   const sw_held_node *h = sw_rail_node(s, r);
@@ -101,8 +102,8 @@ static void solve_shift(sw_system *s, const sw_body *b, double *nodes, double *s
   }
 }
 
-/* Change of the reaction of a rail's node by updates of nodes and spins, its own one too; spins:
- * every stride-th value from the body's first edge. */
+/* Returns the change of the reaction of a rail's node by updates of nodes and spins and by its own
+ * shift d. spins: every stride-th value from the body's first edge. */
 static sw_vec reaction_of(const sw_system *s, const sw_rail *r, const double *nodes,
                           const double *spins, size_t stride, sw_vec d) {
   const sw_held_node *h = sw_rail_node(s, r);
@@ -141,7 +142,7 @@ static sw_vec reaction_of(const sw_system *s, const sw_rail *r, const double *no
   return f;
 }
 
-/* By the update of the system. */
+/* Returns the reaction after the system's update and its own shift d. */
 static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
   const sw_held_node *h = sw_rail_node(s, r);
   const sw_body *b = &s->bodies[h->body];
@@ -151,13 +152,15 @@ static sw_vec reaction_now(const sw_system *s, const sw_rail *r, sw_vec d) {
 
 /* --- the rails' own equations ----------------------------------------------------------- */
 
-/* Friction of a moving place is that of the force across, taken in its present direction. */
+/* Returns the direction in which the reaction must vanish. It includes the friction of a moving
+ * node: the force across, taken in its present direction. */
 static sw_vec test_of(const sw_rail *r) {
   const sw_vec n = sw_unit_or(sw_rail_across(r, r->before), sw_v(0, 0, 0));
   return sw_madd(r->along, n, r->way * r->friction);
 }
 
-/* Where the place must go for other reasons than forces; 1: it must. */
+/* Sets the step to where the place must go for other reasons than forces (sticking, or at an end).
+ * Returns 1 if it must go there. */
 static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *step) {
   const double to = r->state == SW_RAIL_STICKS    ? stage->xhat[at]
                     : r->state == SW_RAIL_AT_FROM ? r->from
@@ -168,7 +171,7 @@ static int is_given(const sw_rail *r, const sw_stage *stage, size_t at, double *
 
 static double *shift_of(const sw_system *s, size_t k) { return s->rail_room + 4 * s->nodes * k; }
 
-/* Equations of the rails into A and b; rails of other parts stay. */
+/* Sets up the rails' equations in A and b. Rails of other parts stay. */
 static void set_up(sw_system *s, const sw_stage *stage, double *A, double *b) {
   const size_t m = s->rail_count;
   memset(A, 0, (m * m + m) * sizeof *A);
@@ -198,7 +201,7 @@ static void set_up(sw_system *s, const sw_stage *stage, double *A, double *b) {
   }
 }
 
-/* All follow the shift of rail k by its step. */
+/* Adds the effect of rail k's step to all unknowns. */
 static void carry(sw_system *s, size_t k) {
   const sw_rail *r = &s->rails[k];
   const double *nodes = shift_of(s, k), *spins = nodes + 3 * s->nodes;
@@ -215,7 +218,7 @@ static void carry(sw_system *s, size_t k) {
   sw_store(s->delta + 3 * node, sw_scale(r->along, r->step));
 }
 
-/* Torques that the update adds to spans, those of the rails' nodes too. */
+/* Computes the torques that the update adds to spans, with the part of the rails' nodes. */
 static void take_gains(sw_system *s) {
   if (sw_bridges_any(s)) sw_bridges_take_solution(s);
   for (size_t b = s->part; b < s->part_end; b++) {
@@ -234,14 +237,14 @@ static void take_gains(sw_system *s) {
   }
 }
 
-/* It slides if the force along the curve is above friction's limit. */
+/* The node starts to slide, because the force along the curve exceeds the friction limit. */
 static void let_go(sw_rail *r, double along) {
   r->state = SW_RAIL_GOES;
   r->way = along > 0 ? -1.0 : 1.0;
   r->open = 1;
 }
 
-/* After the update, does it still stand, or still go the same way? */
+/* Checks after the update whether the node still stands, or still moves the same way. */
 static void review(const sw_system *s, const sw_stage *stage, size_t k) {
   sw_rail *r = &s->rails[k];
   const size_t at = sw_rail_freedom(s, k);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The turn of an edge within a step is counted from its frame at the step's start, carried along a
- * great circle to its present tangent. Frames get there through the iterates, and turn by the area
- * between both ways. */
+/* An edge's turn within a step is counted from its frame at the step's start, carried along a great
+ * circle to its present tangent. The frames themselves are carried from iterate to iterate, so they
+ * turn by the area between both paths. */
 #include "system/roll.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ sw_status sw_roll_new(sw_body *b) {
   return SW_OK;
 }
 
-/* The system's freedoms of a body's edges, in x, v, a, y, ... */
+/* Returns the body's part of the edges' turns in an array of freedoms (x, v, a, y, ...). */
 static const double *of(const sw_system *s, const sw_body *b, const double *freedoms) {
   return freedoms + 3 * s->nodes + b->first_roll;
 }
@@ -50,8 +50,8 @@ void sw_roll_predict(const sw_system *s, sw_body *b, double rate2) {
   sw_spin_turn_by(b, b->field.scratch[0], 1, 1.0);
 }
 
-/* Edges may turn by more than half a turn in one go: the hinges' twist, of which only
- * the fraction of a turn can be measured, goes along. */
+/* Edges may turn by more than half a turn at once. Only the fraction of a turn of a hinge's twist
+ * can be measured, so the hinges' twist is advanced here as well. */
 void sw_roll_add(sw_body *b, const double *angle, size_t stride, double share) {
   const sw_plan *p = b->plan;
   if (!b->roll_block) return;
@@ -67,8 +67,8 @@ void sw_roll_add(sw_body *b, const double *angle, size_t stride, double share) {
   }
 }
 
-/* Add the areas of the triangles (from, before, now) to the turns, where they are small.
- * Counts the others. */
+/* Adds the areas of the triangles (from, before, now) to the turns where they are small. Returns
+ * the number of the others. */
 SW_HOT
 static long add_areas(size_t m, const double *restrict fx, const double *restrict fy,
                       const double *restrict fz, const double *restrict bx,
@@ -91,7 +91,7 @@ static long add_areas(size_t m, const double *restrict fx, const double *restric
   return others;
 }
 
-/* The area where it is not small. */
+/* Returns the area where it is not small, else 0. */
 static double large_area(double *const from[3], double *const before[3], double *const now[3],
                          size_t e) {
   const sw_vec a = sw_vec_across(from, e), b = sw_vec_across(before, e), c = sw_vec_across(now, e);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames are kept as one vector per edge, not as angles. An update carries it with the tangent and
- * turns it about the tangent, so many turns have no branch and no drift. Only the twist of hinges
- * needs its last value, to choose among equal angles; valid while an iteration turns no hinge by
- * more than pi. Spins have no inertia, because torsional waves are far faster than handling, unless
- * the wire rolls (roll.h). */
+/* Frames are stored as one vector per edge, not as angles. An update carries this vector with the
+ * tangent and turns it about the tangent, so many turns cause no branch and no drift. Only the
+ * twist of hinges needs its last value, to choose among equal angles; this is valid while an
+ * iteration turns no hinge by more than pi. Spins have no inertia, because torsional waves are far
+ * faster than handling, unless the wire rolls (roll.h). */
 #include "system/spin.h"
 
 #include <math.h>
@@ -91,7 +91,7 @@ static sw_edge_frame edge_frame(const sw_body *b, size_t e) {
   return (sw_edge_frame){sw_vec_across(b->spin_tangent, e), sw_vec_across(b->spin_normal, e)};
 }
 
-/* sw_hinge_twist between all edges, with its usual case only. Counts the others. */
+/* sw_hinge_twist between all edges, for its usual case only. Returns the number of other cases. */
 SW_HOT
 static long small_twists(size_t n, const double *restrict tx, const double *restrict ty,
                          const double *restrict tz, const double *restrict nx,
@@ -141,7 +141,7 @@ long sw_spin_held_edge(const sw_system *s, const sw_body *b, size_t number) {
   return (long)(h->node - b->first_node);
 }
 
-/* Edges between two nodes of one hold turn with it. */
+/* Turns edges between two nodes of one hold with it. */
 static void turn_held_edges(const sw_system *s, sw_body *b) {
   for (size_t i = 0; i + 1 < s->held_count; i++) {
     const long held = sw_spin_held_edge(s, b, i);
@@ -163,7 +163,7 @@ static sw_vec square_up(sw_vec n, sw_vec t) {
   return sw_unit_or(sw_madd(n, t, -sw_dot(n, t)), sw_perpendicular(t));
 }
 
-/* sw_carry_unit for all edges, with its usual case only. Counts the others. */
+/* sw_carry_unit for all edges, for its usual case only. Returns the number of other cases. */
 SW_HOT
 static long carry_all(size_t m, const double *restrict tx, const double *restrict ty,
                       const double *restrict tz, const double *restrict bx,
@@ -184,7 +184,7 @@ static long carry_all(size_t m, const double *restrict tx, const double *restric
   return others;
 }
 
-/* Directions of all edges. */
+/* Computes the directions of all edges. */
 SW_HOT
 static void directions(size_t m, const double *restrict x, double *restrict tx, double *restrict ty,
                        double *restrict tz) {
@@ -196,18 +196,18 @@ static void directions(size_t m, const double *restrict x, double *restrict tx, 
   }
 }
 
-/* Carry all frames on to tangents t. */
+/* Carries all frames to tangents t. */
 static void carry_on(sw_body *b, double *const t[3]) {
   double *const *o = b->spin_tangent, *const *n = b->spin_normal;
   const size_t m = b->plan->edges;
   sw_roll_carry(b, t);
   if (carry_all(m, t[0], t[1], t[2], o[0], o[1], o[2], n[0], n[1], n[2]))
-    for (size_t e = 0; e < m; e++) /* what was not quite a frame becomes one */
+    for (size_t e = 0; e < m; e++) /* makes normals exact unit vectors across t */
       set(n, e, square_up(sw_vec_across(n, e), sw_vec_across(t, e)));
   for (size_t k = 0; k < 3; k++) memcpy(o[k], t[k], m * sizeof(double));
 }
 
-/* The same to positions x of the body. */
+/* The same to the body's positions x. */
 static void carry_to(sw_body *b, const double *x) {
   double *const *t = b->field.scratch;
   directions(b->plan->edges, x, t[0], t[1], t[2]);
@@ -244,7 +244,7 @@ void sw_spin_take(sw_system *s, sw_body *b, const double *x) {
 
 void sw_spin_follow(sw_system *s, sw_body *b, const double *x) {
   carry_to(b, x + 3 * b->first_node);
-  if (b->roll_block) { /* where a method's result is not its last stage */
+  if (b->roll_block) { /* the result of a method may differ from its last stage */
     sw_roll_rest(s, b, x, b->field.scratch[0]);
     sw_spin_turn_by(b, b->field.scratch[0], 1, 1.0);
   }
@@ -279,7 +279,7 @@ void sw_spin_turn_by(sw_body *b, const double *turns, size_t stride, double shar
     if (angle == 0) continue;
     const sw_vec n = sw_vec_across(b->spin_normal, e), t = sw_vec_across(b->spin_tangent, e);
     const double a2 = angle * angle;
-    const int small = a2 < 1e-4; /* series to rounding */
+    const int small = a2 < 1e-4; /* series, exact to rounding */
     const double c = small ? 1.0 - a2 * (0.5 - a2 * (1.0 / 24 - a2 / 720)) : cos(angle);
     const double sine =
         small ? angle * (1.0 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 / 5040))) : sin(angle);

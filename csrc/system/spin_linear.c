@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Small motions of bodies with frames. Turns have inertia where the wire rolls; elsewhere
- * they are without mass, and follow the nodes. */
+/* Small motions of bodies with frames. Turns have inertia where the wire rolls; elsewhere they have
+ * no mass and follow the nodes. */
 #include "solve/band4.h"
 #include "system/spin.h"
 
-/* Edges inside of a hold do not turn by themselves. */
+/* Called for each edge inside a hold, which does not turn by itself. */
 typedef void (*visit)(double *turns, size_t edge);
 
 static void each_held(const sw_system *s, const sw_body *b, visit what, double *turns) {
@@ -32,7 +32,7 @@ void sw_spin_fix_held(const sw_system *s, const sw_body *b, double *motion) {
   motion[4 * b->plan->edges + 3] = 0; /* no edge starts at the last node */
 }
 
-/* g = c times turn, c of three arrays at an index */
+/* out += c times turn, with c from three arrays at an index. */
 static void add_product(double *const *c, size_t at, double turn, double *out) {
   for (int k = 0; k < 3; k++) out[k] += c[k][at] * turn;
 }
@@ -41,7 +41,7 @@ static double product(double *const *c, size_t at, const double *v) {
   return c[0][at] * v[0] + c[1][at] * v[1] + c[2][at] * v[2];
 }
 
-/* Edge e with its own spin and those of its neighbours. */
+/* The part of edge e: its own spin and those of its neighbours. */
 static void edge_part(const sw_body *b, size_t e, const double *d, double *out) {
   double *const *c = b->field.spin_edge;
   const double *at = d + 4 * e;
@@ -61,7 +61,7 @@ static void edge_part(const sw_body *b, size_t e, const double *d, double *out) 
   for (size_t k = 0; k < 3; k++) out[4 * e + k] -= g[k], out[4 * e + 4 + k] += g[k];
 }
 
-/* Node i with the spins of both its edges: friction. */
+/* The part of node i with the spins of both its edges: friction. */
 static void node_part(const sw_body *b, size_t i, const double *d, double *out) {
   double *const *c = b->field.spin_node;
   const double *at = d + 4 * i;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of a body with frames: four unknowns a node, its place and the turn of the
+/* The equations of a body with frames: each node has four unknowns, its place and the turn of the
  * edge that starts there. */
 #include <math.h>
 
@@ -9,17 +9,17 @@
 #include "system/roll.h"
 #include "system/spin.h"
 
-/* Stiffness against spin where nothing else holds it, of an edge's own [-]. It is
- * in the matrix only, so that equilibria stay exact. */
+/* Stiffness against spin where nothing else holds the edge, over the edge's own torsional stiffness
+ * [-]. It is only in the matrix, so equilibria stay exact. */
 static const double LEAST_STIFFNESS = 1e-9;
 
-/* A row of three becomes one of four. */
+/* Widens a row of three to one of four. */
 static inline void widen(const double *restrict from, double last, double *restrict out) {
   out[0] = from[0], out[1] = from[1], out[2] = from[2], out[3] = last;
 }
 
-/* Couplings of nodes to spins: node i (k-th component) with spins i and i + 1; nodes i + 1 and i +
- * 2 with spin i. An edge's own spin and its neighbours' act on both its ends. */
+/* Writes the couplings of nodes to spins: node i (component k) with spins i and i + 1; nodes i + 1
+ * and i + 2 with spin i. An edge's own spin and those of its neighbours act on both its ends. */
 static inline void couple(const sw_body *b, size_t i, double *restrict row) {
   double *const *c = b->field.spin_edge;
   const int *held = b->plan->held;
@@ -36,7 +36,7 @@ static inline void couple(const sw_body *b, size_t i, double *restrict row) {
   }
 }
 
-/* The couplings of node i to the spins of both its edges. */
+/* Adds the couplings of node i to the spins of both its edges. */
 static inline void add_node_couplings(const sw_body *b, size_t i, double *rows) {
   double *row = rows + SW_ROW4_SIZE * i, *const *c = b->field.spin_node;
   if (b->plan->held[i] != SW_FREE) return;
@@ -97,7 +97,7 @@ sw_status sw_spin_solve(const sw_system *s, sw_body *b, double *delta, size_t *n
   return SW_OK;
 }
 
-/* The square of the largest one, or one that is no number. */
+/* Returns the square of the largest turn, or a NaN if any turn is not finite. */
 SW_HOT
 static double largest_turn2(size_t m, const double *restrict delta) {
   double most = 0, any = 0;
@@ -113,7 +113,7 @@ double sw_spin_largest(const sw_body *b) {
   return sqrt(largest_turn2(b->plan->edges, b->spin_delta));
 }
 
-/* Change of the gradient of edge e by the spins of the last solve. */
+/* Returns the change of edge e's gradient by the spins of the last solve. */
 static sw_vec spin_push(const sw_body *b, size_t e) {
   const sw_field *f = &b->field;
   const double *d = b->spin_delta + 4 * e;

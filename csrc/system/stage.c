@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One implicit stage by the mixed Newton: the axial force of each edge is an
- * independent unknown. It appears in the geometric stiffness as stored, the
- * residual takes the displacements' own, and after each solve it is advanced by
- * the linearised axial law. Large axial stiffness then costs no iterations. */
+/* Solves one implicit stage by the mixed Newton: the axial force of each edge is an independent
+ * unknown. The geometric stiffness uses the stored force, the residual the force that belongs to
+ * the displacements, and after each solve the stored force is advanced by the linearised axial law.
+ * So a large axial stiffness costs no iterations. */
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +27,7 @@
 #include "system/twist.h"
 #include "system/web.h"
 
-/* Axial forces after delta by the linearised law, and the square of the largest
+/* Computes axial forces after delta by the linearised law. Returns the square of the largest
  * rotation of an edge. */
 SW_HOT
 static double advance_tension(size_t m, const double *restrict delta, const double *restrict rest,
@@ -54,7 +54,7 @@ static double inertia_of(const sw_stage *stage) {
   return stage->inertia > 0 ? stage->inertia : 1.0;
 }
 
-/* What multiplies the mass [1/s2]. */
+/* Factor of the mass [1/s2]. */
 static double mass_rate(const sw_stage *stage) {
   return isfinite(stage->hbar) ? inertia_of(stage) * (1.0 / (stage->hbar * stage->hbar)) : 0.0;
 }
@@ -72,7 +72,7 @@ static void stage_velocity(const sw_system *s, const sw_stage *stage, int static
   if (!statics) sw_rails_velocity(s, stage, s->velocity);
 }
 
-/* The update of a body that no link ties to others. */
+/* Solves for the update of a body that no bridge connects to others. */
 static sw_status solve_body(const sw_system *s, sw_body *body, size_t *negative) {
   double *delta = s->delta + 3 * body->first_node;
   if (s->goes_on) {
@@ -131,7 +131,7 @@ static sw_status assemble_and_solve(sw_system *s, const sw_stage *stage, const s
   return SW_OK;
 }
 
-/* One iterate; delta is the full update. */
+/* Solves one iterate; delta is the full update. */
 static sw_status solve_once(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                             sw_stage_report *report, sw_error *err) {
   sw_rails_follow(s, stage, newton->statics);
@@ -141,7 +141,7 @@ static sw_status solve_once(sw_system *s, const sw_stage *stage, const sw_newton
   return status;
 }
 
-/* A body's axial forces after the update, and the square of its largest rotation. */
+/* Computes a body's axial forces after the update. Returns the square of its largest rotation. */
 static double advance_axial(sw_system *s, const sw_body *b) {
   const sw_field *f = &b->field;
   const double *delta = s->delta + 3 * b->first_node;
@@ -151,12 +151,12 @@ static double advance_axial(sw_system *s, const sw_body *b) {
                          f->tangent[0], f->tangent[1], f->tangent[2], b->EA, b->EA_push, axial);
 }
 
-/* Largest shift that a static solve may give a mesh which nothing holds, of the radius [-]. */
+/* Largest shift that a static solve may give an unheld mesh, over its radius [-]. */
 static const double LOOSE = 0.1;
 
-/* A mesh that nothing holds has directions without stiffness, in which rounding alone would throw
- * it away, to where nothing pulls at it any more. Is the update so large that it may be that? With
- * inertia, which pseudo-transient steps have, it is known where it goes. */
+/* An unheld mesh has directions without stiffness. Rounding alone could throw it far away in these,
+ * to where nothing pulls at it any more. Returns 1 if the update is so large that this may have
+ * happened. With inertia, which pseudo-transient steps have, the motion is determined. */
 static int flies_off(const sw_body *b, const double *delta) {
   const double most = LOOSE * b->plan->beam.radius;
   double largest = 0;
@@ -167,8 +167,9 @@ static int flies_off(const sw_body *b, const double *delta) {
   return largest > most;
 }
 
-/* Share of the update to be made, less than 1 when an edge would turn too far; 0 when it goes
- * nowhere near, or -1 when it is not finite. */
+/* Returns the share of the update to make: less than 1 if the coupling or a solid element limits it
+ * or an edge would turn too far, 0 if an unheld mesh would fly off, -1 if the update is not finite.
+ */
 static double share_of(sw_system *s, const sw_newton *newton, sw_stage_report *report) {
   double largest = 0, share = report->share;
   int flying = 0;
@@ -232,7 +233,7 @@ static sw_status begin(sw_system *s, const sw_stage *stage, int statics, sw_erro
   return SW_OK;
 }
 
-/* Velocity and acceleration of the solved stage. */
+/* Computes velocity and acceleration of the solved stage. */
 SW_HOT
 static void stage_rates(size_t n, double rate, double inertia, const double *restrict y,
                         const double *restrict xhat, const double *restrict yhat,
@@ -261,21 +262,21 @@ static void finish(sw_system *s, const sw_stage *stage, int statics) {
   sw_strain_finish(s, stage->y);
 }
 
-/* Spins without inertia may have no equilibrium near by, as when a flat wire on edge is
- * let go. From this iteration on they have it. */
+/* Spins without inertia may have no equilibrium nearby, as when a flat wire on its edge is let go.
+ * From this iteration on they have inertia. */
 enum { STEADY = 7 };
 
-/* Wires in a bundle need more iterations for their many touches to agree: twice as many cost less
- * than the step's two halves; and so do those of one of many wires that are solved one by one [-].
- */
+/* Returns the most iterations: twice as many for wires in a bundle, because their many touches need
+ * more to agree and this costs less than two half steps; also for single wires that are solved one
+ * by one [-]. */
 static int most_iterations(const sw_system *s, const sw_newton *newton) {
   const int bundle = sw_bridges_any(s) && !newton->statics;
   const int one = s->part_end - s->part < s->body_count;
   return newton->max_iterations * (bundle || one ? 2 : 1);
 }
 
-/* Where wires of a bundle were thrown so far that an update had to be shortened, touches have
- * little to go by; after so many of these they hardly ever found back [-]. */
+/* If wires of a bundle would be thrown so far that an update must be shortened, touches have little
+ * to go by. After this many shortened updates they hardly ever converged [-]. */
 enum { MOST_THROWN = 3 };
 
 static int is_thrown(const sw_system *s, const sw_newton *newton, int shortened) {
@@ -307,7 +308,7 @@ static sw_status iterate(sw_system *s, const sw_stage *stage, const sw_newton *n
   return sw_fail(err, SW_ENOCONV, "no convergence in %d iterations", report->iterations);
 }
 
-/* The report is of the body that took longest; an evaluation is one of all bodies. */
+/* The report shows the body that took most iterations; one evaluation covers all bodies. */
 static sw_status iterate_parts(sw_system *s, const sw_stage *stage, const sw_newton *newton,
                                sw_stage_report *report, sw_error *err) {
   sw_status status = SW_OK;

@@ -5,7 +5,8 @@
 #include "base/simd.h"
 #include "system/web.h"
 
-/* An edge is turned if it keeps less than this share of its length along itself [-]. */
+/* An edge counts as turned if its projection on its old direction is less than this share of its
+ * length [-]. */
 static const double LEAST_ALIGNMENT = 0.4;
 
 SW_HOT

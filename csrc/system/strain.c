@@ -40,7 +40,7 @@ void sw_system_add_up_pull(sw_system *s) {
   if (s->pull) sw_system_sum_pull(s, s->tension, s->strain_rate, s->pull);
 }
 
-/* Strain of an edge by its nodes' places [-]. */
+/* Returns the strain of an edge from its nodes' places [-]. */
 static double strain_between(const sw_body *b, const double *x, size_t e) {
   const sw_web *w = b->plan->web;
   if (!w) return sw_dist(sw_vec_at(x, e), sw_vec_at(x, e + 1)) / b->plan->rest[e] - 1.0;
@@ -50,7 +50,7 @@ static double strain_between(const sw_body *b, const double *x, size_t e) {
 
 /* --- at clamps ------------------------------------------------------------------- */
 
-/* A vector of the world as the hold of a clamp sees it. */
+/* Returns a vector of the world in the coordinates of a clamp's hold. */
 static sw_vec seen(const sw_system *s, const sw_clamp_hinge *h, sw_vec u) {
   return sw_unrotate(s->hold_states[h->hold].pose.q, u);
 }
@@ -75,7 +75,7 @@ static void number_held(sw_system *s) {
   }
 }
 
-/* Copies values of held nodes, 3 each, from those of all to those that are kept. */
+/* Copies values of held nodes (3 each) from the array of all nodes to the strains. */
 static void keep_held(const sw_system *s, const double *all, double *strain) {
   SW_ITEMS(const sw_held_node, h, s->held, s->held_count) {
     if (h->kept) sw_store(strain + h->kept, sw_load(all + 3 * h->node));
@@ -136,7 +136,8 @@ sw_status sw_system_held_anew(sw_system *s, double t, sw_error *err) {
   return SW_OK;
 }
 
-/* Their clamps_now: vectors that holds see, out in the world. */
+/* Rotates vectors from the holds' coordinates to the world. Returns the body's part of clamps_now.
+ */
 static double *show(const sw_system *s, const sw_body *b, const double *vectors) {
   double *now = s->clamps_now + (b->first_clamp - s->edges);
   for (size_t c = 0; c < b->kept_clamps; c++)
@@ -161,8 +162,8 @@ void sw_strain_show_rates(sw_system *s, sw_body *b) {
   b->field.clamp_rate = s->strain_rate && b->kept_clamps ? show(s, b, s->strain_rate) : NULL;
 }
 
-/* Edges at clamps as the last update leaves them: what a clamp does to directions is told of these,
- * and in a stiff hinge the update, small as it is, changes it by more than all there is. */
+/* Sets the edges at clamps as the last update leaves them: a clamp's moment is computed from these
+ * edges. In a stiff hinge even the small last update changes this moment by more than its value. */
 static void turn_clamped_edges(sw_system *s, const double *y) {
   SW_ITEMS(sw_body, b, s->bodies, s->body_count) {
     for (size_t c = 0; c < b->plan->clamp_count; c++) {

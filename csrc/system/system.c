@@ -186,7 +186,7 @@ static void aim(sw_system *s, sw_body *b) {
   sw_strain_show_rates(s, b);
 }
 
-/* 1: its geometry is still that of the trial that became the state. */
+/* 1 if its geometry is still that of the trial that became the state. */
 static int is_measured(const sw_system *s, const sw_body *b) {
   if (!b->field.is_judged || !s->judged) return 0;
   const double *x = s->judged + 3 * b->first_node;
@@ -248,7 +248,7 @@ void sw_system_axial_from_state(sw_system *s) {
   sw_system_held_from_velocity(s);
 }
 
-/* Sum of m v.v / 2 and of what neighbours have with each other. */
+/* Returns the sum of m v.v / 2 and of the coupling terms between neighbours. */
 SW_HOT
 static double kinetic_of_nodes(size_t n, const double *own, const double *next, const double *v) {
   sw_spread sums = {{{0}}};

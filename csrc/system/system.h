@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mechanical system that integrators advance: all wires' nodes in flat
- * arrays, the forces on them, the holds, and whatever couples them to the
- * outside (contact). It offers two views: an implicit stage
- * M (y - yhat)/hbar^2 = f(y, (y - xhat)/hbar, t), solved by the mixed Newton,
- * and plain accelerations with lumped masses for explicit schemes. */
+/* The mechanical system that integrators advance: all wires' nodes in flat arrays, the forces on
+ * them, the holds, and couplings to the outside (contact). It offers two views: an implicit stage
+ * M (y - yhat)/hbar^2 = f(y, (y - xhat)/hbar, t), solved by the mixed Newton, and plain
+ * accelerations with lumped masses for explicit schemes. */
 #ifndef SW_SYSTEM_SYSTEM_H
 #define SW_SYSTEM_SYSTEM_H
 
@@ -16,13 +15,13 @@
 
 typedef struct sw_counters {
   size_t newton;      /* matrix solves since start [-] */
-  size_t solves;      /* the same, each body's own [-] */
+  size_t solves;      /* the same, counted for each body */
   size_t evaluations; /* force evaluations since start [-] */
-  size_t looks;       /* at obstacles and lists, by contact that looks for something in them [-] */
+  size_t looks;       /* obstacles and list entries that contact has looked at in searches [-] */
 } sw_counters;
 
-/* Of sw_system.rough: in statics, an update so large that it is not made, touches learn from it;
- * and one that is made if they agree to it. */
+/* Further values of sw_system.rough, in statics. The first: the update is too large and is not
+ * made, but touches learn from it. The second: it is made if touches agree. */
 enum { SW_NOT_MADE = 2, SW_MAY_BE_MADE };
 
 struct sw_system {
@@ -38,208 +37,210 @@ struct sw_system {
   double *directors;             /* (holds x 2 x 3) in hold coordinates: arriving, leaving */
   double *directors_now;         /* the same in world coordinates at the stage */
   double *turns;                 /* (holds x 3) how fast they turn [rad/s] */
-  double *normals, *normals_now; /* the same: the wire's normals at the holds */
-  double fastest_turn;           /* of a hold in this step so far [rad/s] */
+  double *normals, *normals_now; /* the same for the wire's normals at the holds */
+  double fastest_turn;           /* of any hold in this step so far [rad/s] */
   double from, to;               /* to > from: see sw_stage [s] */
-  int still;                     /* 1: holds count as standing, whatever they follow (statics) */
-  int rough;                  /* 1: the last update turned edges too far to be the stage's last */
+  int still;                     /* 1: holds count as standing even if they move (statics) */
+  int rough; /* 1: the last update turned edges too far to be the stage's last; see above */
   sw_hold_state *hold_states; /* (hold_count) at the last stage */
-  struct sw_hold_load *loads; /* (hold_count) of the last stage about the holds' places, if */
-  int loads_kept;             /* 1: the state is not that stage's but goes on from it */
+  struct sw_hold_load *loads; /* (hold_count) of the last stage about the holds' places, */
+  int loads_kept;             /* 1: which are read out (sw_system_keep_loads) */
   size_t hold_count;
   double gravity[3];  /* [m/s2] */
-  const double *dead; /* (nodes x 3) forces on nodes besides, as those of inertia; or NULL [N] */
+  const double *dead; /* (nodes x 3) further forces on nodes, such as inertia; or NULL [N] */
   sw_coupling coupling;
-  struct sw_bridges *bridges; /* between bodies, or NULL while there never were any */
-  struct sw_rail *rails;      /* of held nodes that keep on curves (see system/rail.h), or NULL */
+  struct sw_bridges *bridges; /* between bodies; NULL if there never were any */
+  struct sw_rail *rails;      /* of held nodes that stay on curves (system/rail.h), or NULL */
   double *rail_room;
-  struct sw_joins *joins; /* what holds wires together (see system/join.h), or NULL */
+  struct sw_joins *joins; /* joins between wires (system/join.h), or NULL */
   sw_counters counters;
-  double factor_hbar;   /* bodies' factors are of this step, made for it; 0: there are none [s] */
-  int factor_solves;    /* with factors of before, one after another in this stage [-] */
-  int goes_on;          /* 1: the iterate that is being solved goes on with them */
-  double factor_first;  /* change of edges by the first of these, of their length [-] */
-  double factor_update; /* and by the last one [-] */
+  double factor_hbar;   /* the bodies' factors are of this step, for this hbar; 0: none [s] */
+  int factor_solves;    /* solves in a row with old factors in this stage [-] */
+  int goes_on;          /* 1: the present iterate is solved with old factors */
+  double factor_first;  /* relative change of edges by the first of these solves [-] */
+  double factor_update; /* relative change of edges by the last one [-] */
 
-  /* the state, one block: x v a (nodes x 3, then turns of edges that roll, each), tension (edges),
-   * twist (spans) [rad], turn (holds x 4: the holds' orientations that go with it), frames of each
-   * body that has them (3 components of all edges, then hinges' and clamps' twist [rad]), strain
-   * and strain_rate, even and turning, forces' histories */
+  /* the state, one block: x v a (each: nodes x 3, then turns of edges that roll, then rails'
+   * places), tension (edges), twist (spans) [rad], turn (holds x 4: the holds' orientations that
+   * belong to the twist), frames of each body that has them (3 components of all edges, then twist
+   * of hinges and clamps [rad]), strain and strain_rate, even, between and turning, forces'
+   * histories */
   double *state;
   size_t state_size; /* in doubles */
   double *x, *v, *a, *tension, *twist, *turn, *frames;
-  /* (strains) axial strain of edges, then of each body's kept clamps where the edge points to, in
-   * the hold's coordinates, then places of held nodes; and the rates of all, by the method; NULL
-   * when no force has dashpots [-], [m], [1/s], [m/s] */
+  /* (strains) axial strain of edges; then for each body's kept clamps the edge's direction in the
+   * hold's coordinates; then places of held nodes. And the rates of all these, as the method
+   * defines them. NULL if no force has dashpots [-], [m], [1/s], [m/s] */
   double *strain, *strain_rate;
-  size_t strains, first_kept; /* their number; where held nodes begin */
-  /* (edges) axial forces as read out, where they are not those of the state, and between stages,
-   * before they go on to the step's end [N] */
+  size_t strains, first_kept; /* their number; index of the first held node's place */
+  /* (edges) axial forces as read out, where they differ from the state's; and the mix of both
+   * stages from which they are extrapolated to the step's end [N] */
   double *even, *between;
-  double *excess;       /* (edges) of the last stage's axial forces over those read out, and [N] */
-  sw_first_stage first; /* with x till the next stage: they differ */
+  double *excess;       /* (edges) the last stage's axial forces minus those read out [N] */
+  sw_first_stage first; /* its x is set, until the next stage, if they differ */
   double *turning;      /* (SW_TURN_SIZE) */
   size_t span_count;
-  size_t follow_size;    /* of twist, turn and frames, if there is twist or a frame: else 0 */
-  double *aside;         /* (follow_size) room for them */
+  size_t follow_size;    /* size of twist, turn and frames if there is twist or a frame, else 0 */
+  double *aside;         /* (follow_size) room to save them */
   double *trial_history; /* room for the longest history of a force, NULL without any */
 
-  /* The trial that was accepted last, until sw_system_refresh: fields that are judged are of it and
-   * need no measuring. NULL at any other time. */
+  /* Positions of the trial accepted last, until sw_system_refresh: the fields that were judged were
+   * measured there and need no new measuring. NULL at any other time. */
   const double *judged;
 
   /* work space of a stage (freedoms) */
   double *yhat, *delta, *velocity;
   double *tension_new; /* (edges) */
-  /* of axial dashpots (edges): the stage's, while one is solved that has rates, else NULL; after
-   * an update; axial forces of the state with the dashpots' [-], [-], [N] */
+  /* for axial dashpots. Strains: what the stage's rates count from, NULL unless a stage with rates
+   * is being solved; of the iterate; after an update. Axial forces of the state with those of
+   * dashpots (edges) [-], [-], [-], [N] */
   const double *strain_past;
   double *strain_now, *strain_new, *pull;
-  double *clamps_now; /* (first_kept - edges) of kept clamps, in world coordinates: the stage's past
-                         directions, or a state's rates [-], [1/s] */
+  double *clamps_now; /* (first_kept - edges) of kept clamps, in world coordinates: past directions
+                         of a stage, or rates of a state [-], [1/s] */
   void *pull_block;
-  double *factor_at; /* (freedoms) positions for which the factors were made, where they may
-                        serve again [m] */
+  double *factor_at; /* (freedoms) positions at which the factors were made, if they may be reused
+                        [m] */
   void *work;
 };
 
-/* Newton controls, all [-] unless said. */
+/* Newton controls, all [-] unless noted. */
 typedef struct sw_newton {
   int max_iterations;
   double accept_rotation; /* largest edge rotation of the last update [rad] */
   double limit_rotation;  /* larger updates are shortened to this [rad] */
   int statics;            /* 1: no inertia */
-  int most_far;           /* statics: updates beyond limit_rotation, made or not, after which wires
-                             that touch something are given up; 0: as many as it takes [-] */
-  double accept_shift;    /* statics: largest node shift of the last update [m] */
+  int most_far;        /* statics: number of updates beyond limit_rotation, made or not, after which
+                          touching wires are given up; 0: no limit [-] */
+  double accept_shift; /* statics: largest node shift of the last update [m] */
 } sw_newton;
 
 typedef struct sw_stage {
   double time; /* at the stage's end [s] */
-  /* to > from: the state goes on from the stage, as from `from` to it, to `to`. Holds are then
-   * placed on the straight way between their poses at both, and wires come out where these are: had
-   * a hold that gathers speed its pose of the stage's time, a stiff wire would be bent [s]. */
+  /* to > from: the state lies beyond the stage, extrapolated from `from` through the stage to `to`.
+   * Holds are then placed on the straight line between their poses at `from` and `to`, so that
+   * wires end where the holds are. With the pose of an accelerating hold at the stage's time, a
+   * stiff wire would be bent [s]. */
   double from, to;
-  double hbar;        /* [s] */
-  double inertia;     /* mass acts as so many times itself: of methods that take forces and
-                         accelerations at different times; 0 is as 1 [-] */
-  double first;       /* share of the step's first stage in xhat [-] */
+  double hbar;    /* [s] */
+  double inertia; /* factor of the mass, for methods that take forces and accelerations at different
+                     times; 0 means 1 [-] */
+  double first;   /* weight of the step's first stage in xhat [-] */
   const double *xhat; /* (freedoms): velocity = (y - xhat)/hbar [m], [rad] */
-  const double *vhat; /* (nodes x 3): acceleration = inertia (velocity - vhat)/hbar [m/s] */
+  const double *vhat; /* (freedoms): acceleration = inertia (velocity - vhat)/hbar [m/s] */
   double *y;          /* out: positions [m] */
   double *v;          /* out: velocities [m/s] */
   double *a;          /* out: accelerations, or NULL [m/s2] */
-  /* where there are dashpots (strains): strain rate = (strain - strain_past)/hbar; without
-   * them, and in statics, NULL [-] */
+  /* with dashpots (strains): strain rate = (strain - strain_past)/hbar; NULL without them, and in
+   * statics [-] */
   const double *strain_past;
-  double *strain; /* in: a guess, out: of the solved stage [-] */
+  double *strain; /* in: a guess, out: the solved stage's [-] */
 } sw_stage;
 
 typedef struct sw_stage_report {
   int iterations;
   double rotation; /* of the last update [rad] */
-  double share;    /* of it that the coupling lets be made [-] */
+  double share;    /* share of it that the coupling lets be made [-] */
   size_t negative; /* negative pivots of the last matrix */
 } sw_stage_report;
 
-/* Make arrays for bodies whose plans are set (takes over a retained plan each).
- * The caller fills x, v and terms. SW_ENOMEM leaves nothing behind. */
+/* Makes arrays for bodies whose plans are set (retains each plan). The caller fills x, v and terms.
+ * SW_ENOMEM leaves nothing behind. */
 sw_status sw_system_new(sw_system *system, sw_plan *const *plans, size_t body_count,
                         size_t hold_count, size_t rail_count);
 void sw_system_free(sw_system *system);
 
-/* The body that has a node of the system's arrays. */
+/* Returns the body that owns a node of the system's arrays. */
 size_t sw_system_body_of(const sw_system *system, size_t node);
 
-/* Add a force to a body. inner terms: id -1. SW_ENOMEM. */
+/* Adds a force to a body. id: -1 for inner terms. SW_ENOMEM. */
 sw_status sw_system_add_term(sw_system *system, size_t body, const sw_force_class *cls,
                              const void *args, size_t args_size, int id);
 
-/* After the last term: make room in the state for the histories, all zero.
- * SW_ENOMEM. */
+/* After the last term: adds room for the histories to the state, all zero. SW_ENOMEM. */
 sw_status sw_system_add_histories(sw_system *system);
 
-/* While the coupling evaluates: stiffness between nodes i and j that are not neighbours,
- * i != j, row by row with i's rows [N/m]; the nodes' own parts go to their bodies' rows.
- * SW_ENOMEM. */
+/* While the coupling evaluates: adds stiffness between nodes i != j that are not neighbours, row by
+ * row with i's rows [N/m]. The nodes' own blocks go to their bodies' rows. SW_ENOMEM. */
 sw_status sw_system_add_bridge(sw_system *system, size_t i, size_t j, const double k[9]);
 
-/* Before a step: between which nodes there may be bridges in it, anew from begin_plan on, so
- * that the matrix is made for them and that its order does not depend on earlier steps. */
+/* Before a step: begin_plan starts a new list of pairs of nodes that may have bridges in the step;
+ * plan_bridge adds a pair. The matrix is made for these pairs, so its order does not depend on
+ * earlier steps. */
 sw_status sw_system_begin_plan(sw_system *system);
 sw_status sw_system_plan_bridge(sw_system *system, size_t i, size_t j);
 
-/* The state is accepted at this time and the fields are fresh (sw_system_refresh): bring the
- * histories up to it. */
+/* The state is accepted at this time and the fields are fresh (sw_system_refresh): updates the
+ * histories. */
 void sw_system_commit(sw_system *system, double time);
 
-/* Work dissipated by the forces with a history [J]; *any: there are such. */
+/* Returns the work dissipated by the forces with a history [J]; *any: 1 if there are such forces.
+ */
 double sw_system_dissipated(const sw_system *system, int *any);
 
-/* A step begins at the state: frames start from there. */
+/* A step begins at the state; frames start from there. */
 void sw_system_begin_step(sw_system *system);
 
-/* The state's frames were given: make them fit its tangents and measure their twist. */
+/* The state's frames were given: fits them to its tangents and measures their twist. */
 void sw_system_measure_frames(sw_system *system, size_t body);
 
-/* Bring a body's twist or frames up to its field's tangents. */
+/* Updates a body's twist or frames to its field's tangents. */
 void sw_system_measure(sw_system *system, sw_body *body);
 
-/* A force is added at a held node of the system's: its hold bears it. */
+/* A force is added at a held node (system's number): its hold bears it. */
 void sw_system_push_held(sw_system *system, size_t node, sw_vec force);
 
-/* Solve an implicit stage. system->tension is read and updated. Statuses:
- * SW_OK, SW_ENOCONV, SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
+/* Solves an implicit stage. system->tension is read and updated. Statuses: SW_OK, SW_ENOCONV,
+ * SW_ESINGULAR, SW_EDIVERGED, SW_ECALLBACK. */
 sw_status sw_system_stage(sw_system *system, const sw_stage *stage, const sw_newton *newton,
                           sw_stage_report *report, sw_error *err);
 
-/* What a body's evaluation sees: itself at places x with velocities v (nodes x 3), the holds as
- * placed last, gravity; rates of strain are those of v. */
+/* Sets what a body's evaluation sees: its nodes at x with velocities v (nodes x 3), the holds as
+ * placed last, and gravity. Strain rates follow from v. */
 void sw_body_aim(const sw_system *system, sw_body *body, const double *x, const double *v);
-/* Accelerations with lumped masses at (t, x, v); held nodes get their hold's. */
+/* Computes accelerations with lumped masses at (t, x, v). Held nodes get those of their hold. */
 sw_status sw_system_acceleration(sw_system *system, double t, const double *x, const double *v,
                                  double *a, sw_error *err);
 
-/* Place the holds at time t: overwrite held nodes' entries of x, v, a (each may
- * be NULL) and set directors. */
+/* Places the holds at time t: overwrites held nodes' entries of x, v, a (each may be NULL) and sets
+ * directors. */
 sw_status sw_system_place_holds(sw_system *system, double t, double *x, double *v, double *a,
                                 sw_error *err);
 
-/* Velocity of a held node from its hold's state at the last stage [m/s]. */
+/* Computes the velocity of a held node from its hold's state at the last stage [m/s]. */
 void sw_system_held_velocity(const sw_system *system, const sw_held_node *held, double *v);
 
-/* Let the wires of body b resist twist: makes work space. SW_ENOMEM. */
+/* Lets the wire of a body resist twist: makes work space. SW_ENOMEM. */
 sw_status sw_system_enable_twist(sw_system *system, size_t body);
 
-/* The state is about to become positions x, with the holds as last placed: take
- * over what has to be followed from step to step (twist, frames). Call before copying x
- * to the state. */
+/* The state is about to become positions x, with the holds as last placed: updates what is followed
+ * from step to step (twist, frames). Call before copying x to the state. */
 void sw_system_follow(sw_system *system, const double *x);
 
-/* Bring every field's geometry up to the state (system->x). */
+/* Updates every field's geometry to the state (system->x). */
 void sw_system_refresh(sw_system *system);
 
-/* Force and moment about point that hold k puts on its wire, from the last
- * solved stage [N], [N m]. */
+/* Computes the force and moment about point that hold k puts on its wire, from the last solved
+ * stage [N], [N m]. */
 void sw_system_reaction(const sw_system *system, int hold, sw_vec point, sw_vec *force,
                         sw_vec *moment);
-/* The same of all holds about their places, from the stage that was solved last; out: (holds). */
+/* The same for all holds about their places, from the last solved stage; out: (holds). */
 typedef struct sw_hold_load {
   sw_vec force, moment; /* [N], [N m] */
 } sw_hold_load;
 void sw_system_hold_loads(const sw_system *system, sw_hold_load *out);
-/* The state will be further on than the stage that was solved last, where wire and holds are not
- * in balance: the stage's loads go on to be told. */
+/* The state will lie beyond the last solved stage, where wire and holds are not in balance. Keeps
+ * the stage's loads, so that read-outs go on to show them. */
 void sw_system_keep_loads(sw_system *system);
 
-/* Kinetic energy of the state with consistent (implicit) masses [J]. */
+/* Kinetic energy of the state, with lumped (explicit methods) or consistent masses [J]. */
 double sw_system_kinetic(const sw_system *system, int lumped);
 double sw_body_kinetic(const sw_system *system, size_t body, int lumped);
 
-/* Bring the field of a body up to the state, with what energies need. */
+/* Updates a body's field to the state, with what energies need. */
 void sw_system_show(sw_system *system, size_t body);
 
-/* Energy of one term of one body, after sw_system_show; *bending is the part of it that
+/* Returns the energy of one term of a body, after sw_system_show; *bending is the part of it that
  * corrects the wire's own bending [J]. */
 double sw_system_term_energy(sw_system *system, size_t body, size_t term, double *bending);
 

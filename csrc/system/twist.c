@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The twist of spans is followed. From tangents (a0, b0) to (a, b) the twist of a hinge changes by
- * minus the area of the spherical triangles (a0, a, b) and (a0, b, b0): exact for any step, without
- * branch cuts while one step turns nothing by pi. Summed over a span this is Fuller's writhe
- * formula, so many turns add up without error. */
+/* Follows the twist of spans from step to step. From tangents (a0, b0) to (a, b) the twist of a
+ * hinge changes by minus the area of the spherical triangles (a0, a, b) and (a0, b, b0). This is
+ * exact for any step, and has no branch cuts while a step turns nothing by pi. Summed over a span
+ * it is Fuller's writhe formula, so many turns add up without error. */
 #include "system/twist.h"
 
 #include <float.h>
@@ -32,7 +32,7 @@ sw_status sw_system_enable_twist(sw_system *s, size_t body) {
   return SW_OK;
 }
 
-/* Signed area of the spherical triangle a, b, c [rad]. */
+/* Returns the signed area of the spherical triangle a, b, c [rad]. */
 static double triangle(sw_vec a, sw_vec b, sw_vec c) {
   return 2.0 * atan2(sw_dot(a, sw_cross(b, c)), 1.0 + sw_dot(a, b) + sw_dot(b, c) + sw_dot(c, a));
 }
@@ -41,7 +41,8 @@ static double hinge_change(sw_vec a0, sw_vec b0, sw_vec a, sw_vec b) {
   return -(triangle(a0, a, b) + triangle(a0, b, b0));
 }
 
-/* Angle by which a hold turned about its director, beyond carrying it along. */
+/* Returns the angle by which a hold turned about its director, beyond carrying the director along.
+ */
 static double own_turn(sw_quat before, sw_quat now, sw_vec local) {
   const sw_vec d0 = sw_rotate(before, local), d = sw_rotate(now, local);
   const sw_vec local_side = sw_perpendicular(sw_unit_or(local, sw_v(1, 0, 0)));
@@ -59,7 +60,7 @@ static sw_quat turn_of(const sw_system *s, int hold) {
   return (sw_quat){q[0], q[1], q[2], q[3]};
 }
 
-/* A clamp's director before and now, and its own turn in between. */
+/* A clamp's director before and now, and its turn about the director in between. */
 typedef struct clamp_change {
   sw_vec before, now;
   double turn;
@@ -74,7 +75,7 @@ static clamp_change change_of(const sw_system *s, const sw_clamp_hinge *h) {
   return c;
 }
 
-/* Unit edge vectors of positions x. */
+/* Computes the unit edge vectors of positions x. */
 SW_HOT
 static void directions(size_t first, size_t last, const double *restrict x, double *restrict tx,
                        double *restrict ty, double *restrict tz) {
@@ -86,9 +87,9 @@ static void directions(size_t first, size_t last, const double *restrict x, doub
   }
 }
 
-/* tan of half the areas of (a0, a, b) and (a0, b, b0) at hinges first + 1 .. last,
- * then 2 atan by its series, whose error is below 1e-16 for |tan| < SMALL. Returns
- * how many hinges turned too much for that. */
+/* Computes the areas of (a0, a, b) and (a0, b, b0) at hinges first + 1 .. last: tan of half of
+ * each, then 2 atan by its series, whose error is below 1e-16 for |tan| < SMALL. Returns the number
+ * of hinges that turned too much for the series. */
 static const double SMALL = 0.03;
 
 SW_HOT
@@ -118,8 +119,8 @@ static long small_areas(size_t first, size_t last, const double *restrict ox,
   return large;
 }
 
-/* Change of a span's twist from the state to positions x (of the body). Works in
- * twist_rank and twist_solved, which sw_twist_gather fills anew. */
+/* Returns the change of a span's twist from the state to positions x (of the body). Uses twist_rank
+ * and twist_solved as work space; sw_twist_gather fills them anew. */
 static double span_change(const sw_system *s, const sw_body *b, const sw_span *span,
                           const double *x) {
   const size_t n = b->plan->nodes, first = span->first, last = span->last;
@@ -173,8 +174,8 @@ double sw_twist_dot(const sw_body *b, const sw_span *span, const double *x) {
   return sum;
 }
 
-/* Spans are separate in the matrix, because a clamp holds the node between them: one solve serves
- * all, with Sherman and Morrison's formula for each. */
+/* Spans are separate in the matrix, because a clamp holds the node between them. So one solve
+ * serves all, and Sherman and Morrison's formula is applied to each. */
 size_t sw_twist_correct(sw_body *b, double *delta) {
   size_t fewer = 0;
   sw_twist_gather(b);
@@ -224,7 +225,7 @@ void sw_twist_react(sw_held_node *h, const sw_body *b) {
   }
 }
 
-/* The holds' present orientations (as last placed) go with the state's twist. */
+/* Stores the holds' orientations, as last placed, that belong to the state's twist. */
 static void take_turns(sw_system *s) {
   for (size_t k = 0; k < s->hold_count; k++) {
     const sw_quat q = s->hold_states[k].pose.q;

@@ -5,25 +5,25 @@
 
 #include "system/system.h"
 
-/* Total twist of the body's spans with the field's present tangents. */
+/* Computes the total twist of the body's spans with the field's present tangents. */
 void sw_twist_measure(sw_system *system, sw_body *body);
 
-/* Add the rank-one part of the twist's stiffness to a solved update (nodes x 3).
- * Returns by how much the number of negative directions falls. */
+/* Adds the effect of the twist's rank-one stiffness to a solved update (nodes x 3). Returns by how
+ * much the number of negative directions falls. */
 size_t sw_twist_correct(sw_body *body, double *delta);
-/* Then the same to another solution by the same factor. */
+/* The same for another solution with the same factor. */
 void sw_twist_correct_again(const sw_body *body, double *more);
-/* What the solution delta adds to the torques. */
+/* Computes the torques that the solution delta adds (twist_gain). */
 void sw_twist_gain(sw_body *body, const double *delta);
 
-/* Slope of the twist by node, from its slope by edge: into twist_rank, and without
- * held nodes into twist_solved. */
+/* Computes the slope of the twist by node from its slope by edge: into twist_rank, and without held
+ * nodes into twist_solved. */
 void sw_twist_gather(sw_body *body);
 
-/* The slope of one span times x (nodes x 3), held nodes left out. */
+/* Returns the slope of one span times x (nodes x 3), without held nodes. */
 double sw_twist_dot(const sw_body *body, const sw_span *span, const double *x);
 
-/* Add the same part to the reaction of a held node. */
+/* Adds the twist's part to the reaction of a held node. */
 void sw_twist_react(sw_held_node *held, const sw_body *body);
 
 #endif

@@ -13,14 +13,14 @@
 
 /* --- the matrix -------------------------------------------------------------------- */
 
-/* In the order of their slots. */
+/* Pairs of a crease's nodes in the order of their slots. */
 static void crease_pairs(const sw_web_crease *f, sw_blocks_pair out[SW_FIELD_CREASE_PAIRS]) {
   const sw_blocks_pair six[SW_FIELD_CREASE_PAIRS] = {{f->a, f->b}, {f->c, f->b}, {f->d, f->b},
                                                      {f->a, f->c}, {f->a, f->d}, {f->c, f->d}};
   memcpy(out, six, sizeof six);
 }
 
-/* All joined pairs of particles, into out (may be NULL); their number. */
+/* Writes all joined pairs of particles into out (may be NULL). Returns their number. */
 static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   size_t n = 0;
   for (size_t e = 0; e < w->links; e++, n++)
@@ -50,7 +50,7 @@ static size_t pairs_of(const sw_web *w, sw_blocks_pair *out) {
   return n;
 }
 
-/* With more pairs (more x 2). */
+/* Makes the web's matrix with further pairs (more x 2). */
 static sw_status new_blocks(const sw_web *w, const uint32_t *others, size_t more, sw_blocks **out) {
   if (w->banded) return sw_blocks_new_rings(w->rings, w->per_ring, out);
   sw_blocks_pair *pairs SW_LOCAL = sw_alloc(pairs_of(w, NULL) + more, sizeof *pairs);
@@ -101,14 +101,14 @@ static void fill_slots(sw_body *b) {
   b->field.slide_slot = slide, b->field.crease_slot = crease;
 }
 
-/* Within a step matrices differ little. From this number of particles on, the first one's factor
- * preconditions conjugate gradients for the following ones, as long as that is fast: a factor costs
- * some dozens of iterations. Each step begins with its own factor, so that it depends only on its
- * starting state. */
+/* Matrices differ little within a step. From this number of particles on, the first one's factor
+ * preconditions conjugate gradients for the following ones while these converge fast; a factor
+ * costs some dozens of iterations. Each step starts with a factor of its own, so that it depends
+ * only on its starting state. */
 enum { LARGE = 30000, MOST_ITERATIONS = 20, EARLY = 5 };
-static const double EXACT = 1e-7; /* error that is left, of the solution's energy norm [-] */
+static const double EXACT = 1e-7; /* error left, of the solution's energy norm [-] */
 static const double PROMISE =
-    0.03; /* error after the early iterations, else it takes too long [-] */
+    0.03; /* error after the early iterations above which it takes too long [-] */
 
 static void use_blocks(sw_body *b) {
   fill_slots(b);
@@ -181,7 +181,8 @@ size_t sw_web_couples(const sw_body *b, sw_sparse_pair *out) {
   return kept;
 }
 
-/* Stored with the rows of the larger one; of a particle's own only the lower half counts. */
+/* Blocks are stored with the rows of the larger number; only the lower half of a particle's own
+ * block counts. */
 void sw_web_block(const sw_body *b, size_t i, size_t j, double out[9]) {
   const size_t slot = sw_blocks_slot(b->blocks, j, i), stride = b->field.block_stride;
   for (size_t r = 0; r < 3; r++)
@@ -200,7 +201,7 @@ void sw_body_couple(sw_body *b, size_t i, size_t j, const double K[9]) {
 
 void sw_web_gather(sw_body *b) {
   const sw_field *f = &b->field;
-  for (size_t p = 0; p < b->plan->nodes; p++) { /* the lower half, which alone is read */
+  for (size_t p = 0; p < b->plan->nodes; p++) { /* the lower half, the only one that is read */
     double *first = f->blocks + f->own_slot[p];
     double *second = first + f->block_stride, *third = second + f->block_stride;
     const double *row = f->rows + SW_ROW_SIZE * p;
@@ -228,8 +229,8 @@ static double dot(size_t n, const double *a, const double *b) {
   return sum;
 }
 
-/* Solve for delta, which holds the right side; 0: it would take too long, and delta is as before.
- */
+/* Solves for delta, which holds the right-hand side. Returns 0, with delta unchanged, if this would
+ * take too long. */
 static int iterate(const sw_body *b, double *delta) {
   const size_t particles = b->plan->nodes, n = 3 * particles;
   double *x = b->web_room, *r = x + n, *z = x + 2 * n, *p = x + 3 * n, *Ap = x + 4 * n;
@@ -295,7 +296,8 @@ static double advance(const sw_web *w, const double *restrict x, const double *r
   return largest;
 }
 
-/* Edges between corners one after another of solid elements. */
+/* Returns the square of the largest rotation of edges between consecutive corners of solid
+ * elements. */
 static double solid_turn2(const sw_web *w, const double *x, const double *delta) {
   double largest = 0;
   for (size_t n = 0; n < w->solids; n++)
@@ -327,7 +329,7 @@ double sw_web_change(const sw_body *body, const double *x, const double *from, c
 double sw_web_advance(const sw_body *b, const double *x, const double *delta, double *axial) {
   const double springs = advance(b->plan->web, x, delta, axial);
   const double solids = solid_turn2(b->plan->web, x, delta);
-  return springs >= solids ? springs : solids; /* a NaN of the solids comes through */
+  return springs >= solids ? springs : solids; /* a NaN of the solids passes through */
 }
 
 double sw_web_share(const sw_body *b, const double *x, const double *delta) {
