@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What frames tell of how lines are pressed. */
+/* Pressure on lines, from frames. */
 #include "base/vec.h"
 #include "read/frames.h"
 
