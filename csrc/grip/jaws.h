@@ -15,7 +15,8 @@ double sw_tool_squeeze(sw_scene *scene, const sw_tool *tool, double t);
 sw_status sw_tool_observe(sw_scene *scene, sw_error *err);
 /* Checks whether the tool runs into obstacles. */
 sw_status sw_tool_look_out(sw_scene *scene, size_t tool, sw_error *err);
-/* 1 if a tool that ends runs slipped, lost its wire or crashed after `since`, the step's start. */
+/* 1 if a run should end: a tool that ends runs slipped, it or a frozen one lost its wire, or any
+ * tool ran into an obstacle after `since`, the step's start. */
 int sw_tool_slipped(const sw_scene *scene, double since);
 
 void sw_tape_tool(sw_tape *tape, sw_scene *scene, sw_tool *tool);

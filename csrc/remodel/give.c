@@ -25,7 +25,7 @@
 
 /* Rings outside the pads: the one that is read, the first one that is moved; number of ways [-]. */
 enum { READ = 3, MOVED = 5, WAYS = 6 };
-static const double MOST = 0.45; /* a rod is held further inside by, over the pressed length [-] */
+static const double MOST = 0.45; /* largest shift into the pads, over the pressed length [-] */
 
 typedef struct cell {
   sw_scene *s;

@@ -14,7 +14,7 @@
 #include "watch/series.h"
 
 /* Depth in an obstacle that a held place may gain after it was grasped, over the distance from the
- * wire's middle to its surface [-]. Contact itself lets wires in by far less. */
+ * place to the wire's surface [-]. Contact itself lets wires in by far less. */
 static const double ALLOWED = 0.25;
 static const double NOTICED = 1e-5; /* smallest gain that counts [m] */
 
@@ -94,8 +94,8 @@ static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_err
   return SW_OK;
 }
 
-/* Force over section that no wire bears: of the strongest steel [Pa]. A force that would double the
- * wire's length is too much, too. */
+/* Force over section that no wire bears: that of the strongest steel [Pa]. EA is a limit, too: it
+ * would double the wire's length. */
 static const double STRONGEST = 4e9;
 
 static void watch_force(sw_scene *s, const sw_hold *h, double arc) {

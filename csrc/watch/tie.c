@@ -35,8 +35,8 @@ static double pull_of_joint(const sw_scene *s, size_t joint, const double *x, do
                                                       sw_scene_system(s), x, bears);
 }
 
-/* The same for a tie between wires, after the last stage. Some methods find pulls that only hold
- * against turning too large or too small (integrate/turning.h); this one corrects them. */
+/* The same for a tie between wires, after the last stage. Some methods find pulls that balance a
+ * rotation too large or too small (integrate/turning.h); this function corrects them. */
 static double pull_now(const sw_scene *s, size_t joint, const double *x, double *bears) {
   const sw_system *system = sw_scene_system(s);
   const sw_vec now = {pull_of_joint(s, joint, x, bears), 0, 0};

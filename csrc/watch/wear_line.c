@@ -64,7 +64,7 @@ void sw_wear_count_line(const sw_system *s, const sw_body *b, const double *T, s
       start->seen ? sw_carry_unit(start->across, start->tangent, t0) : sw_perpendicular(t0);
   sw_wear_axes(s, b, first, across);
   const uint64_t holds = holds_of(b);
-  const int free_start = !p->clamp_count && !b->spin_block; /* its start carries it on */
+  const int free_start = !p->clamp_count && !b->spin_block; /* directions start at the first edge */
   if (free_start) start->turn = 0;
   for (size_t k = 0; k < wear->count; k++) {
     const sw_wear_load load = {.tangent = sw_field_tangent(&b->field, edge_of(p, k)),
