@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Do the parts of a tool run into obstacles? Both are rigid and go where they are told, so nothing
- * stops them; a crash is only reported. Overlap is looked for at the bones (corners, edges, axes)
- * of the parts, and at the ends of the bones of the obstacles. */
+/* Finds crashes of a tool's parts with obstacles. Both are rigid and follow their prescribed
+ * motion, so nothing stops them; a crash is only reported. Overlap is searched at the bones
+ * (corners, edges, axes) of the parts and at the ends of the obstacles' bones. */
 #include <math.h>
 
 #include "grip/jaws.h"
@@ -16,8 +16,8 @@ static const double NOTICED = 1e-5; /* a smaller overlap is no crash [m] */
 
 typedef struct overlap {
   const sw_shape *other;
-  sw_pose pose; /* of the part, in the other's coordinates */
-  double depth; /* so far [m] */
+  sw_pose pose; /* of the part, in the obstacle's coordinates */
+  double depth; /* largest so far [m] */
 } overlap;
 
 static void look_at_point(overlap *o, sw_vec local, double skin) {
@@ -38,22 +38,22 @@ static void look_at_bone(void *user, sw_vec a, sw_vec b, double skin) {
   for (int i = 0; i < n; i++) o->depth = fmax(o->depth, skin - near[i].gap);
 }
 
-/* Points alone: what sticks out into a face's middle. */
+/* Looks at the points alone; they find what sticks out into the middle of a face. */
 static void look_at_end(void *user, sw_vec a, sw_vec b, double skin) {
   if (a.x == b.x && a.y == b.y && a.z == b.z) look_at_point(user, a, skin);
 }
 
-/* How far a part and an obstacle overlap [m]. */
+/* Returns the depth of the overlap of a part and an obstacle [m]. */
 static double overlap_of(const sw_shape *part, sw_pose at, const sw_shape *other, sw_pose there) {
   overlap o = {.other = other, .pose = sw_pose_from(there, at)};
   sw_shape_bones(part, look_at_bone, &o);
-  if (sw_shape_is(other, SW_SHAPE_LISTED)) return o.depth; /* too many to be asked one by one */
+  if (sw_shape_is(other, SW_SHAPE_LISTED)) return o.depth; /* too many to check one by one */
   overlap back = {.other = part, .pose = sw_pose_from(at, there)};
   sw_shape_bones(other, look_at_end, &back);
   return fmax(o.depth, back.depth);
 }
 
-/* Are balls around both apart? Half spaces have none. */
+/* 1 if the balls around both are apart. Half spaces have no bounds and never are. */
 static int far_apart(const sw_shape *part, sw_pose at, const sw_shape *other, sw_pose there) {
   const sw_bounds b = sw_shape_bounds(part), c = sw_shape_bounds(other);
   const sw_vec p = sw_pose_point(at, sw_lerp(b.min, b.max, 0.5));
@@ -61,7 +61,7 @@ static int far_apart(const sw_shape *part, sw_pose at, const sw_shape *other, sw
   return sw_dist(p, q) > 0.5 * (sw_dist(b.min, b.max) + sw_dist(c.min, c.max));
 }
 
-/* The obstacle that a part of the tool is deepest in; depth 0: none. */
+/* Finds the obstacle that a part of the tool is deepest in; depth 0: none. */
 static sw_status find_crash(sw_scene *s, size_t slot, sw_crash *out, sw_error *err) {
   const sw_tool *t = sw_scene_tool_in(s, slot);
   sw_motion_state at[SW_TOOL_PADS], there;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What pads held while a rigid grip stands for them: its life, and how it lies on a tape. The
- * particles with their springs' forces are kept in the tool's axes, and the friction between
- * pads and particles. */
+/* The frozen state between pads while a rigid grip replaces them: reference count, and tape. It
+ * holds the particles with their springs' forces, in the tool's axes, and the friction between pads
+ * and particles. */
 #include "grip/frozen.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ static void tape_fields(sw_tape *t, sw_frozen *f) {
   SW_TAPE_STRUCT(t, sw_frozen, 552);
   SW_TAPE_STRUCT(t, sw_stations, 32);
   sw_tape_mark(t, "contact", sw_contact_layout());
-  sw_tape_uint32(t, &f->wire.generation); /* its slot changes when others leave */
+  sw_tape_uint32(t, &f->wire.generation); /* the slot changes when other wires leave */
   tape_handle(t, &f->hold);
   const char *model = sw_tape_word(t, sw_tape_reads(t) ? NULL : f->cls->name, word);
   if (sw_tape_reads(t)) f->cls = sw_wire_find(model);

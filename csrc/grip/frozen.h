@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of a frozen grip: the state of the wire between the pads, for the change to a rigid
- * grip and back. */
+/* The inside of a frozen grip: the kept state of the wire between the pads. It serves the change to
+ * a rigid grip and back. */
 #ifndef SW_GRIP_FROZEN_H
 #define SW_GRIP_FROZEN_H
 
@@ -10,7 +10,7 @@
 #include "state/mesh.h"
 #include "strand/strand.h"
 
-/* Where a pad pressed; in the tool's axes, from its centre. */
+/* Where a pad pressed; in the tool's axes, from the tool's centre. */
 typedef struct sw_frozen_touch {
   sw_vec at, normal; /* towards the wire [m], [-] */
   double force;      /* across the surface [N] */
@@ -21,30 +21,30 @@ struct sw_frozen {
   int references;
   sw_handle wire, hold;
   const sw_wire_class *cls;
-  sw_mesh mesh;       /* one node for each ring, as they lay */
-  sw_strand strand;   /* likewise */
-  sw_pose pose;       /* of the tool then */
-  size_t first, last; /* rings that were pressed */
+  sw_mesh mesh;       /* one node for each ring, as the rings lay */
+  sw_strand strand;   /* its particles, as they lay */
+  sw_pose pose;       /* of the tool at that time */
+  size_t first, last; /* first and last ring that was pressed */
   sw_vec across;      /* how the pads close, in the tool's axes [-] */
-  double *rod;        /* (rings x 3) where the rod that it became lay there [m] */
-  double *frame;      /* (rings x 6) tangent, direction across then [-] */
+  double *rod;        /* (rings x 3) places of the rod that replaced the mesh [m] */
+  double *frame;      /* (rings x 6) tangent and direction across at that time [-] */
   sw_stations stations;
-  void *memory; /* of contact then */
+  void *memory; /* of contact at that time */
   size_t bytes;
   sw_frozen_touch *touch; /* (touches) */
   size_t touches;
-  size_t node, nodes; /* the wire's first one in it, how many it had */
+  size_t node, nodes; /* the wire's first node in the system then, number of nodes */
   sw_jaw jaw;
 };
 
-/* The tool's pads press as they do now. SW_ENOMEM. */
+/* Keeps the touches of the tool's pads as they press at present. SW_ENOMEM. */
 sw_status sw_frozen_keep_touches(sw_scene *scene, const sw_tool *tool, sw_frozen *f, sw_error *err);
 
 void sw_frozen_release(sw_frozen *frozen);
-/* A force on the wire and its moment about the tool's centre, in the tool's axes, as a share of the
- * load that the pads could bear in place of the rigid grip [-]. */
+/* Returns the load on the rigid grip over the load that the pads could bear in its place [-]. The
+ * load is a force on the wire and its moment about the tool's centre, in the tool's axes. */
 double sw_frozen_margin(const sw_frozen *frozen, sw_vec force, sw_vec moment);
-void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* or NULL */
+void sw_tape_frozen(sw_tape *tape, sw_frozen **frozen); /* *frozen may be NULL */
 int sw_frozen_fits(const sw_frozen *frozen, const sw_scene *scene);
 
 #endif

@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Margin of a rigid grip: its load over the load that its pads could bear.
  *
- * A touch of the pads stays where it was when the grip was frozen. It can bear friction up to
- * mu N, and its normal force N may become anything between 0 and 2 N: a moment towards the pads
- * takes from one edge and gives to the other. The forces and moments that such touches can
- * balance are a convex set, and the margin is the load as a share of the largest load of its
- * kind in that set. By the kinematic theorem of limit analysis it is the largest value, over
- * all rigid motions of the wire between the pads, of the load's power over the power that the
- * touches can resist
+ * A touch of the pads stays where it was when the grip was frozen. It can bear friction up to mu N.
+ * Its normal force N can change to any value from 0 to 2 N, because a moment towards the pads moves
+ * force from one edge to the other. The forces and moments that such touches can balance form a
+ * convex set. The margin is the load over the largest load of the same direction in that set. By
+ * the kinematic theorem of limit analysis it is the maximum, over all rigid motions of the wire
+ * between the pads, of the load's power over the power that the touches can resist
  *
  *     sum_i N_i (mu_i |tangential velocity| + |normal velocity|).
  *
  * For motions in the pads' plane this is the limit surface of Goyal, Ruina and Papadopoulos (Wear
- * 143, 1991, 307), of which Howe and Cutkosky's ellipsoid (1996) is an approximation. The best
- * motion is found by least squares with weights of the motion before, from which the value only
+ * 143, 1991, 307), which Howe and Cutkosky's ellipsoid (1996) approximates. The best motion is
+ * found by iterated least squares: the weights come from the previous motion, and the value only
  * grows. */
 #include <math.h>
 #include <string.h>
@@ -28,11 +27,11 @@
 #include "strand/ring.h"
 
 enum { SIX = 6, MOST_ROUNDS = 20 };
-static const double ENOUGH = 1e-4; /* growth of the margin that ends the search [-] */
-static const double STILL = 1e-6;  /* velocity that counts as none, of the motion's [-] */
+static const double ENOUGH = 1e-4; /* relative growth of the margin that ends the search [-] */
+static const double STILL = 1e-6;  /* velocity that counts as zero, over the motion's [-] */
 
-/* Particles that touch may stand inside of a pad: a place from which its surface is seen without
- * doubt, so much nearer to the middle of the section, of the wire's radius. */
+/* A touching particle may lie inside a pad. The pad's normal is taken at a place moved by this
+ * share of the wire's radius towards the middle of the section, which is safely outside [-]. */
 static const double INSIDE = 0.2;
 
 static sw_vec inside(const sw_scene *s, size_t wire, const sw_contact_push *p) {
@@ -72,8 +71,8 @@ sw_status sw_frozen_keep_touches(sw_scene *s, const sw_tool *t, sw_frozen *f, sw
   return SW_OK;
 }
 
-/* The touches' middle, by force; how far they are from it; and the forces and moments about it that
- * normal forces make by themselves. */
+/* Force-weighted middle and radius of the touches, and the force and moment about the middle of the
+ * normal forces alone. */
 typedef struct patch {
   sw_vec middle, force, moment; /* [m], [N], [N m] */
   double size;                  /* [m] */
@@ -98,14 +97,14 @@ static patch patch_of(const sw_frozen *f) {
   return out;
 }
 
-/* Sums over the touches that make the quadratic form: of weights as in all directions, and of those
- * across the surfaces. */
+/* Sums over the touches for the quadratic form. sum, arm, second: of weights equal in all
+ * directions; A: of the extra weights across the surfaces, until close_form adds the others. */
 typedef struct form {
   double A[SIX][SIX];
   double sum, arm[3], second[SIX]; /* second: xx xy xz yy yz zz */
 } form;
 
-/* Add a touch that resists alike in all directions, but for more across its surface. */
+/* Adds a touch with weight `all` in every direction and `more` in addition across its surface. */
 static void add(form *o, sw_vec arm, sw_vec normal, double all, double more) {
   double g[SIX];
   sw_store(g, normal);
@@ -120,7 +119,7 @@ static void add(form *o, sw_vec arm, sw_vec normal, double all, double more) {
   o->second[3] += y * arm.y, o->second[4] += y * arm.z, o->second[5] += z * arm.z;
 }
 
-/* The matrix, its lower half: velocities are v + turn x arm. */
+/* Completes the lower half of the matrix; velocities are v + turn x arm. */
 static void close_form(form *o) {
   const double *p = o->arm, *q = o->second;
   const double turns[3][3] = {
@@ -133,7 +132,8 @@ static void close_form(form *o) {
   }
 }
 
-/* What the touches resist in a motion [W]; A: its quadratic form with weights of that motion. */
+/* Returns the power that the touches resist in a motion [W]. A: its quadratic form, with that
+ * motion's weights. */
 static double resistance(const sw_frozen *f, const patch *p, const double v[SIX],
                          double A[SIX][SIX]) {
   form o = {0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tools on a tape. */
+/* Writes tools to a tape and reads them. */
 #include <math.h>
 
 #include "grip/frozen.h"
@@ -27,7 +27,7 @@ void sw_tape_jaw(sw_tape *t, sw_jaw *x) {
 }
 
 static void tape_tool_state(sw_tape *t, sw_tool_state *x) {
-  SW_TAPE_STRUCT(t, sw_tool_state, 216); /* what it crashed into is filled in when asked for */
+  SW_TAPE_STRUCT(t, sw_tool_state, 216); /* the names in a crash are filled in when asked for */
   DOUBLE(opening), INT(status), DOUBLE(squeeze), DOUBLE(normal), DOUBLE(most), DOUBLE(margin);
   DOUBLE(sliding), DOUBLE(slip), VEC(slipped), VEC(centre), QUAT(q), DOUBLE(place);
   DOUBLE(slip_time), DOUBLE(slip_place), INT(frozen), DOUBLE(lost_time);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tools: their frame, pads and holds, and what they hold. */
+/* Tools: their frames, pads and holds, and the state of what they hold. */
 #include "grip/tool.h"
 
 #include <math.h>
@@ -27,8 +27,8 @@ void sw_scene_clear_tool(sw_tool *t) {
   sw_log_free(&t->log);
 }
 
-static const double SLIP = 1e-4; /* that is an event, unless told [m] */
-static const double LIMIT = 0.9; /* of the margin of a frozen grip, unless told [-] */
+static const double SLIP = 1e-4; /* default slip that is an event [m] */
+static const double LIMIT = 0.9; /* default margin at which a frozen grip is lost [-] */
 
 sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *out, sw_error *err) {
   SW_TRY(sw_scene_editable(s, err));
@@ -44,7 +44,7 @@ sw_status sw_scene_add_tool(sw_scene *s, const sw_tool_args *args, sw_handle *ou
   return sw_fail(err, SW_ENOMEM, "gripper: out of memory");
 }
 
-/* The pose in the frame of a tool at its present place. */
+/* Turns a world pose into a pose in the tool's present frame. */
 static sw_status local_pose(sw_scene *s, const sw_tool *t, sw_pose world, sw_pose *out,
                             sw_error *err) {
   sw_motion_state now;
@@ -102,7 +102,7 @@ sw_status sw_scene_tool_jaws(sw_scene *s, sw_handle tool, const sw_jaw_args *arg
   SW_TRY(sw_scene_editable(s, err));
   SW_FIND(sw_tool, t, sw_scene_find_tool(s, tool, err));
   sw_jaw *j = &t->jaw;
-  if (j->force != args->force) SW_TRY(sw_scene_unbuild(s)); /* contact is told */
+  if (j->force != args->force) SW_TRY(sw_scene_unbuild(s)); /* contact gets the new force */
   j->mode = args->mode;
   j->goal = args->opening, j->most = args->speed, j->force = args->force;
   j->speed = 0, j->since = sw_scene_time(s);
@@ -127,7 +127,7 @@ double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   sw_contact *contact = sw_scene_contact(s);
   double sum = 0;
   sw_motion_state at;
-  sw_error ignored; /* it was asked for this place in the trial */
+  sw_error ignored; /* no error: the trial has evaluated this drive */
   if (!contact || !t->fingers || sw_drive_eval(s, &t->drive, time, &at, &ignored) != SW_OK)
     return 0;
   for (size_t k = 0; k < t->pads; k++) {
@@ -141,7 +141,8 @@ double sw_tool_squeeze(sw_scene *s, const sw_tool *t, double time) {
   return sum / t->fingers;
 }
 
-/* Force of pads (of one finger, or -1: all) on wires about a point; adds. */
+/* Adds the force of the pads (of one finger, or -1: of all) on wires, and its moment about a
+ * point. */
 static void pads_force(const sw_scene *s, const sw_tool *t, int finger, sw_vec about, sw_vec *force,
                        sw_vec *moment) {
   sw_contact *contact = sw_scene_contact(s);
@@ -154,7 +155,7 @@ static void pads_force(const sw_scene *s, const sw_tool *t, int finger, sw_vec a
   }
 }
 
-/* The same of all pads over the last step, with what struck them. */
+/* Adds the mean of the same over the last step, impacts included. */
 static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec *force,
                       sw_vec *moment) {
   for (size_t k = 0; k < t->pads; k++) {
@@ -165,8 +166,8 @@ static void pads_mean(const sw_scene *s, const sw_tool *t, sw_vec about, sw_vec 
   }
 }
 
-/* Those of its holds; mean: NULL, or means of steps with a jerk count and it says whether one did.
- */
+/* Adds the force of the tool's holds. mean: NULL; or the means of steps with a jerk are used, and
+ * *mean becomes 1 if there was one. */
 static sw_status holds_force(sw_scene *s, size_t slot, sw_vec about, sw_vec *force, sw_vec *moment,
                              int *mean, sw_error *err) {
   SW_EACH(hold, h, s) {
@@ -206,7 +207,7 @@ sw_status sw_scene_tool_finger(sw_scene *s, sw_handle tool, int finger, const sw
   return SW_OK;
 }
 
-/* What pads would have to bear in place of the grip that stands for them. */
+/* Returns the load on the frozen grip over what the pads in its place could bear. */
 static double hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec moment) {
   sw_tool_state *now = &t->now;
   now->margin =
@@ -215,7 +216,7 @@ static double hold_frozen(const sw_scene *s, sw_tool *t, sw_vec force, sw_vec mo
   return now->margin;
 }
 
-/* Fingers that press, a bit for each; what they press with in all. */
+/* Returns one bit for each finger that presses; adds all their forces to sum. */
 static unsigned fingers_that_press(const sw_scene *s, const sw_tool *t, sw_contact_grip *sum) {
   sw_contact *contact = sw_scene_contact(s);
   unsigned press = 0;
@@ -228,8 +229,8 @@ static unsigned fingers_that_press(const sw_scene *s, const sw_tool *t, sw_conta
   return press;
 }
 
-/* Returns the margin, or NAN: there is none of a wire that only leans on a finger, nor while jaws
- * close on it or let it go, when friction is always used up, of next to no force. */
+/* Returns the margin. NAN: there is no wire, the wire only leans on one finger, or the jaws move.
+ * Friction is then always used up, under almost no force. */
 static double hold_now(const sw_scene *s, sw_tool *t) {
   sw_contact_grip sum = {0};
   sw_tool_state *now = &t->now;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds position and direction at one arc length, exactly there whatever the
- * mesh (the corrected clamp of state/plan.c). */
+/* Holds position and direction at one arc length. It acts exactly there on any mesh (the corrected
+ * clamp of state/plan.c). */
 #include <math.h>
 
 #include "link/hold.h"

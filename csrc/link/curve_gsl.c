@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Splines are GSL's cubic ones over the chords between points, natural or periodic. Arc lengths are
- * Gauss's integrals of five points, whose error is below 1e-9 of a piece that turns by less than
- * 20 degrees. */
+/* Curves from GSL's cubic splines, natural or periodic. The parameter is the sum of the chords
+ * between points. Arc lengths are 5-point Gauss integrals; their error is below 1e-9 of a piece
+ * that turns by less than 20 degrees. */
 #include <gsl/gsl_interp.h>
 #include <math.h>
 #include <string.h>
@@ -11,8 +11,8 @@
 
 struct sw_curve {
   int references, closed;
-  size_t count;       /* of points; of a closed curve the first one comes again; 0: a line */
-  double *points;     /* (count x 3), then knots, arc lengths at them, three coordinates each */
+  size_t count;       /* points; a closed curve repeats its first one; 0: a line */
+  double *points;     /* (count x 3), then the knots, the arc lengths and the three coordinates */
   double *knot, *arc; /* (count) [m] */
   gsl_interp *spline[3];
   const double *coordinate[3]; /* (count) [m] */
@@ -36,7 +36,7 @@ sw_status sw_curve_line(sw_vec direction, sw_curve **out) {
   return SW_OK;
 }
 
-/* Place, and rates by the knots' parameter. */
+/* Place and its first two derivatives by the knots' parameter. */
 static void raw(const sw_curve *c, double u, sw_vec out[3]) {
   double v[3][3];
   for (int k = 0; k < 3; k++) {
@@ -178,7 +178,7 @@ void sw_tape_curve(sw_tape *t, sw_curve **curve) {
   sw_status status = SW_OK;
   sw_tape_expect(t, count || fabs(sw_norm(direction) - 1.0) < 1e-9, "a rail");
   if (sw_tape_good(t) && is_line) status = sw_curve_line(direction, curve);
-  if (*curve && is_line) (*curve)->direction = direction; /* as it was to the last bit */
+  if (*curve && is_line) (*curve)->direction = direction; /* exact to the last bit */
   if (sw_tape_good(t) && count) status = sw_curve_spline(points, count, closed, curve);
   sw_free(points);
   if (status == SW_EINVAL) sw_tape_damaged(t, "a rail");

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A guide through which the wire slides along its axis: held there like a clamp, exactly at the
- * guide, while wire is paid out of a spool behind it or drawn in. In mid-wire it passes wire from
- * one side to the other.
+/* A guide through which the wire slides along its axis. The wire is held exactly at the guide, like
+ * in a clamp, while it is paid out of a spool behind the guide or drawn in. In mid-wire the guide
+ * passes wire from one side to the other.
  *
- * The node stays in the guide and its arc length changes with time, in every stage of every
- * integrator, so that the first edge grows or shrinks smoothly while all other nodes keep to their
- * material. The wire's velocity at the guide is that of the guide and the feeding speed along it.
- * Nodes are inserted and removed between steps (body/guide.c). */
+ * The node stays in the guide, and its arc length changes with time in every stage of every
+ * integrator. So the first edge grows or shrinks smoothly, and all other nodes keep to their
+ * material. The wire's velocity at the guide is the guide's velocity plus the feeding speed along
+ * the guide. Nodes are inserted and removed between steps (body/guide.c). */
 #include <math.h>
 
 #include "link/feeding.h"
@@ -32,11 +32,11 @@ static const sw_param rows[] = {
     SW_NAME_ROW(sw_hold_args),
 };
 
-static const double AT_END = 1e-9; /* of the wire's length: rounding [-] */
+static const double AT_END = 1e-9; /* of the wire's length, for rounding [-] */
 
 /* --- what it holds ---------------------------------------------------------------- */
 
-/* Which way wire goes that is paid out at arc length s of the mesh: see sw_feed. */
+/* Returns the direction of wire paid out at arc length s of the mesh, see sw_guide. */
 static int outward(const sw_mesh *m, double s) {
   const double end = m->s[m->n - 1];
   return s >= end - AT_END * (end - m->s[0]) ? -1 : 1;
@@ -45,7 +45,7 @@ static int outward(const sw_mesh *m, double s) {
 static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
   if (isfinite(a->speed) && isfinite(a->force))
     return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
-  if (outward(w->mesh, a->s) < 0) a->direction = sw_neg(a->direction); /* it points outwards */
+  if (outward(w->mesh, a->s) < 0) a->direction = sw_neg(a->direction); /* it must point outwards */
   return SW_OK;
 }
 
@@ -65,12 +65,12 @@ static void clear(sw_hold *h) {
   sw_mesh_free(&h->feed.guide.shape);
 }
 
-/* Length paid out at a time, its speed and acceleration. */
+/* Length paid out at a time, with speed and acceleration. */
 typedef struct feed_now {
   double fed, speed, acceleration; /* [m], [m/s], [m/s2] */
 } feed_now;
 
-/* Length that has slipped, beyond what was asked for [m]. */
+/* Returns the length slipped in addition to what was asked for [m]. */
 static double slipped(const sw_slip *slip, double t) {
   const double u = t - slip->since;
   return slip->length + (slip->speed + 0.5 * slip->growth * u) * u;
@@ -98,7 +98,7 @@ void sw_guide_spare(const sw_guide *g, double fed, double spare[2]) {
     spare[k] = g->spare[k] * fmax(0, 1 - fabs(fed - g->spare_fed[k]) / g->size);
 }
 
-/* What the hold knows of the unloaded frame at arc length s of the mesh. */
+/* Sets the hold's unloaded frames to those at arc length s of the mesh. */
 static void set_rest(sw_hold *h, double s) {
   const sw_quat q = sw_spool_at(&h->feed.guide.shape, s).q;
   for (int side = 0; side < 2; side++) {
@@ -107,7 +107,7 @@ static void set_rest(sw_hold *h, double s) {
   }
 }
 
-/* Unloaded place and frame of the node at the guide, for its present arc length. */
+/* Sets the unloaded place and frame of the guide's node for its present arc length. */
 static void reshape(sw_hold *h, const sw_link_wire *w, const sw_plan *p) {
   sw_mesh *m = w->mesh;
   const double kept = m->s[h->node];
@@ -119,7 +119,7 @@ static void reshape(sw_hold *h, const sw_link_wire *w, const sw_plan *p) {
   w->reshaped(w->user, w->body, h->node);
 }
 
-/* The plan for a length fed. */
+/* Slides the plan's node to the arc length of a fed length. */
 static void slide(sw_hold *h, const sw_link_wire *w, double arc, double fed) {
   sw_plan *p = w->system->bodies[w->body].plan;
   const size_t node = h->node;
@@ -143,7 +143,7 @@ static void place(sw_hold *h, const sw_link_wire *w, double t, sw_hold_state *st
   state->a = sw_madd(state->a, sw_cross(state->omega, along), 2.0 * now.speed);
 }
 
-/* What a step begins from. */
+/* The present values become those from which the next step starts. */
 static void taken(sw_slip *slip) {
   slip->growth_before = slip->growth;
   slip->way_before = slip->way;
@@ -153,7 +153,8 @@ static int follow(sw_hold *h, const sw_link_wire *w) {
   sw_slip *slip = &h->feed.slip;
   const double u = w->time - slip->since;
   slip->length = slipped(slip, w->time);
-  /* where the wire gives way as little as at a wall, its speed would swing about the right one */
+  /* If the wire yields as little as a wall, its speed oscillates about the right one. Half the
+   * change damps this. */
   const int swings = slip->way != 0 && slip->growth * slip->growth_before < 0;
   slip->speed += (swings ? 0.5 : 1.0) * slip->growth * u;
   slip->since = w->time;
@@ -170,8 +171,8 @@ static void undo(sw_hold *h, const sw_link_wire *w) {
 
 /* --- forces ----------------------------------------------------------------------- */
 
-/* Curvature where the wire leaves the guide on the clamp's side, squared and times EI. In a wire
- * with frames this is its curvature at rest plus the bending. */
+/* Returns EI times the squared curvature where the wire leaves the guide on the clamp's side [N].
+ * In a wire with frames the curvature is that at rest plus the bending. */
 static double bent(const sw_system *s, const sw_body *b, size_t clamp, const double *x) {
   const sw_plan *p = b->plan;
   const sw_clamp_hinge *c = &p->clamps[clamp];
@@ -197,7 +198,7 @@ static double bent(const sw_system *s, const sw_body *b, size_t clamp, const dou
   return sum;
 }
 
-/* The same of its twist, times GJ. */
+/* Returns GJ times the squared twist there [N]. */
 static double twisted(const sw_system *s, const sw_body *b, size_t clamp) {
   const sw_plan *p = b->plan;
   if (b->spin_block) {
@@ -214,14 +215,14 @@ static double twisted(const sw_system *s, const sw_body *b, size_t clamp) {
   return 0;
 }
 
-/* In which wire is paid out. */
+/* Returns the direction in which wire is paid out. */
 static sw_vec direction_of(const sw_hold *h, const sw_system *s) {
   return sw_scale(sw_vec_at(s->directors_now, 2 * h->number + 1), h->feed.guide.outward);
 }
 
-/* The guide's walls bear a force along the wire too: where it leaves them bent, each length
- * that is paid out takes up the energy of the bend at the drive's cost, and the walls push the
- * wire out with EI curvature^2 / 2 (Bigoni et al. 2015). The drive bears the rest. */
+/* Returns the drive's share of the axial force [N]. Where a wire leaves the guide bent, each length
+ * that is paid out takes up bending energy at the drive's cost, and the guide's walls push the wire
+ * out with EI curvature^2 / 2 (Bigoni et al. 2015). The drive bears the rest. */
 static double drive(const sw_hold *h, const sw_link_wire *w, const double *x, sw_vec force) {
   const sw_system *y = w->system;
   const sw_body *b = &y->bodies[w->body];
@@ -266,7 +267,7 @@ static sw_slip *slips(sw_hold *h) {
 
 /* --- what is asked of it ------------------------------------------------------------ */
 
-/* It stops where it is at time t; what follows starts from then. */
+/* Stops the feed at time t. The next request starts from there. */
 static void stop(sw_hold *h, double t) {
   sw_feed *f = &h->feed;
   f->fed = feed_at(h, t).fed - f->slip.length;
@@ -305,7 +306,7 @@ static sw_status limit(sw_hold *h, const sw_link_wire *w, double force, sw_motio
   return SW_OK;
 }
 
-/* Wire on the side of the guide from which this length would come; a spool has no end [m]. */
+/* Returns the length of wire on the side that would supply this length; infinite: a spool [m]. */
 static double reserve(const sw_hold *h, const sw_mesh *m, double length) {
   const int from_far = length * h->feed.guide.outward < 0;
   const int is_end = from_far ? h->s1 >= m->s[m->n - 1] : h->s1 <= m->s[0];
@@ -325,15 +326,15 @@ static sw_status pay_out(sw_hold *h, const sw_link_wire *w, double length, sw_mo
   return SW_OK;
 }
 
-/* Wire paid out per time; a force that pushes it out; the force beyond which it slips, NAN: none; a
- * length, as the motion's x [m/s], [N], [N], [m]. */
+/* speed: wire paid out per time [m/s]. push: force that pushes it out [N]. force_limit: force
+ * beyond which it slips, NAN = none [N]. length: given by the motion's x [m]. */
 static const sw_hold_order orders[] = {
     {"speed", 1, go}, {"push", 1, push}, {"force_limit", 0, limit}, {"length", 1, pay_out}, {0}};
 
 static const char *const outputs[] = {"fed", "speed", "drive_force", "force_limit", NULL};
 
-/* Paid out so far, speed, force that moves the wire outwards (the guide's walls bear the rest), its
- * limit or NAN [m], [m/s], [N], [N]. */
+/* Length paid out so far, speed, force that moves the wire outwards (the guide's walls bear the
+ * rest), force limit or NAN [m], [m/s], [N], [N]. */
 static void read(const sw_hold *h, double t, double *out) {
   const feed_now now = feed_at(h, t);
   out[0] = now.fed, out[1] = now.speed, out[2] = h->feed.guide.drive, out[3] = h->feed.slip.limit;
@@ -361,14 +362,14 @@ void sw_tape_feed(sw_tape *t, sw_feed *x) {
   if (shaped) sw_tape_mesh(t, &g->shape, 1);
   if (!sw_tape_reads(t)) return;
   const sw_slip *slip = &x->slip;
-  taken(&x->slip); /* older files have what went before */
+  taken(&x->slip); /* older files hold other values before the step */
   const double all = g->label + x->fed + x->since + x->speed + x->start + slip->length +
                      slip->since + slip->speed + slip->growth + slip->growth_before + slip->slope +
                      g->size;
   sw_tape_expect(t, isfinite(all + g->spare[0] + g->spare[1]), "a feed");
 }
 
-/* Of a hold at rest: is what came from a tape a feed of the wire? */
+/* 1 if the hold read from a tape is a feed of this wire. */
 static int fits(const sw_hold *h, const sw_link_wire *w) {
   const sw_guide *g = &h->feed.guide;
   return h->s1 == h->s2 && h->count == 1 && g->size > 0 && (g->outward == 1 || g->outward == -1) &&

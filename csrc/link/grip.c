@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grasped region of a gripper: the interval of width around s is rigid in
- * the shape it had when grasped; each face is a corrected clamp. */
+/* The grasped region of a gripper: the interval of the given width around s is rigid in the shape
+ * it had when grasped. Each face is a corrected clamp (state/plan.c). */
 #include <math.h>
 
 #include "link/hold.h"

@@ -11,21 +11,21 @@
 #include "state/mesh.h"
 #include "system/system.h"
 
-/* The wire of a link, as the scene has it. */
+/* The wire of a link, as seen by the link. */
 typedef struct sw_link_wire {
   const char *name;
   sw_mesh *mesh;
   const sw_beam *beam;
-  int bends;   /* 1: it resists bending; of joints only */
+  int bends;   /* 1: it resists bending; set for joints only */
   double time; /* of the scene [s] */
-  /* while it is built */
+  /* only while the system is built: */
   sw_system *system;
   size_t body;
   void *user;
-  void (*reshaped)(void *user, size_t body, size_t node); /* another unloaded shape at a node */
+  void (*reshaped)(void *user, size_t body, size_t node); /* a node's unloaded shape changed */
 } sw_link_wire;
 
-/* Where something driven is: at rest at a pose or following a motion. */
+/* Where a driven thing is: at rest at a pose or following a motion. */
 typedef struct sw_drive {
   sw_pose pose;      /* at rest */
   sw_motion *motion; /* NULL = at rest */
@@ -35,24 +35,24 @@ typedef struct sw_drive {
 } sw_drive;
 
 typedef struct sw_crash {
-  double time, depth;    /* when a part ran into an obstacle, how far then [s], [m] */
+  double time, depth;    /* when a part ran into an obstacle and how deep it was then [s], [m] */
   size_t part, obstacle; /* slots */
 } sw_crash;
 
-/* Is it driven into an obstacle? */
+/* Watches whether the hold is driven into an obstacle (watch/hold_crash.c). */
 typedef struct sw_hold_watch {
-  int looking;    /* 1: it has been looked at */
-  int crashing;   /* 1: it is driven into one now */
-  double looked;  /* when last [s] */
-  double given;   /* how deep it was in one to begin with [m] */
-  sw_crash crash; /* the last one, of no part; depth 0: none */
+  int looking;    /* 1: it has been checked at least once */
+  int crashing;   /* 1: it is in an obstacle too deep at present */
+  double looked;  /* time of the last check [s] */
+  double given;   /* depth in an obstacle at the first check [m] */
+  sw_crash crash; /* the last one, with part unused; depth 0: none */
 } sw_hold_watch;
 
-/* Impulse and its moment that a hold bears up to each stage of a trial step [N s], [N m s]. */
+/* Impulse, and its moment, that a hold bears up to each stage of a trial step [N s], [N m s]. */
 typedef struct sw_hold_sums {
   sw_vec force[SW_BOOK_STAGES], moment[SW_BOOK_STAGES];
   int last;  /* stage booked last */
-  int known; /* 1: they belong to the step that led here */
+  int known; /* 1: they belong to the step that led to this state */
 } sw_hold_sums;
 
 typedef struct sw_hold {
@@ -62,92 +62,93 @@ typedef struct sw_hold {
   const sw_link_class *cls;
   size_t wire;
   sw_hold_args args; /* as asked for */
-  double scale;      /* of the wire's mesh when it was asked for [-] */
-  uint32_t shape;    /* another number when s1 .. frame are others */
-  int formed;        /* 1: between its ends the wire is as long without force as it lies */
+  double scale;      /* of the wire's mesh when args were given [-] */
+  uint32_t shape;    /* changes whenever s1 .. frame change */
+  int formed;        /* 1: the wire between its ends is unstressed at the held distances */
   double s1, s2;     /* held interval, nodes of the mesh [m] */
   sw_drive drive;
   size_t count;                 /* held places */
-  double *s;                    /* (count) arc lengths when taken hold of [m] */
+  double *s;                    /* (count) arc lengths when grasped [m] */
   double *local;                /* (count x 3) in the hold's frame [m] */
-  uint32_t *particle;           /* (count) which ones of a mesh; NULL on other wires */
-  sw_vec director[2];           /* arriving, leaving; in the hold's frame [-] */
-  sw_mesh_frame frame[2];       /* the wire's there, with directions as held; if it has frames */
-  sw_clamp_give give[2];        /* likewise */
+  uint32_t *particle;           /* (count) particles of a mesh; NULL on other wires */
+  sw_vec director[2];           /* where the wire arrives and leaves; in the hold's frame [-] */
+  sw_mesh_frame frame[2];       /* the wire's frames there, as held, if it has frames */
+  sw_clamp_give give[2];        /* give of the hold there, see state/plan.h */
   sw_quat turn;                 /* orientation that goes with the wire's twist, while not built */
-  size_t node, number;          /* first node in the wire's plan, among the system's; while built */
-  size_t rail;                  /* among the system's rails, if its class has one; while built */
+  size_t node, number;          /* first node in the plan, number in the system; while built */
+  size_t rail;                  /* number in the system, if the class has a rail; while built */
   sw_feed feed;                 /* of a class that feeds */
-  sw_slider slider;             /* of one with a rail */
-  sw_vec force, moment;         /* last, kept after release [N], [N m] */
-  sw_vec end_force, end_moment; /* of the stage that the last step ended with, which the next one
-                                 * goes on from [N], [N m] */
+  sw_slider slider;             /* of a class with a rail */
+  sw_vec force, moment;         /* last read-outs, kept after release [N], [N m] */
+  sw_vec end_force, end_moment; /* the same of the stage that ended the last step, from which the
+                                 * next step starts [N], [N m] */
   sw_hold_watch watch;
   sw_hold_sums sums; /* of the present step */
   sw_pose last_pose;
   sw_log log;
 } sw_hold;
 
-/* A way of its own that a hold lets the wire go, and the force along it. */
+/* How wire moves through a hold, and the force along it. stage and obeys differ from force where
+ * the method's axial forces are off (sw_system_bears). */
 typedef struct sw_hold_way {
   double way, speed; /* [m], [m/s] */
-  double force;      /* that moves the wire along it [N] */
-  double stage;   /* the same of the last stage, and what a drive that obeys a force is to obey, */
-  double obeys;   /* which differ where the method's are off (sw_system_bears) [N] */
-  double slipped; /* of the way, what was not asked for [m] */
-  sw_vec direction; /* in which that force acts, where the wire's place is known [-] */
+  double force;      /* moves the wire along the way, as read out [N] */
+  double stage;      /* the same by the last stage [N] */
+  double obeys;      /* the same as a force-controlled drive compares it with its target [N] */
+  double slipped;    /* part of the way that was not asked for [m] */
+  sw_vec direction;  /* of the force; set only when nodes are given [-] */
 } sw_hold_way;
 
-/* What a user may ask of a hold at any time. */
+/* A request to a hold that users may make at any time. */
 typedef struct sw_hold_order {
   const char *name; /* NULL ends a list */
   int jumps;        /* 1: the wire's velocity jumps */
-  /* With the scene at the time of the wire; motion: where value is the end of one, or NULL. */
+  /* The scene is at the wire's time. motion leads to value, or is NULL. */
   sw_status (*give)(sw_hold *hold, const sw_link_wire *wire, double value, sw_motion *motion,
                     sw_error *err);
 } sw_hold_order;
 
-/* What a hold does; functions may be NULL. */
+/* Functions and properties of a hold class. Functions may be NULL. */
 typedef struct sw_hold_acts {
   const sw_hold_order *orders; /* or NULL */
-  const char *const *outputs;  /* names of what read gives, NULL-terminated, or NULL */
+  const char *const *outputs;  /* names of the values of read, NULL-terminated, or NULL */
   void (*read)(const sw_hold *hold, double t, double *out);
-  int direction; /* 1: it keeps the wire's direction too */
-  int lines;     /* 1: only of wires that are lines, not meshes of particles */
-  /* Before anything is changed; arguments become what they mean for this wire. SW_EINVAL. */
+  int direction; /* 1: it also holds the wire's direction */
+  int lines;     /* 1: only on wires that are lines, not meshes of particles */
+  /* Checks the arguments before anything changes, and adapts them to this wire. SW_EINVAL. */
   sw_status (*check)(const sw_link_wire *wire, sw_hold_args *args, sw_error *err);
-  /* A new hold, its nodes in place. SW_ENOMEM. */
+  /* Begins a new hold whose nodes are in place. SW_ENOMEM. */
   sw_status (*begin)(sw_hold *hold, const sw_link_wire *wire);
   void (*clear)(sw_hold *hold);
-  /* At time t: adds what the wire does in the frame of the hold to its state. */
+  /* Adds the wire's motion in the hold's frame at time t to the hold's state. */
   void (*place)(sw_hold *hold, const sw_link_wire *wire, double t, sw_hold_state *state);
-  /* A state was accepted, and the scene has its time: mesh and hold follow. 1: velocities jumped.
-   */
+  /* A state was accepted and the scene has its time: updates mesh and hold. Returns 1 if velocities
+   * jumped. */
   int (*follow)(sw_hold *hold, const sw_link_wire *wire);
-  /* The plan back to the mesh, before this is read. */
+  /* Sets the plan back to the mesh before the mesh is read. */
   void (*undo)(sw_hold *hold, const sw_link_wire *wire);
-  /* Wire goes through it: its way at time t, with nodes at x (NULL: the force as it was last). */
+  /* Returns the way of passing wire at time t with nodes at x. x = NULL: with the last force. */
   sw_hold_way (*passes)(const sw_hold *hold, const sw_link_wire *wire, double t, const double *x);
-  /* Of one that wire goes through: where nodes come and go; and what gives way to a force, NULL:
-   * nothing does now. */
+  /* For classes through which wire passes. guide: where nodes come and go. slips: the drive that
+   * yields to a force; NULL: none does at present. */
   sw_guide *(*guide)(sw_hold *hold);
   sw_slip *(*slips)(sw_hold *hold);
-  /* It keeps its node on a curve, as a rail of the system; place and force of that. */
+  /* Describes the rail of the system on which the node stays. */
   void (*rail)(const sw_hold *hold, sw_rail *out);
-  /* Arguments as they are now; those that change from now on. */
+  /* get: the present arguments. set: takes over those that may change later. */
   void (*get)(const sw_hold *hold, sw_hold_args *args);
   void (*set)(sw_hold *hold, const sw_hold_args *args);
-  /* 1: what came from a tape goes with the wire. */
+  /* 1 if the hold read from a tape fits the wire. */
   int (*fits)(const sw_hold *hold, const sw_link_wire *wire);
-  /* Puts its own state on a tape, besides the fields that all holds have. */
+  /* Writes or reads the class's own state, in addition to the fields of all holds. */
   void (*tape)(sw_tape *tape, sw_hold *hold);
 } sw_hold_acts;
 
-/* 1: wire goes through the hold. */
+/* 1 if wire passes through the hold. */
 static inline int sw_hold_passes(const sw_hold *hold) { return hold->cls->hold->passes != NULL; }
 
-void sw_hold_clear(sw_hold *hold); /* what it owns */
-/* Arguments that are not kept with the others. */
+void sw_hold_clear(sw_hold *hold); /* frees what it owns */
+/* Clears the arguments that are not kept with the others. */
 void sw_hold_forget(sw_hold_args *args);
 
 #endif

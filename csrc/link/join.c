@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A point where wires are fixed to each other: springs far stiffer than the wires keep their nodes
- * together, and a hub, in which they stick, keeps the angles between them. */
+/* A point where wires are fixed to each other. Springs far stiffer than the wires keep their nodes
+ * together. In a rigid join a hub, in which the wires are clamped, keeps the angles between
+ * them. */
 #include <math.h>
 
 #include "link/joint.h"
@@ -20,9 +21,9 @@ static const sw_param rows[] = {
      offsetof(sw_join_args, strength), "pull at which a tie breaks (default: never)"},
 };
 
-/* Stiffness of the springs of a join over that of the stiffest segment there. Ends go apart by the
- * inverse share of this segment's stretch. At twice this value they go apart by half as much, and
- * the forces lose one more digit to rounding [-]. */
+/* Stiffness of a join's springs over the stiffness of the stiffest edge there [-]. The ends move
+ * apart by the inverse share of that edge's stretch. At twice the value they move apart half as
+ * far, and the forces lose one more digit to rounding. */
 static const double STIFFER = 100.0;
 
 typedef sw_joint_end end;
@@ -37,8 +38,8 @@ uint32_t sw_joint_node(const end *e, const sw_link_wire *w) {
   return system_node(w, mesh_node(e, w));
 }
 
-/* The nodes between which the wire's direction at the join is taken: the edge there where it
- * ends, the two beside it in mid-wire. */
+/* Nodes between which the wire's direction at the join is taken: the nodes of the last edge at a
+ * wire's end, the two neighbours in mid-wire. */
 static void arm_of(const end *e, const sw_link_wire *w, size_t nodes[2]) {
   const size_t i = mesh_node(e, w), last = w->mesh->n - 1;
   nodes[0] = i == 0 ? 0 : i - 1;
@@ -47,8 +48,8 @@ static void arm_of(const end *e, const sw_link_wire *w, size_t nodes[2]) {
 
 /* --- what it keeps ---------------------------------------------------------------- */
 
-/* Where a wire that is straight at rest goes there, or its edges where they are bent without
- * load. */
+/* Returns the wire's direction at the join: the mesh's tangent for a wire that is straight at rest,
+ * the chord between the arm's nodes for a curved one. */
 static sw_vec direction_of(const end *e, const sw_link_wire *w) {
   size_t nodes[2];
   arm_of(e, w, nodes);
@@ -98,9 +99,9 @@ static sw_status add_springs(const sw_joint *j, const sw_link_wire *wires) {
   return SW_OK;
 }
 
-/* From the join to the middles of the edges beside it a wire is bent by its own stiffness,
- * which sticks in the hub: EI over half an edge, of both sides in mid-wire. There the wire's
- * own hinge takes care of the angle between both, and the hub of their mean. [N m] */
+/* Returns the bending stiffness between the wire and the hub [N m]: EI over half an edge, from the
+ * join to the middle of the edge. In mid-wire both sides count: the wire's own hinge keeps the
+ * angle between the two edges, and the hub keeps their mean direction. */
 static double arm_stiffness(const sw_link_wire *w, const size_t nodes[2]) {
   double sum = 0;
   if (!w->bends) return 0; /* a string */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Holds the position at one arc length; the wire turns freely there. */
+/* Holds the position at one arc length. The wire turns freely there. */
 #include <math.h>
 
 #include "link/hold.h"

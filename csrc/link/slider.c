@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keeps one place of a wire on a line or a curve, along which it slides: without friction, or with
- * Coulomb's. It stays on it exactly (system/rail.h), turns freely, and the curve may be moved like
- * any hold. An open curve has ends that stop it, without rebound. */
+/* Keeps one place of a wire exactly on a line or a curve (system/rail.h). The place slides along it
+ * without friction or with Coulomb friction, and the wire turns freely there. The curve may be
+ * moved like any hold. An open curve has ends that stop the place without rebound. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -25,11 +25,11 @@ static const sw_param rows[] = {
     SW_NAME_ROW(sw_hold_args),
 };
 
-/* How far from the curve the wire may be when it is put on it, of the edges there: it is moved
- * there at once, which strains them by that share squared [-]. */
+/* Largest distance between wire and curve when the slider is made, over the mean edge length [-].
+ * The wire is moved onto the curve at once, which strains the edges there by this share squared. */
 static const double LARGEST_GAP = 0.02;
 
-/* What nodes have (n x 3), x or v, at arc length s. */
+/* Interpolates node values (n x 3), x or v, at arc length s. */
 static sw_vec value_at(const sw_mesh *m, const double *nodes, double s) {
   size_t i = 0;
   while (i + 2 < m->n && m->s[i + 1] <= s) i++;
@@ -66,7 +66,7 @@ static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
                  w->name, sw_dist(near.x, at), a->s - m->s[0], LARGEST_GAP * edge);
 }
 
-/* The curve in the hold's frame: axes of the world, origin at the wire's place. */
+/* Makes the curve in the hold's frame: world axes, origin at the wire's place. */
 static sw_status make_curve(const sw_hold *h, sw_curve **out) {
   const sw_hold_args *a = &h->args;
   if (!a->points) return sw_curve_line(a->line, out);
@@ -77,7 +77,7 @@ static sw_status make_curve(const sw_hold *h, sw_curve **out) {
   return sw_curve_spline(points, a->count, a->closed, out);
 }
 
-/* 1: the place is at an end and would go beyond it; it stops there. */
+/* 1 if the place is at an end and moves beyond it. */
 static int stops(const sw_slider *x) {
   return (x->p <= x->from && x->v < 0) || (x->p >= x->to && x->v > 0);
 }

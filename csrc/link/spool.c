@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The unloaded shape of wire that is fed, behind the guide too. */
+/* The unloaded shape of fed wire, also behind the guide. */
 #include "link/spool.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static sw_quat rest_turn(const sw_mesh *m, double s) {
   return sw_spool_turn(f.rest_tangent, f.rest_normal);
 }
 
-/* A curve that goes on from (x, q) by a length u with the body rate w per length. */
+/* Continues a curve from (x, q) over a length u at the constant body rate w per length. */
 static sw_rest_place go_on(sw_vec x, sw_quat q, sw_vec w, double u) {
   const double rate = sw_norm(w), angle = rate * u;
   sw_vec way = sw_v(u, 0, 0);
@@ -39,8 +39,6 @@ static sw_rest_place go_on(sw_vec x, sw_quat q, sw_vec w, double u) {
                          sw_quat_unit(sw_quat_mul(q, sw_quat_exp(sw_scale(w, u))))};
 }
 
-/* The unloaded wire at arc length s. Beyond its ends it goes on with the curvature and twist of the
- * end: the wire on the spool is like the wire that came off it. */
 sw_rest_place sw_spool_at(const sw_mesh *m, double s) {
   const size_t last = m->n - 1;
   if (s < m->s[0] || s > m->s[last]) {
@@ -67,7 +65,7 @@ sw_rest_place sw_spool_at(const sw_mesh *m, double s) {
                          rest_turn(m, s)};
 }
 
-/* The unloaded frame of an edge, from that of the curve at its middle. */
+/* Sets the unloaded frame of an edge from the curve's frame at the edge's middle. */
 static void shape_edge(sw_mesh *m, const sw_mesh *shape, size_t e) {
   const sw_quat q = sw_spool_at(shape, 0.5 * (m->s[e] + m->s[e + 1])).q;
   const sw_vec along = sw_sub(sw_vec_at(m->rest, e + 1), sw_vec_at(m->rest, e));
@@ -75,7 +73,6 @@ static void shape_edge(sw_mesh *m, const sw_mesh *shape, size_t e) {
   sw_store(m->rest_normal + 3 * e, sw_carry_unit(sw_spool_normal(q), sw_spool_tangent(q), t));
 }
 
-/* The node's unloaded place and the edges beside it, for its arc length in the mesh. */
 void sw_spool_node(sw_mesh *m, const sw_mesh *shape, size_t node) {
   sw_store(m->rest + 3 * node, sw_spool_at(shape, m->s[node]).x);
   if (node > 0) shape_edge(m, shape, node - 1);

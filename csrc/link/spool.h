@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The unloaded shape of wire that is fed: a mesh with frames as it was when a feed took hold of
- * it, and the wire on the spool before it. Of this room, and of guides (body/guide.h). */
+/* The unloaded shape of fed wire: a copy of the mesh (with frames) made when a feed took hold of
+ * the wire, continued by the wire on the spool. Used in csrc/link and by guides (body/guide.h). */
 #ifndef SW_LINK_SPOOL_H
 #define SW_LINK_SPOOL_H
 
 #include "state/mesh.h"
 
-/* The orientation whose first two axes are a unit tangent and a normal across it. */
+/* Returns the orientation whose first two axes are a unit tangent and a normal across it. */
 sw_quat sw_spool_turn(sw_vec tangent, sw_vec normal);
 sw_vec sw_spool_tangent(sw_quat turn);
 sw_vec sw_spool_normal(sw_quat turn);
@@ -16,12 +16,12 @@ typedef struct sw_rest_place {
   sw_quat q; /* its tangent and normal are the first two axes */
 } sw_rest_place;
 
-/* The unloaded wire at arc length s. Beyond its ends it goes on with the curvature and twist
- * that it has there: wire on the spool is like the wire that has come from it. */
+/* Returns the unloaded wire at arc length s. Beyond either end the wire keeps the curvature and
+ * twist of that end: wire on the spool is like the wire that came off it. */
 sw_rest_place sw_spool_at(const sw_mesh *shape, double s);
 
-/* Give a node of mesh its unloaded place, and the edges beside it their frames, for its arc
- * length there. */
+/* Sets a node's unloaded place in the mesh and the unloaded frames of the edges beside it, for the
+ * node's present arc length. */
 void sw_spool_node(sw_mesh *mesh, const sw_mesh *shape, size_t node);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tie of two wires that only may not be further apart than its slack, and that breaks when it is
- * pulled harder than it bears. A broken one stays in the system without stiffness until that is
- * made anew. One to a fixed point is the force tether. */
+/* A tie of two wires: it pulls only when they are further apart than its slack, and breaks when the
+ * pull exceeds its strength. A broken tie stays in the system with stiffness 0 until the system is
+ * rebuilt. For a tie to a fixed point use the force tether. */
 #include <math.h>
 
 #include "link/joint.h"
@@ -36,7 +36,8 @@ static void breaks(sw_joint *j, sw_system *s) { s->joins->springs[j->spring].k =
 static const char *const outputs[] = {"distance",    "tension",      "peak", "broken",
                                       "broken_time", "broken_force", NULL};
 
-/* How far its places are apart, its pull now and at most [m], [N]; when and how it broke. */
+/* Distance of its places, present pull, largest pull [m], [N], [N]; 1 if broken, when and at which
+ * pull [-], [s], [N]. */
 static void read(const sw_joint *j, const sw_link_wire *wires, double *out) {
   const sw_system *s = wires ? wires->system : NULL;
   double bears;

@@ -9,7 +9,7 @@
 #include "modal/eigen.h"
 #include "system/linear.h"
 
-/* A direction of which less than this is left is one of the basis already [-]. */
+/* A direction that keeps less than this share is already in the basis [-]. */
 static const double NOTHING_NEW = 1e-11;
 enum { PASSES = 2 };
 
@@ -52,8 +52,8 @@ static void subtract(double *restrict a, const double *restrict b, double share,
   for (size_t i = 0; i < n; i++) a[i] -= share * b[i];
 }
 
-/* Take the basis out of work, adding what was found to sums. Returns the M-norm of
- * the rest; the image is M work. */
+/* Removes the basis from work and adds the removed coefficients to sums. Returns the M-norm of the
+ * rest; image = M work. */
 static double orthogonalise(sw_krylov *k, double *sums) {
   for (int pass = 0; pass < PASSES; pass++) {
     sw_system_mass_times(k->system, k->body, k->work, k->image);

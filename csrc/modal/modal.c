@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A shift below the lowest eigenvalue, a block Krylov space of the inverse around
- * it until the wanted values stand still, a count of negative pivots to see that
- * none was missed, and once more Rayleigh-Ritz with K itself: the factor's rounding
- * then enters the values squared only. */
+/* Finds the lowest modes in four steps. (1) Choose a shift below the lowest eigenvalue. (2) Grow a
+ * block Krylov space of the inverse about the shift until the wanted values converge. (3) Count
+ * negative pivots to make sure that no value was missed. (4) Do a last Rayleigh-Ritz step with K
+ * itself, so that the factor's rounding enters the values only squared. */
 #include "modal/modal.h"
 
 #include <float.h>
@@ -13,39 +13,39 @@
 #include "modal/krylov.h"
 #include "system/linear.h"
 
-/* Residual of a Ritz pair of the inverse, of its value: the value itself is then
- * exact to its square [-]. */
+/* Residual of a Ritz pair of the inverse, over its value, at which it has converged. The value is
+ * then exact to the square of this [-]. */
 static const double CONVERGED = 1e-7;
-/* A share of the span from the shift to the last wanted value, by which the count
- * looks beyond it [-]. */
+/* The count of eigenvalues includes this share of the span from the shift to the last wanted value
+ * beyond that value [-]. */
 static const double BEYOND = 1e-6;
-/* Values this small compared with the last wanted one are none [-]. */
+/* Values below this share of the last wanted one count as 0 [-]. */
 static const double NEUTRAL = 1e-9;
-/* The shift lies below zero by this share of the last wanted value [-]. */
+/* Distance of the shift below zero, over the last wanted value [-]. */
 static const double BELOW_ZERO = 0.05;
-/* Rounding shifts a value before the last Rayleigh-Ritz by d, and after it by about
- * d^2 over the values left out: by at most this share of itself, or of the last value
- * taken in [-]. */
+/* Rounding shifts a value by d before the last Rayleigh-Ritz step, and after it by about d^2 over
+ * the values left out. Allowed is this share of the value itself, or of the last value taken in
+ * [-]. */
 static const double ROUNDING = 1e-3, ROUNDING_FLOOR = 1e-9;
-/* More values than wanted are taken in when they are known so well [-]. */
+/* More values than wanted are taken in if their residual over their value is at most this [-]. */
 static const double NEARLY = 0.1;
-/* Of the largest entries of the matrix [-]. */
+/* Rounding of the matrix, over its largest entries [-]. */
 static const double MATRIX_ROUNDING = 128 * DBL_EPSILON;
 enum { SPARE = 8, MOST_UNSTABLE = 100, MOST_NEUTRAL = 60 };
 
 typedef struct job {
   const sw_system *system;
   size_t body, n, free_unknowns;
-  size_t target;          /* lowest values looked for, unstable ones included */
-  double floor;           /* rounding of the matrix; what is below it is polished [rad2/s2] */
-  double scale;           /* of the last value looked for, or the floor [rad2/s2] */
-  double slow;            /* negative values of this size count as none [rad2/s2] */
-  double neutral;         /* values this small are none [rad2/s2] */
+  size_t target;          /* number of lowest values searched for, unstable ones included */
+  double floor;           /* rounding of the matrix; values below it need the last step [rad2/s2] */
+  double scale;           /* of the last value searched for, or the floor [rad2/s2] */
+  double slow;            /* negative values up to this size count as 0 [rad2/s2] */
+  double neutral;         /* values up to this size count as 0 [rad2/s2] */
   double shift;           /* [rad2/s2] */
-  double *factor, *other; /* of K - shift M; for counting */
+  double *factor, *other; /* factor of K - shift M; one for counting */
   int (*interrupted)(void);
   sw_krylov krylov;
-  double *values, *vectors, *scratch, *residuals; /* Ritz */
+  double *values, *vectors, *scratch, *residuals; /* Ritz pairs */
   sw_error *err;
 } job;
 
@@ -53,7 +53,8 @@ static sw_status out_of_memory(const job *p) {
   return sw_fail(p->err, SW_ENOMEM, "frequencies: out of memory");
 }
 
-/* Number of eigenvalues below; an exactly singular place is stepped aside. */
+/* Counts the eigenvalues below `at`. If the matrix is exactly singular there, `at` is moved a
+ * little. */
 static sw_status count_below(const job *p, double at, double *factor, size_t *count) {
   for (int k = 0; k < 4; k++) {
     if (sw_system_factor(p->system, p->body, at, factor, count) == SW_OK) return SW_OK;
@@ -62,8 +63,8 @@ static sw_status count_below(const job *p, double at, double *factor, size_t *co
   return sw_fail(p->err, SW_EDIVERGED, "frequencies: the stiffness is not a finite number");
 }
 
-/* A value below which there are at least `wanted` eigenvalues but not many times
- * higher than the last of those. */
+/* Finds a value below which there are at least `wanted` eigenvalues, but which is not many times
+ * higher than the last of them. */
 static sw_status bracket(const job *p, size_t wanted, double *high) {
   const double step = 16.0;
   double low = p->floor;
@@ -98,7 +99,7 @@ static sw_status choose_shift(job *p, size_t modes) {
   p->target = modes + unstable;
   if (p->target > p->free_unknowns) p->target = p->free_unknowns;
   SW_TRY(count_below(p, p->floor, p->other, &soft));
-  /* what is real among soft ones shows against the first that is not soft */
+  /* real values among the soft ones show only against the first one that is not soft */
   if (soft >= p->target && soft < p->target + MOST_NEUTRAL && soft < p->free_unknowns)
     p->target = soft + 1;
   SW_TRY(bracket(p, p->target, &p->scale));
@@ -114,7 +115,7 @@ static sw_status choose_shift(job *p, size_t modes) {
 
 /* --- Krylov space ------------------------------------------------------------- */
 
-/* The i-th lowest eigenvalue by the present Ritz values. */
+/* Returns the i-th lowest eigenvalue by the present Ritz values. */
 static double lowest(const job *p, size_t i) {
   return p->shift + 1.0 / p->values[p->krylov.done - 1 - i];
 }
@@ -129,8 +130,8 @@ static int settled(const job *p) {
   return 1;
 }
 
-/* 1 when there are no more eigenvalues up to the last wanted one than were found.
- * Neutral ones are not counted: there may be any number of them. */
+/* *yes = 1 if all eigenvalues up to the last wanted one were found. Neutral ones are not counted:
+ * there may be any number of them. */
 static sw_status complete(const job *p, int *yes) {
   const double last = lowest(p, p->target - 1), at = last + BEYOND * (last - p->shift);
   size_t found = 0, there = 0;
@@ -181,7 +182,7 @@ static sw_status iterate(job *p) {
 
 /* --- last Rayleigh-Ritz --------------------------------------------------------- */
 
-/* Projections of K and M on q Ritz vectors x; w, w + n are scratch. */
+/* Projects K and M on q Ritz vectors x; w and w + n are scratch. */
 static void project(const job *p, double *const *x, size_t q, double *w, double *a, double *b) {
   for (size_t j = 0; j < q; j++) {
     sw_system_stiffness_times(p->system, p->body, x[j], w);
@@ -206,7 +207,7 @@ static sw_status compare(const job *p, const double *before, const double *after
   return SW_OK;
 }
 
-/* The largest component is positive, so that the same scene gives the same signs. */
+/* Makes the largest component positive, so that the same scene gives the same signs. */
 static void set_sign(double *x, size_t n) {
   double most = 0;
   for (size_t i = 0; i < n; i++)
@@ -234,7 +235,7 @@ static sw_status solve_again(const job *p, double *const *x, size_t q, double *d
   for (size_t r = 0; r < q; r++) {
     before[r] = lowest(p, r);
     sw_krylov_combine(&p->krylov, p->vectors + (p->krylov.done - 1 - r) * p->krylov.done, w);
-    /* once more through the inverse: little errors along stiff directions go */
+    /* once more through the inverse: this removes small errors along stiff directions */
     sw_system_mass_times(p->system, p->body, w, x[r]);
     sw_system_factor_solve(p->system, p->body, p->factor, x[r]);
     for (size_t i = 0; i < p->n; i++) x[r][i] *= before[r] - p->shift;
@@ -283,7 +284,7 @@ static sw_status run(job *p, size_t modes, sw_modes *out) {
   SW_TRY(choose_shift(p, modes));
   size_t most = 6 * p->target + 150;
   if (most > p->free_unknowns) most = p->free_unknowns;
-  most += 1; /* the vector beyond a full space is nothing, but room is asked for */
+  most += 1; /* the vector beyond a full space is zero, but it needs room */
   p->values = sw_alloc(2 * most, sizeof *p->values);
   p->residuals = p->values ? p->values + most : NULL;
   p->vectors = sw_alloc(most * most, sizeof *p->vectors);

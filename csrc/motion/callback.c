@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A motion given by a function of time. Velocity and acceleration are those of
- * the parabola through three poses, one step apart: error step^2/6 times the
- * third and step^2/12 times the fourth derivative. */
+/* A motion given by a function of time. Velocity and acceleration are those of the parabola through
+ * three poses, one step apart. Their errors are step^2/6 times the third and step^2/12 times the
+ * fourth derivative. */
 #include "base/alloc.h"
 #include "motion/law.h"
 
@@ -15,13 +15,13 @@ static sw_status ask(const sw_motion_callback *c, double t, sw_pose *out, sw_err
   return SW_OK;
 }
 
-/* q or -q, whichever is nearer to like. */
+/* Returns q or -q, whichever is nearer to like. */
 static sw_quat alike(sw_quat q, sw_quat like) {
   const double dot = q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z;
   return dot < 0 ? (sw_quat){-q.w, -q.x, -q.y, -q.z} : q;
 }
 
-/* Turn from middle to q as a vector in world axes [rad]. */
+/* Returns the turn from middle to q in world axes [rad]. */
 static sw_vec turned(sw_quat q, sw_quat middle) {
   return sw_quat_log(sw_quat_mul(alike(q, middle), sw_quat_conj(middle)));
 }

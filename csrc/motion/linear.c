@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Constant speed along the legs: no ramps, the speed jumps at both ends, and at
- * corners that are not blended its direction does. */
+/* Constant speed along the legs, without ramps: the speed jumps at both ends, and its direction
+ * jumps at corners that are not blended. */
 #include "motion/law.h"
 
 static double least_time(double span, double growth) {

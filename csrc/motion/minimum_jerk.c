@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Progress 10 u^3 - 15 u^4 + 6 u^5 with u the part of the time gone: of all moves
- * from rest to rest in a given time the one with the least integral of squared
- * jerk. Its highest speed is 15/8 of the mean, its highest acceleration
- * 10/sqrt(3) length / time^2. */
+/* Progress 10 u^3 - 15 u^4 + 6 u^5, where u is the elapsed share of the time. Of all moves from
+ * rest to rest in a given time this one has the least integral of squared jerk. Its highest speed
+ * is 15/8 of the mean, its highest acceleration 10/sqrt(3) length / time^2. */
 #include "motion/law.h"
 
 static const double peak_growth = 5.77350269189625764509; /* 10/sqrt(3) [-] */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of a motion: creation by law, evaluation, views of another motion. */
+/* Creates motions by law, evaluates them, and makes views of other motions. */
 #include "motion/motion.h"
 
 #include <stdio.h>
@@ -118,7 +118,7 @@ sw_motion *sw_motion_view(sw_motion *motion) {
   if (!seen) return NULL;
   *seen = *motion;
   seen->references = 1;
-  if (motion->inner) { /* look through the other view */
+  if (motion->inner) { /* view the motion behind the other view */
     seen->inner = sw_motion_retain(motion->inner);
   } else {
     seen->inner = sw_motion_retain(motion);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Motion laws: where a moving frame (grip, clamp, obstacle) is at time t, with
- * its exact first and second derivatives. Immutable and reference-counted, so
- * that one law may drive several things.
+/* Motion laws: the pose of a moving frame (grip, clamp, obstacle) at time t, with its exact first
+ * and second derivatives. Motions are immutable and reference-counted, so one motion may drive
+ * several things.
  *
- * Legs join the way-points by straight lines and shortest turns. How they are
- * travelled, by the law and by what was given:
+ * Legs join the way-points by straight lines and shortest turns. How they are travelled depends on
+ * the law and on what is given:
  *
  *                  speed or duration                 a time per way-point
  *   linear         constant speed, corners jump      passes every way-point
@@ -12,8 +12,8 @@
  *   minimum-jerk   at rest at both ends only         at rest at every one
  *   spline         smooth curve, at rest at the ends, through every way-point
  *
- * Speeds and accelerations that are given are never exceeded along the path; the sideways
- * acceleration in a blended corner follows from speed and blend. */
+ * Given speeds and accelerations are never exceeded along the path. The sideways acceleration in a
+ * blended corner follows from speed and blend. */
 #ifndef SW_MOTION_MOTION_H
 #define SW_MOTION_MOTION_H
 
@@ -31,13 +31,13 @@ typedef struct sw_motion_state {
   sw_vec a;     /* its acceleration [m/s2] */
   sw_vec omega; /* angular velocity, world axes [rad/s] */
   sw_vec alpha; /* angular acceleration, world axes [rad/s2] */
-  sw_vec pivot; /* what moments of a step are about: the origin, of a tool's parts its centre [m] */
+  sw_vec pivot; /* point of a step's moments: the origin; of a tool's parts its centre [m] */
 } sw_motion_state;
 
 typedef enum sw_facing {
-  SW_FACING_KEPT,  /* as at the way-point before; the first: unrotated */
+  SW_FACING_KEPT,  /* as at the previous way-point; the first: unrotated */
   SW_FACING_GIVEN, /* to q by the shortest turn */
-  SW_FACING_TURNED /* by turn from the way-point before, any number of revolutions */
+  SW_FACING_TURNED /* by turn from the previous way-point, any number of revolutions */
 } sw_facing;
 
 typedef struct sw_waypoint {
@@ -48,40 +48,39 @@ typedef struct sw_waypoint {
   double t;         /* time; NAN = not given [s] */
 } sw_waypoint;
 
-/* What a motion through way-points is made from. NAN = not given. */
+/* Input of a motion through way-points. NAN = not given. */
 typedef struct sw_motion_plan {
   const char *name; /* for messages; NULL = "trajectory" */
-  const char *law;  /* NULL: "spline" for three and more timed way-points, else "minimum-jerk" */
+  const char *law;  /* NULL: "spline" for three or more timed way-points, else "minimum-jerk" */
   const sw_waypoint *points;
   size_t count;                /* way-points [-] */
-  sw_vec turn;                 /* spread over the whole path, world axes; 0 = none [rad] */
+  sw_vec turn;                 /* of the whole path, world axes; 0 = none [rad] */
   double speed;                /* highest [m/s] */
   double angular_speed;        /* highest [rad/s] */
   double acceleration;         /* highest along the path [m/s2] */
   double angular_acceleration; /* highest along the path [rad/s2] */
   double duration;             /* of the whole path, instead of speeds [s] */
-  double blend;                /* corners are left this far before them; NAN: a tenth of the
-                                  shorter leg (linear: 0) [m] */
-  int stop;                    /* rest at every way-point: 1 yes, 0 no, -1 where the path turns
-                                  back by more than 120 deg and no blend is given [-] */
-  double start;                /* when the move begins; added to the way-points' times [s] */
-  int relative;                /* way-points are displacements; begins at none [-] */
+  double blend;                /* distance from a corner at which its blend starts; NAN: a tenth of
+                                * the shorter leg (linear: 0) [m] */
+  int stop;                    /* rest at every way-point: 1 yes, 0 no, -1 where the path turns back
+                                * by more than 120 deg and no blend is given [-] */
+  double start;                /* start of the motion; added to the way-points' times [s] */
+  int relative;                /* way-points are displacements; begins at displacement 0 [-] */
 } sw_motion_plan;
 
-/* A plan with nothing given. */
+/* Returns a plan with nothing given. */
 sw_motion_plan sw_motion_plan_empty(void);
 
-/* SW_EINVAL with a text naming way-point, parameter, value and unit. */
+/* Plans a motion. SW_EINVAL with a text naming way-point, parameter, value and unit. */
 sw_status sw_motion_create(const sw_motion_plan *plan, sw_motion **out, sw_error *err);
 
 /* Pose at time t [s] after the start. */
 typedef sw_status (*sw_motion_function)(void *user, double t, sw_pose *out, sw_error *err);
 
-/* A motion given by a function, asked for times in [0, duration] only (duration
- * may be INFINITY). Derivatives are symmetric differences over +-step [s]; next
- * to the ends the parabola through the three nearest times is used. release
- * (NULL is allowed) is called with user when the motion goes; when creation
- * fails it is not. */
+/* A motion given by a function, which is called for times in [0, duration] only (duration may be
+ * INFINITY). Derivatives are symmetric differences over +-step [s]; near the ends, the parabola
+ * through the three nearest times is used. release (NULL is allowed) is called with user when the
+ * motion is freed, but not when its creation fails. */
 typedef struct sw_motion_callback {
   sw_motion_function function;
   void *user;
@@ -101,8 +100,9 @@ sw_status sw_motion_relative(sw_motion *motion, sw_pose base, sw_motion **out);
 /* The same motion later by delay [s]. Shares the way-points of motion. */
 sw_status sw_motion_shifted(sw_motion *motion, double delay, sw_motion **out);
 
-/* Evaluate at time t [s]; before the start and from the end on the law rests at
- * its first and last pose. Fails only when a user callback does. */
+/* Evaluates at time t [s]. Before the start and from the end on, the motion rests at its first and
+ * last pose. Fails only when a user callback fails, when t is not a number, or for the end of an
+ * endless motion. */
 sw_status sw_motion_eval(const sw_motion *motion, double t, sw_motion_state *out, sw_error *err);
 
 double sw_motion_start(const sw_motion *motion);         /* [s] */
@@ -111,13 +111,13 @@ double sw_motion_duration(const sw_motion *motion);      /* [s]; INFINITY for an
 double sw_motion_length(const sw_motion *motion);        /* of the path; NAN for a callback [m] */
 size_t sw_motion_count(const sw_motion *motion);         /* way-points; 0 for a callback [-] */
 const char *sw_motion_law_name(const sw_motion *motion); /* "minimum-jerk", ... */
-int sw_motion_is_relative(const sw_motion *motion); /* still to be placed by sw_motion_relative */
+int sw_motion_is_relative(const sw_motion *motion); /* 1: sw_motion_relative must still place it */
 
-/* Names of the laws for way-points by number, NULL after the last. */
+/* Returns the name of law number i for way-points, NULL after the last. */
 const char *sw_motion_law_at(size_t i);
 
-int sw_motion_is_function(const sw_motion *motion); /* of a user: it cannot be put on a tape */
-/* A motion, or NULL; reading plans it anew, which gives the same bits. */
+int sw_motion_is_function(const sw_motion *motion); /* a user's function: cannot go on a tape */
+/* Writes or reads a motion or NULL. Reading plans it anew, which gives the same bits. */
 void sw_tape_motion(sw_tape *tape, sw_motion **motion);
 
 sw_motion *sw_motion_retain(sw_motion *motion); /* NULL gives NULL */

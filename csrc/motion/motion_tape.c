@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Motions on a tape: the input of their plans; views with the motion behind them. */
+/* Puts motions on a tape: the input of their plans, and views with the motion behind them. */
 #include "base/alloc.h"
 #include "motion/law.h"
 
@@ -22,7 +22,7 @@ static void tape_point(sw_tape *t, sw_waypoint *p) {
                                            : SW_FACING_KEPT;
 }
 
-/* All but the names and the points. */
+/* All numbers of a plan, without names and points. */
 static void tape_numbers(sw_tape *t, sw_motion_plan *p) {
   SW_TAPE_STRUCT(t, sw_motion_plan, 128);
   sw_tape_vec(t, &p->turn);

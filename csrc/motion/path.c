@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Progress along legs. Position and orientation are functions of progress s
- * (seconds at the highest speed), and a profile says how s grows with time.
+/* Progress along legs. Position and orientation are functions of progress s (seconds at the highest
+ * speed), and a profile gives s as a function of time.
  *
- * Around a corner from s = -half to half the straight legs are blended: the way
- * still to go on the old leg, r_in(s), and the way gone on the new one, r_out(s),
- * obey r_in + r_out = s, and the rate of r_out rises from 0 to 1 by h(u) = 3u^2 -
- * 2u^3. Position p + d_in r_in + d_out r_out and orientation q exp(w_in r_in)
- * exp(w_out r_out) then have continuous first and second derivatives, and neither
- * speed exceeds the faster leg's. */
+ * The straight legs are blended around a corner, from s = -half to half. The distance left on the
+ * old leg, r_in(s), and the distance gone on the new one, r_out(s), obey r_in + r_out = s. The rate
+ * of r_out rises from 0 to 1 by h(u) = 3u^2 - 2u^3. Position p + d_in r_in + d_out r_out and
+ * orientation q exp(w_in r_in) exp(w_out r_out) then have continuous first and second derivatives,
+ * and neither speed exceeds that of the faster leg. */
 #include "motion/path.h"
 
 #include "base/alloc.h"
 #include "base/halving.h"
 
-/* Geometry at one place of the path, derivatives by progress. */
+/* Geometry at one place of the path, with derivatives by progress. */
 typedef struct place {
   sw_pose pose;
   sw_vec d, dd; /* [m/s], [m/s2] */
@@ -28,7 +27,7 @@ static void on_leg(const sw_segment *g, double x, place *out) {
   out->dd = out->ww = sw_v(0, 0, 0);
 }
 
-/* in and out are neighbours, x is the progress from the corner between them. */
+/* Evaluates the corner between the neighbours in and out_leg at progress x from the corner. */
 static void on_corner(const sw_segment *in, const sw_segment *out_leg, double x, place *out) {
   const double half = out_leg->blend, width = 2 * half, u = (x + half) / width;
   const double h = u * u * (3 - 2 * u), rise = 6 * u * (1 - u) / width;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Legs and blended corners, and the runs in which they are travelled. */
+/* Paths: legs with blended corners, and the runs in which they are travelled. */
 #ifndef SW_MOTION_PATH_H
 #define SW_MOTION_PATH_H
 
 #include "motion/law.h"
 
-/* A leg as it is evaluated; rates are by progress [s]. */
+/* A leg, prepared for evaluation. Rates are derivatives by progress [s]. */
 typedef struct sw_segment {
   double s;     /* progress at its start, from the start of its run [s] */
   double time;  /* progress made on it [s] */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a route to a path: where to rest, how wide to blend, how long each run. */
+/* Turns a route into a path: where to rest, how wide to blend, how long each run takes. */
 #include "base/alloc.h"
 #include "base/each.h"
 #include "motion/path.h"
 
-static const double default_blend = 0.1; /* part of the shorter leg [-] */
-static const double any_speed = 1e12;    /* factor on a speed that then is no limit [-] */
+static const double default_blend = 0.1; /* over the shorter leg [-] */
+static const double any_speed = 1e12;    /* factor on a speed that removes its limit [-] */
 static const double turns_back = -0.5;   /* cosine of 120 deg [-] */
 
 static sw_status check(const sw_motion_law *law, const sw_motion_plan *plan, const sw_route *route,
@@ -39,7 +39,7 @@ static int reverses(const sw_leg *in, const sw_leg *out, const sw_vec p[3]) {
   return sw_dot(a, b) < turns_back * sw_norm(a) * sw_norm(b);
 }
 
-/* Does the path rest at way-point i (an inner one)? */
+/* 1 if the path rests at the inner way-point i. */
 static int rests_at(const sw_motion_law *law, const sw_motion_plan *plan, const sw_route *route,
                     size_t i) {
   if (!law->profile->rests) return 0;
@@ -82,7 +82,7 @@ static void add_segments(const sw_motion_law *law, const sw_motion_plan *plan,
   }
 }
 
-/* Time of the whole path when its speeds are factor times those of the legs' times. */
+/* Returns the time of the whole path at `factor` times the speeds of the legs' times. */
 static double total_time(const sw_motion_plan *plan, const sw_route *route, const sw_path *path,
                          double factor) {
   double sum = 0;
@@ -93,7 +93,7 @@ static double total_time(const sw_motion_plan *plan, const sw_route *route, cons
   return sum;
 }
 
-/* Factor on the legs' speeds for which the path takes the plan's duration. */
+/* Finds the factor on the legs' speeds at which the path takes the plan's duration. */
 static sw_status factor_for(const sw_motion_plan *plan, const sw_route *route, const sw_path *path,
                             double *factor, sw_error *err) {
   double slow = total_time(plan, route, path, 1) / plan->duration, fast = slow;

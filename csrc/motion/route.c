@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a plan's way-points to a route: the implied start of a displacement,
- * orientations one after the other, the legs' lengths and turns. */
+/* Turns a plan's way-points into a route: the implied start of a displacement, all orientations,
+ * and the legs' lengths and turns. */
 #include "base/alloc.h"
 #include "motion/law.h"
 
-/* Nearer than this is the same place, less is no turn. */
+/* Smaller distances are the same place; smaller angles are no turn. */
 static const double same_place = 1e-9; /* [m] */
 static const double same_angle = 1e-9; /* [rad] */
 
@@ -18,7 +18,7 @@ static sw_status allocate(sw_route *route) {
                       SW_ROOM(route->t, route->count), SW_ROOM(route->legs, route->count));
 }
 
-/* Does a displacement need a way-point before its first? */
+/* 1 if a displacement needs an extra way-point before its first. */
 static int starts_elsewhere(const sw_motion_plan *plan) {
   if (!plan->relative) return 0;
   if (plan->count == 0) return 1;
@@ -28,7 +28,7 @@ static int starts_elsewhere(const sw_motion_plan *plan) {
   return first->facing == SW_FACING_TURNED && sw_norm(first->turn) > 0;
 }
 
-/* Turn from the way-point before i to it, in world axes [rad]. */
+/* Returns the turn from the previous way-point to this one, in world axes [rad]. */
 static sw_vec turn_to(const sw_waypoint *point, sw_quat before) {
   if (point->facing == SW_FACING_TURNED) return point->turn;
   if (point->facing == SW_FACING_KEPT) return sw_v(0, 0, 0);
@@ -111,8 +111,8 @@ static void measure(sw_route *route) {
   }
 }
 
-/* Share a turn over the whole path among the legs: by their length, if there is none by their time,
- * if there is none evenly. */
+/* Divides a turn of the whole path among the legs: by length; if all lengths are 0, by time;
+ * without times, evenly. */
 static sw_status spread(sw_route *route, sw_vec turn, sw_error *err) {
   const size_t legs = route->count - 1;
   if (route->angle > 0)

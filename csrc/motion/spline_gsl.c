@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The C2 cubic spline through all way-points, at rest at both ends. Position and
- * orientation (as a quaternion that is scaled to unit length afterwards) are one
- * curve with seven components. Its slopes at the way-points follow from a
- * symmetric tridiagonal system, which GSL solves. The acceleration jumps at the
- * two ends, from and to rest. For a speed the way-points get times by the legs'
- * lengths, and the whole is slowed down until no limit is exceeded anywhere. */
+/* The C2 cubic spline through all way-points, at rest at both ends. Position and orientation (a
+ * quaternion, scaled to unit length afterwards) are one curve with seven components. Its slopes at
+ * the way-points follow from a symmetric tridiagonal system, which GSL solves. The acceleration
+ * jumps at both ends, from and to rest. If a speed is given, the way-points get times by the legs'
+ * lengths, and the whole motion is slowed down until no limit is exceeded anywhere. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <string.h>
@@ -27,7 +26,7 @@ typedef struct spline {
   knot *knots;
 } spline;
 
-/* Components first..first+count of value and its two derivatives. */
+/* Evaluates `count` components from `first` on: values and first two derivatives. */
 static void cubic(const knot *a, double t, int first, int count, double *y, double *d, double *dd) {
   const knot *b = a + 1;
   const double h = b->t - a->t, r = 1 / h, u = (t - a->t) * r;
@@ -88,7 +87,8 @@ static void destroy(void *body) {
 
 /* --- planning ----------------------------------------------------------------- */
 
-/* The system's diagonal and its neighbour (n each); ends have slope 0. */
+/* Fills in the matrix: its diagonal and the elements beside it (n each). The slopes at the ends are
+ * 0. */
 static void matrix(const spline *s, double *diagonal, double *beside) {
   const size_t last = s->count - 1;
   diagonal[0] = diagonal[last] = 1;
@@ -154,7 +154,7 @@ static sw_status fill(spline *s, const sw_route *route, sw_error *err) {
   return SW_OK;
 }
 
-/* How far the limits are exceeded at t: the factor by which to slow down. */
+/* Returns the factor by which to slow down so that the limits hold at t. */
 static double excess(const spline *s, const sw_motion_plan *plan, const knot *k, double t) {
   sw_motion_state at;
   double most = 0;
@@ -167,7 +167,7 @@ static double excess(const spline *s, const sw_motion_plan *plan, const knot *k,
   return most;
 }
 
-/* The largest excess between two knots: samples, then golden section. */
+/* Returns the largest excess between two knots, by samples and a golden-section search. */
 static double leg_excess(const spline *s, const sw_motion_plan *plan, const knot *k) {
   enum { SAMPLES = 24, STEPS = 60 };
   const double h = (k[1].t - k->t) / SAMPLES, golden = 0.61803398874989484820;
@@ -217,7 +217,7 @@ static double length_of(const spline *s) {
   static const double node[] = {0, 0.53846931010568309104, 0.90617984593866399280};
   static const double weight[] = {0.56888888888888888889, 0.47862867049936646804,
                                   0.23692688505618908751};
-  enum { PIECES = 8 }; /* between two knots, five Gauss points each */
+  enum { PIECES = 8 }; /* between two knots, with five Gauss points each */
   double sum = 0;
   sw_motion_state at;
   for (const knot *k = s->knots; k < s->knots + s->count - 1; k++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long each leg takes at the highest speeds, and which limits hold. */
+/* Finds each leg's time at the highest speeds, and the limits of the acceleration. */
 #include "base/each.h"
 #include "motion/law.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Speed up evenly, cruise, brake evenly. Without an acceleration each takes a
- * third of the time, so that the highest speed is 1.5 times the mean. A run too
- * short for cruising speeds up for one half and brakes for the other. */
+/* Constant acceleration, constant speed, constant deceleration. If no acceleration is given, each
+ * takes a third of the time, so the highest speed is 1.5 times the mean. A run too short to reach
+ * the highest speed accelerates for one half and decelerates for the other. */
 #include "motion/law.h"
 
 static double least_time(double span, double growth) {
@@ -23,7 +23,7 @@ static int fit(sw_run *run, double growth) {
 }
 
 static void progress(const sw_run *run, double t, double s[3]) {
-  if (!(run->ramp > 0)) { /* nothing to do in this run, or no time to ramp in */
+  if (!(run->ramp > 0)) { /* an empty run, or no time to ramp in */
     s[1] = run->span / run->time, s[0] = s[1] * t, s[2] = 0;
     return;
   }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Energy stored in bending, by model.
- * Lines of nodes: what their bending forces store, less what yields or slips.
- * Meshes: springs and elements do not tell bending from stretching, so it is 1/2 M^2/EI over the
- * slices, M being the moment across a slice that they bear; and what folds along the wire store.
- * Of EI the folds have a part q. With M = (1 - q) EI kappa and both energies known, q follows from
- * q/(1 - q)^2 = E_folds EI / (1/2 sum M^2 h). Lines between meshed parts bend by folds alone. */
+ *
+ * Lines of nodes: the energy of their bending forces, minus what yields or slips.
+ *
+ * Meshes: springs and elements do not separate bending from stretching. So the energy is 1/2 M^2/EI
+ * summed over the slices, where M is the moment that springs and elements bear across a slice, plus
+ * the energy of the folds along the wire. The folds have a part q of EI. With M = (1 - q) EI kappa
+ * and both energies known, q follows from q/(1 - q)^2 = E_folds EI / (1/2 sum M^2 h). Lines between
+ * meshed parts bend by folds alone. */
 #include <math.h>
 #include <string.h>
 
@@ -35,7 +38,7 @@ static double fold_energy(const sw_web_fold *fold, const double *x) {
   return 0.5 * fold->k * off * off;
 }
 
-/* Of folds in meshed parts and in lines between them [J]. */
+/* Energies of the folds in meshed parts and in the lines between them [J]. */
 static void fold_energies(const sw_web *w, const double *x, double *rings, double *lines) {
   *rings = *lines = 0;
   for (size_t k = 0; k < w->folds; k++) {
@@ -68,7 +71,7 @@ static sw_status read(sw_scene *s, sw_handle h, double place, double *out, sw_er
   const sw_body *b = &system->bodies[h.slot];
   const sw_beam *beam = &w->beam;
   if (!b->plan->web) {
-    SW_TRY(sw_scene_still(s, err)); /* inside of a step the fields are the solver's */
+    SW_TRY(sw_scene_still(s, err)); /* inside a step the fields are the solver's */
     sw_system_show(system, h.slot);
     *out = of_line(s, h.slot);
     return SW_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Largest values of wires: bends, tensions, strains, now and of a run. */
+/* Largest values of wires: curvature, tension, strain, at the present state and over a run. */
 #include "read/extremes.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@
 #include "state/clamp.h"
 #include "system/system.h"
 
-/* The largest of |t2 - t1| / hinge length, squared: the curvature to second
- * order in the hinge angle; the exact angle is taken at the place found. */
+/* Returns the largest |t2 - t1| / hinge length, squared: the curvature to second order in the hinge
+ * angle. The caller takes the exact angle at the place found. */
 SW_HOT
 static double largest_curvature2(size_t n, const double *restrict hinge, const double *restrict tx,
                                  const double *restrict ty, const double *restrict tz) {
@@ -65,7 +65,7 @@ static void curvature_extreme(const sw_system *s, const sw_body *b, sw_extreme *
   }
 }
 
-/* T: of a wire's edges. */
+/* T: tensions of the wire's edges. */
 static void largest_tension(const sw_body *b, const double *T, sw_extreme *out) {
   *out = (sw_extreme){.value = -HUGE_VAL};
   for (size_t e = 0; e < b->plan->edges; e++)
@@ -73,8 +73,8 @@ static void largest_tension(const sw_body *b, const double *T, sw_extreme *out) 
       *out = (sw_extreme){.value = T[e], .s = 0.5 * (b->plan->s[e] + b->plan->s[e + 1])};
 }
 
-/* Outermost fibres at hinges, by the mean axial force of both edges and the chord
- * |t2 - t1| for the angle, exact to its third order. */
+/* Returns the largest strain of the outermost fibres at hinges, from the mean axial force of both
+ * edges and the chord |t2 - t1| in place of the angle, which is exact to third order. */
 SW_HOT
 static double largest_hinge_strain(size_t n, double half_compliance, double radius,
                                    const double *restrict T, const double *restrict hinge,
@@ -95,7 +95,7 @@ static void keep_largest(sw_extreme *kept, const sw_extreme *now) {
   if (now->value > kept->value) *kept = *now;
 }
 
-/* The same of a wire that is not straight at rest: without the bend that it has then. */
+/* The same for a wire that is curved at rest, without its bend at rest. */
 static void framed_strain(const sw_system *s, const sw_body *b, sw_extreme *out) {
   const sw_plan *p = b->plan;
   const double *T = sw_system_elastic(s, b), EA = p->beam.EA, radius = p->beam.radius;
@@ -157,7 +157,7 @@ static void wire_now(sw_scene *s, size_t w, double *tension, sw_wire_extremes *n
 
 void sw_scene_wire_now(sw_scene *s, size_t w, sw_wire_extremes *now) { wire_now(s, w, NULL, now); }
 
-/* Edges, or stretches between rings, whose tension is watched. */
+/* Number of edges, or of stretches between rings, whose tension is recorded. */
 static size_t watched_edges(const sw_body *b) {
   const sw_web *web = b->plan->web;
   if (!web) return b->plan->edges;
@@ -186,7 +186,7 @@ static sw_status fit_window(sw_scene *s, size_t w) {
   return sw_window_fit(window, n, places);
 }
 
-/* The largest mean over the window up to now. */
+/* Keeps the largest mean over the window up to now. */
 static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   const sw_window *window = &sw_scene_wire_in(s, w)->window;
   sw_extreme mean = {.time = window->now};
@@ -195,15 +195,16 @@ static void keep_mean(const sw_scene *s, size_t w, sw_extreme *kept) {
   keep_largest(kept, &mean);
 }
 
-/* A step counts with its mean over time, where the method tells it: the axial force at its end is
- * as good for a steady pull, but says nothing of an impulse. Where a feed stops at once it was up
- * to three times too large at all steps, for it grows as these get shorter. */
+/* Returns the edges' mean tensions over the step, if the method gives them, else NULL. The axial
+ * force at the step's end is as good for a steady pull but misses impulses. Where a feed stopped at
+ * once, it was up to three times too large at all step sizes, since it grows as steps get
+ * shorter. */
 static const double *mean_tension(const sw_scene *s, const sw_body *b) {
   const sw_course *course = sw_scene_course(s);
   return course->span > 0 && course->stepper.mean ? course->stepper.mean + b->first_edge : NULL;
 }
 
-/* Was the step that led here one that smears blows? */
+/* 1 if the step that led to this state is so long that it smears impacts. */
 static int is_coarse(const sw_scene *s) {
   return sw_scene_course(s)->span >= (1 - 1e-9) * SW_WINDOW;
 }
@@ -213,14 +214,15 @@ const double *sw_scene_step_tension(const sw_scene *s, const sw_body *b) {
   return mean ? mean : sw_system_pull(sw_scene_system(s), b);
 }
 
-/* NULL: of a mesh, or at rest, there are only those of the state. */
+/* Returns the tensions of the step that led to this state. NULL for a mesh or at rest: only the
+ * state's own are known. */
 static const double *step_tension(const sw_scene *s, const sw_body *b) {
   if (b->plan->web || !(sw_scene_course(s)->span > 0)) return NULL;
   const double *mean = mean_tension(s, b);
   return mean ? mean : sw_system_pull(sw_scene_system(s), b);
 }
 
-/* The step that led here, with these values, or NULL: those that are in the window's room. */
+/* Adds the step that led to this state, with tensions T, or NULL: those in the window's room. */
 static void add_step(sw_scene *s, size_t w, const double *T, sw_extreme *kept) {
   const sw_course *course = sw_scene_course(s);
   sw_window *window = &sw_scene_wire_in(s, w)->window;
@@ -257,7 +259,7 @@ void sw_scene_run_tension(const sw_scene *s, size_t w, const sw_wire_extremes *n
   if (!counted && now->tension.value > run->raw.value)
     run->raw = now->tension, run->raw_span = sw_scene_course(s)->span;
   const int fits = window->marks && window->edges == watched_edges(&sw_scene_system(s)->bodies[w]);
-  const int missing = !isfinite(run->tension.value); /* a record shorter than the window */
+  const int missing = !isfinite(run->tension.value); /* the record is shorter than the window */
   if (!fits && (missing || !counted))
     keep_largest(&run->tension, &now->tension);
   else if (fits && (missing || (sw_window_waits(window) && sw_scene_is_averaged(s) &&

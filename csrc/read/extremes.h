@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Largest values of wires, now and of a run. */
+/* Largest values of wires, at the present state and over a run. */
 #ifndef SW_READ_EXTREMES_H
 #define SW_READ_EXTREMES_H
 
@@ -9,24 +9,24 @@
 #include "state/field.h"
 #include "system/system.h"
 
-/* Extremes of wire w at the refreshed state. */
+/* Finds the extremes of wire w at the refreshed state. */
 void sw_scene_wire_now(sw_scene *scene, size_t w, sw_wire_extremes *now);
-/* The tensions of the run so far, the state now included. */
+/* Adds the tensions of the run so far, including the present state. */
 void sw_scene_run_tension(const sw_scene *scene, size_t wire, const sw_wire_extremes *now,
                           sw_wire_extremes *run);
-/* Keep the larger ones, but for the tension. */
+/* Keeps the larger ones; the tension is left out. */
 void sw_scene_keep_extremes(sw_wire_extremes *kept, const sw_wire_extremes *now);
 void sw_scene_reset_extremes(sw_scene *scene);
-/* Are means to be taken of the step that led here? Longer steps, and equilibria, count as they
- * are. */
+/* 1 if the step that led to this state counts by window means. Steps as long as the window, and
+ * equilibria, count as they are. */
 int sw_scene_is_averaged(const sw_scene *scene);
-/* Axial forces of the edges of a line that wear goes by (edges): at that step's end, or of a coarse
- * one the means over it [N]. */
+/* Returns the axial forces of a line's edges (edges) for the wear: at the step's end, or of a
+ * coarse step the means over the step [N]. */
 const double *sw_scene_step_tension(const sw_scene *scene, const sw_body *body);
-/* Those of wire w at an accepted state into *now, and kept. SW_ENOMEM. */
+/* Finds the extremes of wire w at an accepted state, and keeps the larger ones. SW_ENOMEM. */
 sw_status sw_scene_note_extremes(sw_scene *scene, size_t w, sw_wire_extremes *now, sw_error *err);
 static inline double sw_angle_of_chord(double chord) { return 2.0 * asin(fmin(1.0, 0.5 * chord)); }
-/* |t2 - t1| at inner node i of a line [-]; the curvature beside a clamp [1/m]. */
+/* hinge_chord: |t2 - t1| at inner node i of a line [-]. clamp_curvature: beside a clamp [1/m]. */
 double sw_scene_hinge_chord(const sw_field *field, size_t i);
 double sw_scene_clamp_curvature(const sw_system *system, const sw_body *body,
                                 const sw_clamp_hinge *hinge);

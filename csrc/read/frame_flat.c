@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Does a wire stay in a plane, with all that turns and pushes it? */
+/* Checks whether a wire, its forces, its holds and the tools stay in a plane. */
 #include "read/frames.h"
 
-/* Out of a plane, of a wire's length, of its largest force, or as an angle [rad]: no more than what
- * 32-bit floats and iterations leave. Ten times as much takes 0.1 mm aside for none; at a tenth
- * wires that were turned with their scene would hardly be flat (spec/model/flat_spec) [-]. */
+/* Largest deviation from a plane: over the wire's size, over its largest force, or as an angle
+ * [rad]. It is the error of 32-bit floats and iterations. At ten times the value 0.1 mm aside
+ * counts as none; at a tenth, wires rotated with their scene are barely flat (spec/model/flat_spec)
+ * [-]. */
 static const double NONE = 1e-5;
 
 typedef struct plane {
   sw_vec at, normal; /* [m], [-] */
-  double size;       /* of what lies in it [m] */
+  double size;       /* largest distance of a node from `at` [m] */
 } plane;
 
 typedef struct look {
@@ -18,7 +19,7 @@ typedef struct look {
   size_t first; /* frame [-] */
 } look;
 
-/* The node farthest from a point, or from the line through it along a unit vector. */
+/* Returns the node farthest from a point, or from the line through it along a unit vector. */
 static sw_vec farthest(const look *l, sw_vec from, sw_vec along) {
   sw_vec best = from;
   double most = 0;
@@ -34,7 +35,7 @@ static sw_vec farthest(const look *l, sw_vec from, sw_vec along) {
   return best;
 }
 
-/* A plane through three nodes far from each other. 0: they are in a line. */
+/* Finds a plane through three nodes far from each other. 0: all are on a line. */
 static int find_plane(const look *l, plane *p) {
   size_t count;
   const float *x = sw_scene_frame_wire(l->scene, l->first, l->w, &count);
@@ -49,7 +50,7 @@ static int find_plane(const look *l, plane *p) {
   return sw_norm(across) > NONE * p->size;
 }
 
-/* Of a frame: places and forces in the plane, no twist. */
+/* 1 if in this frame places and forces lie in the plane, and there is no twist. */
 static int is_in(const look *l, const plane *p, size_t frame) {
   const double radius = sw_scene_frame_radius(l->scene, l->w);
   double force = 0, off = 0, twist = 0;
@@ -67,7 +68,7 @@ static int is_in(const look *l, const plane *p, size_t frame) {
   return off <= NONE * force && twist <= NONE * force * radius;
 }
 
-/* Since the first frame something turned about the normal at most. */
+/* 1 if something turned only about the normal since the first frame. */
 static int turns_in(const plane *p, const float *pose, const float *first) {
   const sw_quat a = {(double)first[3], (double)first[4], (double)first[5], (double)first[6]};
   const sw_quat b = {(double)pose[3], (double)pose[4], (double)pose[5], (double)pose[6]};

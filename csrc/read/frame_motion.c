@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What frames tell of how wires moved between them. */
+/* Motion of wires between frames. */
 #include "base/alloc.h"
 #include "base/segments.h"
 #include "read/frames.h"
@@ -8,7 +8,8 @@
 
 static const double HALF_TURN = 3.14159265358979323846; /* [rad] */
 
-/* A line in a frame, with the frame before: NULL where it has not as many nodes there. */
+/* A line in a frame. before: the frame before, or NULL if the line has another number of nodes
+ * there. */
 typedef struct line {
   const float *x, *before;
   size_t count; /* of nodes [-] */
@@ -30,7 +31,7 @@ static line line_of(const sw_scene *s, size_t frame, size_t w, double start) {
   return l;
 }
 
-/* Angle between the edges at node i [rad]. */
+/* Returns the angle between the edges at node i [rad]. */
 static double angle_at(const line *l, size_t i) {
   const sw_vec a = sw_sub(node(l->x, i), node(l->x, i - 1));
   const sw_vec b = sw_sub(node(l->x, i + 1), node(l->x, i));
@@ -87,15 +88,15 @@ double sw_scene_frames_acceleration(const sw_scene *s, double start, size_t w, s
 
 /* --- how near lines come ----------------------------------------------------------------- */
 
-/* An edge of a line: its first node, the way to the second, half of its length, how far both have
- * moved since the frame before, and by how much what is there may be off: what they moved by, and
- * how far it bows; the angle by which the line turns before it. */
+/* An edge of a line. from, way: its first node and the way to the second. moved: the shifts of both
+ * since the frame before. half: half its length. bows: how far the wire may bow beside the edge.
+ * off: bound of the shift plus bows. turn: the line's turn before the edge. */
 typedef struct edge {
   sw_vec from, way, moved[2];   /* [m] */
   double half, off, bows, turn; /* [m], [m], [m], [rad] */
 } edge;
 
-/* Some edges in a row, and a ball that holds them with all they may be off [m]. */
+/* Some consecutive edges, and a ball that contains them with all that they may be off [m]. */
 enum { ROW = 8 };
 typedef struct row {
   size_t first, end;
@@ -103,22 +104,22 @@ typedef struct row {
   double radius;
 } row;
 
-/* A line's edges in rows. */
+/* The edges of a line, in rows. */
 typedef struct rows {
   edge *edges;
   row *rows;
   size_t edge_count, count;
 } rows;
 
-/* Two lines of a frame: the system that holds them, their bodies, and whether the places at which
- * they are joined are together in that frame. */
+/* Two lines of a frame: the system and their bodies in it. joined: 1 if the places of their joins
+ * are together in this frame. */
 typedef struct duo {
   const sw_system *system;
   uint32_t body[2];
   int joined;
 } duo;
 
-/* The edges of a line, one less than its nodes; returns how many. */
+/* Finds the edges of a line, one fewer than its nodes. Returns their number. */
 static size_t edges_of(const line *l, edge *edges) {
   const size_t count = l->count > 0 ? l->count - 1 : 0;
   double angle = 0, turn = 0;
@@ -129,15 +130,15 @@ static size_t edges_of(const line *l, edge *edges) {
     e.half = sw_norm(e.way) / 2;
     for (size_t k = 0; k < 2 && l->before; k++)
       e.moved[k] = sw_sub(node(l->x, i + k), node(l->before, i + k));
-    e.bows = e.half * fmax(angle, next) / 4; /* of an arc */
+    e.bows = e.half * fmax(angle, next) / 4; /* sagitta of an arc */
     e.off = fmax(moved(l, i), moved(l, i + 1)) + e.bows;
     edges[i] = e, angle = next;
   }
   return count;
 }
 
-/* How far a place on one edge moves against one on the other at most: both move evenly from node
- * to node, so that it is a mean of what nodes do. */
+/* Returns a bound of the relative motion of a place on one edge and a place on the other. Both move
+ * evenly between their nodes, so it is at most that of the nodes. */
 static double moved_apart(const edge *a, const edge *b) {
   double most = 0;
   for (size_t i = 0; i < 4; i++) most = fmax(most, sw_dist(a->moved[i / 2], b->moved[i % 2]));
@@ -154,8 +155,9 @@ static double gap_of(const edge *a, const edge *b, double enough) {
          moved_apart(a, b);
 }
 
-/* Of a line with itself, places between which it turns by less than half a turn cannot meet: a
- * closed polygon turns by 2 pi at least, and by no more than pi where it closes (Fenchel). */
+/* Returns the smallest distance of a line to itself. Places between which it turns by less than
+ * half a turn cannot meet: a closed polygon turns by at least 2 pi in all, and by at most pi at the
+ * closing point (Fenchel). */
 static double near_itself(const edge *e, size_t count, double best, double enough) {
   for (size_t i = 0; i < count; i++)
     for (size_t j = i + 1; j < count && best > enough; j++)
@@ -185,7 +187,7 @@ static void make_rows(rows *r) {
   }
 }
 
-/* Near a join wires do not touch each other. */
+/* Pairs near a join are left out, for there wires do not touch. */
 static double near_rows(const duo *d, const rows *a, const row *b, const rows *c, const row *other,
                         double best) {
   for (size_t i = b->first; i < b->end; i++)
@@ -206,13 +208,14 @@ static double near_other(const duo *d, const rows *a, const rows *b, double best
   return best;
 }
 
-/* The node of line l, which is body b, that has a number in the system; NULL: it is on another. */
+/* Returns the place of a system's node on line l, which is body b; NULL: it is not on it. */
 static const float *node_of(const line *l, const sw_body *b, uint32_t number) {
   const size_t at = number - b->first_node;
   return number >= b->first_node && at < b->plan->nodes ? l->x + 3 * at : NULL;
 }
 
-/* Are the places together at which two lines are joined, in this frame? Joins may be made later. */
+/* 1 if the places at which the lines are joined are together in this frame. A join may be made
+ * later. */
 static int is_joined(const duo *d, const line *l, const line *m) {
   const sw_system *s = d->system;
   const struct sw_joins *all = s->joins;
@@ -234,7 +237,7 @@ static int is_joined(const duo *d, const line *l, const line *m) {
   return found;
 }
 
-/* The largest number of nodes of wire w in a frame. */
+/* Returns the largest number of nodes of wire w in any frame. */
 static size_t most_nodes(const sw_scene *s, size_t w) {
   size_t most = 0, count;
   for (size_t f = 0; f < sw_scene_frames(s); f++)
@@ -242,7 +245,7 @@ static size_t most_nodes(const sw_scene *s, size_t w) {
   return most;
 }
 
-/* Room for a line's edges. */
+/* Makes room for a line's edges. */
 static sw_status new_rows(const sw_scene *s, size_t w, rows *r) {
   const size_t most = most_nodes(s, w);
   *r = (rows){.edges = sw_alloc(most + 1, sizeof *r->edges),

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What frames tell of how lines are pressed. */
+/* Pressure on lines, from frames. */
 #include "base/vec.h"
 #include "read/frames.h"
 
 static const double TWO_SIDED =
-    0.5; /* of forces on a node: what their sum lacks, from both sides */
+    0.5; /* share of a node's force that cancels if it is pressed from both sides [-] */
 
 static int is_skipped(const sw_press_request *r, double s, double edge) {
   for (size_t k = 0; k < r->spans; k++)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What frames tell of the nodes of a wire: of a line as it is at them, of a mesh of particles at
- * its middle line. */
+/* Values of a wire's nodes in a frame: at the nodes of a line, at the middle line of a mesh. */
 #include <math.h>
 #include <string.h>
 
@@ -14,13 +13,14 @@
 #include "state/plan.h"
 #include "system/axial.h"
 
-/* As sw_angle_of_chord, within 5e-9 of it and without its cost where it is small. */
+/* Returns sw_angle_of_chord(chord) within 5e-9, without its cost for small angles. */
 static double quick_angle(double chord) {
   const double c2 = chord * chord;
   return c2 < 1e-3 ? chord * (1 + c2 / 24) : sw_angle_of_chord(chord);
 }
 
-/* The strain of the outermost fibre, of axial force and the bend beyond that at rest. */
+/* Returns the stress of the outermost fibre, from the axial force and the bend minus that at
+ * rest. */
 static double fibre_stress(const sw_beam *beam, double T, double bent) {
   return beam->E * (T / beam->EA + beam->radius * bent);
 }
@@ -44,7 +44,7 @@ static void line_values(const sw_system *s, const sw_body *b, float *out) {
   }
 }
 
-/* Beside clamps the bend is that towards the direction which they hold. */
+/* Sets the values at clamps: their bend is that relative to the held direction. */
 static void clamp_values(const sw_system *s, const sw_body *b, float *out) {
   const sw_plan *p = b->plan;
   const double *T = sw_system_elastic(s, b);
@@ -72,7 +72,7 @@ static void strand_values(sw_scene *s, size_t w, size_t n, float *out) {
   }
 }
 
-/* A share of a force presses on the node of the system, if it is the body's. */
+/* Adds a share of a force to the system's node, if it is the body's. */
 static void press(const sw_body *b, size_t node, double share, double normal, sw_vec force,
                   float *out) {
   if (node < b->first_node || node >= b->first_node + b->plan->nodes) return;
@@ -98,8 +98,8 @@ static void press_obstacles(const sw_scene *s, const sw_body *b, float *out) {
   }
 }
 
-/* A place where two bodies press on each other: the first bears the force, the second its
- * opposite. */
+/* Adds the force at a place where two bodies press on each other: the first body bears the force,
+ * the second its opposite. */
 static void press_place(const sw_scene *s, const sw_body *b, const sw_pair_place *p, float *out) {
   const sw_vec force = sw_madd(p->friction, p->normal, p->normal_force);
   for (int k = 0; k < 2; k++) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames: what a picture or a player needs, stored at even times of a run. One block of floats a
- * frame: obstacles and holds (SW_FRAME_BODY numbers and a flag: there, held), tools, then for each
- * wire, of those that are gone too (with zeros), its node count and positions, how many values each
- * node has and these, the number of its surface's points in a section (0: it is no mesh of
- * particles), and these points with the force across the surface at each. */
+/* Stores frames: data for pictures and players at equidistant times of a run. A frame is one block
+ * of floats: obstacles and holds (SW_FRAME_BODY numbers and a flag: exists, holds), then tools,
+ * then for each wire (removed ones have zeros): its node count and positions, the number of values
+ * per node and the values, the number of surface points per section (0: no mesh of particles), and
+ * these points with the force across the surface at each. */
 #include "read/frames.h"
 
 #include <string.h>
@@ -52,7 +52,8 @@ static double bytes_of(const sw_frame *f) {
   return (double)(f->size * sizeof *f->data + sizeof *f);
 }
 
-/* Every second one goes. The last one stays: what is due next is two of them later. */
+/* Drops every second frame. The last one stays when their number is odd; the next one is due two
+ * old strides later. */
 static void thin(sw_scene *s) {
   sw_frames *all = sw_scene_frames_of(s);
   size_t kept = 0;
@@ -74,8 +75,8 @@ void sw_scene_drop_last_frame(sw_scene *s) {
   sw_free(all->list[all->count].data);
 }
 
-/* Frames of a run from another state may have objects that the scene has not, or be later than its
- * time. */
+/* 1 if the frame belongs to the scene's past. Frames of a run from another state may be later, or
+ * have objects that the scene does not have. */
 static int is_of_past(const sw_scene *s, const sw_frame *f) {
   return f->time <= sw_scene_time(s) && f->wires <= sw_scene_bodies_made(s) &&
          f->obstacles <= sw_scene_obstacle_slots(s) && f->holds <= sw_scene_hold_slots(s) &&
@@ -99,7 +100,7 @@ static void store_body(float *out, sw_pose pose, sw_vec force) {
   sw_vec_to(out + SW_FRAME_POSE, force);
 }
 
-/* The middle line of a mesh and its surface. */
+/* Writes the middle line of a mesh and its surface. */
 static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   const sw_web *web = b->plan->web;
@@ -128,7 +129,7 @@ static sw_status fill_strand(sw_scene *s, const sw_body *b, float **to, sw_error
   return SW_OK;
 }
 
-/* Numbers that a wire takes in a frame. */
+/* Returns the number of floats of a wire in a frame. */
 static size_t size_of(const sw_plan *p) {
   if (!p->web) return 3 + (3 + SW_FRAME_VALUES) * p->nodes;
   if (!p->web->per_ring) return 3 + 3 * p->nodes;
@@ -185,7 +186,7 @@ static sw_status fill(sw_scene *s, float *p, sw_error *err) {
   size_t w = 0;
   SW_TRY(fill_bodies(s, &p, err));
   for (size_t k = 0; k < sw_scene_bodies_made(s); k++) {
-    if (w == sw_scene_wire_slots(s) || sw_scene_wire_in(s, w)->number != k) { /* it is gone */
+    if (w == sw_scene_wire_slots(s) || sw_scene_wire_in(s, w)->number != k) { /* it was removed */
       *p++ = 0, *p++ = 0, *p++ = 0;
       continue;
     }

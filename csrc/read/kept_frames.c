@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames are read, their blocks checked. */
+/* Reads frames, and checks their blocks. */
 #include "read/kept_frames.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static size_t before_wires(const sw_frame *f) {
 int sw_scene_frame_walk(const sw_frame *f, size_t room, size_t *size) {
   size_t at = before_wires(f);
   for (size_t w = 0; w < f->wires; w++) {
-    double count[3]; /* nodes, values of each, points around each [-] */
+    double count[3]; /* nodes, values per node, points around each [-] */
     for (size_t k = 0; k < 3; k++) {
       if (at >= room) return 0;
       count[k] = f->data[at++];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A frame of a run as the scene keeps it. Of its inside. */
+/* Internals of frames: a frame of a run as the scene stores it. */
 #ifndef SW_READ_KEPT_FRAMES_H
 #define SW_READ_KEPT_FRAMES_H
 
 #include "read/frames.h"
 #include "system/system.h"
 
-/* Numbers of a tool, and of a hold or an obstacle, in its block [-]. */
+/* Size of a tool's block, and of a hold's or obstacle's [-]. */
 enum { SW_FRAME_TOOL = SW_FRAME_BODY, SW_FRAME_HOLD = SW_FRAME_BODY + 1 };
 
 typedef struct sw_frame {
@@ -17,20 +17,21 @@ typedef struct sw_frame {
   size_t wires, obstacles, holds, tools;
 } sw_frame;
 
-/* How many numbers the frame's block has; 0: more than room, or its counts make no sense. */
+/* Finds the size of the frame's block. Returns 0 if the block is larger than room, or its counts
+ * are invalid. */
 int sw_scene_frame_walk(const sw_frame *frame, size_t room, size_t *size);
 
 /* Kinetic, elastic, gravity energy of the state [J]. */
 void sw_scene_frame_energies(sw_scene *scene, double out[SW_FRAME_ENERGIES]);
 sw_status sw_scene_store_frame(sw_scene *scene, sw_error *err);
 void sw_scene_drop_frames(sw_scene *scene);
-/* A snapshot with so many frames, one of stride, is restored: what came later goes. */
+/* Drops later frames when a snapshot is restored that had `count` frames, one in `stride`. */
 void sw_scene_frames_back_to(sw_scene *scene, size_t count, size_t stride);
-/* What frames tell of each node of the wire, SW_FRAME_VALUES numbers; n nodes. */
+/* Fills in the values of n nodes of the wire, SW_FRAME_VALUES numbers each. */
 void sw_scene_node_values(sw_scene *scene, size_t wire, size_t n, float *out);
 
-/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless
- * NULL, in all (particles x 3) [N]. */
+/* Forces of obstacles on the particles of a body: across the surface (particles) and, unless NULL,
+ * in total (particles x 3) [N]. */
 void sw_strand_pressed(const sw_scene *scene, const sw_body *body, double *normal, double *force);
 
 #endif

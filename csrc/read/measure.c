@@ -107,7 +107,7 @@ sw_status sw_scene_wire_set_velocity(sw_scene *s, sw_handle h, sw_vec v, sw_vec 
   return SW_OK;
 }
 
-/* Places on the mesh become distances from where the wire starts now. */
+/* Turns arc lengths of the mesh into distances from the wire's present start. */
 static void measure_from_start(sw_wire_extremes *e, double start) {
   e->curvature.s -= start;
   e->tension.s -= start;
@@ -141,7 +141,7 @@ static void add_energy(sw_energy *out, const char *kind, double value) {
   out->value[out->count++] = value;
 }
 
-/* Of the forces on one body. */
+/* Adds the energies of the forces on one body. */
 static void add_terms(sw_scene *s, size_t body, sw_energy *out) {
   sw_system *system = sw_scene_system(s);
   sw_system_show(system, body);

@@ -27,20 +27,23 @@ static const sw_param rows[] = {
 };
 const sw_params sw_modes_params = SW_PARAMS("wire:frequencies", rows);
 
-/* What is out of balance is looked at over this many times sqrt(length/g) [-]. */
+/* Unbalanced forces count by how far they would move the wire in this time, over sqrt(length/g)
+ * [-]. */
 static const double PATIENCE = 3.0;
-/* What takes longer to grow than this is neutral, as when settling; of sqrt(length/g) [-]. */
+/* Motions that take longer than this to grow are neutral, as in settling; over sqrt(length/g)
+ * [-]. */
 static const double SLOWEST_GROWTH = 30.0;
-/* Axial forces may be off by this times the tolerance [-]. */
+/* Axial forces may be off by this multiple of the tolerance [-]. */
 static const double FORCE_SHARE = 100.0;
 static const double TWO_PI = 6.283185307179586477;
 
-/* sqrt(length/g); weightless scenes: any scale will do. */
+/* Returns sqrt(length/g). In weightless scenes any scale will do, so g is at least 1 m/s2. */
 static double time_scale(const sw_scene *s, size_t w) {
   return sqrt(sw_scene_system(s)->bodies[w].plan->length / fmax(sw_norm(sw_scene_gravity(s)), 1.0));
 }
 
-/* Largest speed of a node, and how far nodes are from where their holds are now. */
+/* Finds the largest speed of a node, and the largest distance of nodes from their holds' present
+ * places. */
 static sw_status look_at_nodes(sw_scene *s, size_t w, double *speed, double *away, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a wire has at a place, and the list of all read-outs. */
+/* Read-outs of a wire at a place, and the list of all read-outs. */
 #include "read/reading.h"
 #include "read/readout.h"
 #include "scene/lookup.h"
@@ -28,7 +28,8 @@ static sw_status tension(sw_scene *s, sw_handle h, double place, double *out, sw
   return SW_OK;
 }
 
-/* Strings bear no twist; lines between the meshed parts of a wire bear none either. */
+/* Returns why there is no twist moment, or NULL. Strings bear none, nor do lines between the meshed
+ * parts of a wire. */
 static const char *without_twist(const sw_scene *s, const sw_scene_wire *w, sw_handle h,
                                  double place) {
   const sw_plan *p = sw_scene_system(s)->bodies[h.slot].plan;

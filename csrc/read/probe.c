@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What one kind of force does to one wire, at the present state or at given
- * positions and velocities: energy, node forces, and its stiffness times a
- * direction. For specs, and for anyone who wants to look inside. */
+/* Evaluates all forces of one class on one wire, at the present state or at given positions and
+ * velocities: energy, node forces, and stiffness times a direction. For specs and for
+ * inspection. */
 #include "body/build.h"
 #include "read/reading.h"
 #include "scene/lookup.h"
 #include "scene/parts.h"
 
-/* Node forces out of what the terms have left in the field. */
+/* Copies the node forces that the terms have left in the field. */
 static void gather_force(const sw_field *f, double *out) {
   for (size_t i = 0; i < f->plan->nodes; i++)
     for (size_t k = 0; k < 3; k++) out[3 * i + k] = sw_field_force(f, i, k);

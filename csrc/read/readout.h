@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Read-outs of a wire that are one number: each is one sw_readout and one name in SW_READOUTS,
- * and a method of wires in Lua. Each is right for every model or refuses with
- * SW_EINVAL and a text that names the wire and its model: 0 means 0. */
+/* Read-outs of a wire that are one number. Each is one sw_readout, one name in SW_READOUTS, and a
+ * method of wires in Lua. Each is right for every model, or refuses with SW_EINVAL and a text that
+ * names the wire and its model; a 0 is a true 0. */
 #ifndef SW_READ_READOUT_H
 #define SW_READ_READOUT_H
 
@@ -20,7 +20,7 @@ typedef struct sw_readout {
 SW_READOUTS(SW_READOUT)
 #undef SW_READOUT
 
-/* All of them, NULL-terminated. */
+/* All read-outs, NULL-terminated. */
 const sw_readout *const *sw_readout_all(void);
 
 #endif

@@ -1,45 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sections of wires that are meshes of particles: shape, strain, what presses on them, stress. */
+/* Sections of wires that are meshes of particles: shape, strain, pressure, stress. */
 #ifndef SW_READ_SECTION_H
 #define SW_READ_SECTION_H
 
 #include "scene/scene.h"
 
-/* Other wires have no such sections: SW_EINVAL. A section's outline are its particles at the
- * surface, in their order round it; the surface is skin further out. */
+/* Other wires have no such sections: SW_EINVAL. A section's outline is its particles at the
+ * surface, in order round it. The surface is `skin` further out. */
 sw_status sw_scene_wire_outline(sw_scene *scene, sw_handle wire, size_t *count, sw_error *err);
 
 typedef struct sw_section_shape {
-  sw_vec middle, tangent, axis;  /* [m], [-]; where its own x has turned to [-] */
+  sw_vec middle, tangent, axis;  /* axis: where the section's own x has turned to [m], [-], [-] */
   double least, largest;         /* widths between parallel planes along the wire [m] */
-  sw_vec least_way, largest_way; /* from one of these planes to the other [-] */
-  double ovalisation; /* (largest - least) / (largest + least), as in API RP 1111, of the widths
-                         of the smooth closed curve through the outline, so that a round section
-                         has none however few its particles; of one that is not round those of the
-                         outline itself [-] */
-  double area, skin;  /* within the surface [m2], [m] */
-  double turn, twist_rate;     /* about the tangent, from the start on, beyond what the middle line
-                                  alone turns it [rad], [rad/m] */
-  size_t count;                /* of the outline [-] */
-  double *particles, *surface; /* (count x 3) the caller's [m] */
+  sw_vec least_way, largest_way; /* normals of these planes [-] */
+  double ovalisation; /* (largest - least) / (largest + least), as in API RP 1111. The widths are
+                       * those of the smooth closed curve through the outline, so a round section
+                       * has none, however few its particles; for a section that is not round, those
+                       * of the outline itself [-] */
+  double area, skin;  /* area within the surface [m2], [m] */
+  double turn, twist_rate;     /* about the tangent, from the start on, in addition to the turn of
+                                * the middle line [rad], [rad/m] */
+  size_t count;                /* points of the outline [-] */
+  double *particles, *surface; /* (count x 3) the caller's arrays [m] */
   double *axial, *hoop;        /* (count) strains of the lines of particles along and round the
-                                  wire, at those of the outline; the caller's [-] */
+                                * wire, at the outline's particles; the caller's arrays [-] */
 } sw_section_shape;
 sw_status sw_scene_wire_section(sw_scene *scene, sw_handle wire, double s, sw_section_shape *out,
                                 sw_error *err);
-/* Between planes across direction, of which the part across the wire counts. SW_EINVAL for one
- * that has none. */
+/* Returns the width between two planes across a direction, of which the part across the wire
+ * counts. SW_EINVAL if there is no such part. */
 sw_status sw_scene_wire_width(sw_scene *scene, sw_handle wire, double s, sw_vec direction,
                               double *width, sw_error *err);
 
-/* What obstacles do to each particle of a mesh, in the order of sw_scene_wire_particle_copy:
- * force, its part across the surface, and the surface that is the particle's own (0 inside),
- * all the caller's (particles x 3) [N], (particles) [N], (particles) [m2]; s of each [m]. */
+/* Load of obstacles on each particle of a mesh, in the order of sw_scene_wire_particle_copy: force
+ * (particles x 3) [N], its part across the surface (particles) [N], the surface area of the
+ * particle (particles; 0 inside) [m2], arc length (particles) [m]. The arrays are the caller's. */
 sw_status sw_scene_wire_pressed(sw_scene *scene, sw_handle wire, double *force,
                                 double *normal_force, double *area, double *s, sw_error *err);
 
-/* Solid elements of a mesh; the von Mises stress of each [Pa], its middle (count x 3) [m], and the
- * arc lengths where it begins and ends (count x 2) [m]. */
+/* Solid elements of a mesh: the von Mises stress of each [Pa], its middle (count x 3) [m], and the
+ * arc lengths of its two ends (count x 2) [m]. */
 sw_status sw_scene_wire_elements(sw_scene *scene, sw_handle wire, size_t *count, sw_error *err);
 sw_status sw_scene_wire_mises(sw_scene *scene, sw_handle wire, double *mises, double *middle,
                               double *s, sw_error *err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What presses on the surface of a wire that is a mesh, and what its solid elements bear. */
+/* Loads on the surface of a wire that is a mesh, and stresses of its solid elements. */
 #include <math.h>
 #include <string.h>
 
@@ -37,7 +37,7 @@ void sw_strand_pressed(const sw_scene *s, const sw_body *b, double *normal, doub
     if (push.node < b->first_node || push.node >= b->first_node + n) continue;
     const size_t ends[2] = {push.node - b->first_node, push.other - b->first_node};
     const double share[2] = {1.0 - push.at, push.at};
-    for (int i = 0; i < 2; i++) { /* an end pressed by itself is both ends */
+    for (int i = 0; i < 2; i++) { /* a single particle that is pressed is both ends */
       const double part = push.node == push.other ? 0.5 : share[i];
       normal[ends[i]] += part * push.normal_force;
       if (force) sw_accumulate(force + 3 * ends[i], sw_scale(push.force, part));
@@ -45,8 +45,8 @@ void sw_strand_pressed(const sw_scene *s, const sw_body *b, double *normal, doub
   }
 }
 
-/* Length of a ring's surface that belongs to number k of its outline: half of both sides there,
- * and the skin over the angle between them. */
+/* Returns the length of a ring's outline that belongs to point k: half of both its sides, plus skin
+ * times the angle between them. */
 static double own_round(const double *outline, size_t n, size_t k, double skin, sw_vec tangent) {
   const sw_vec p = sw_vec_at(outline, k);
   const sw_vec a = sw_sub(p, sw_vec_at(outline, (k + n - 1) % n));
@@ -55,7 +55,8 @@ static double own_round(const double *outline, size_t n, size_t k, double skin, 
   return fmax(0.0, 0.5 * (sw_norm(a) + sw_norm(b)) + skin * angle);
 }
 
-/* Length along the wire that belongs to a particle: half of the lines to both neighbours. */
+/* Returns the length along the wire that belongs to a particle: half the distances to both
+ * neighbours. */
 static double own_along(const sw_web *w, const double *x, size_t ring, size_t particle) {
   const sw_vec at = sw_vec_at(x, w->first[ring] + particle);
   const int before = ring > 0 && sw_web_is_ring(w, ring - 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the sections of a wire that is a mesh are deformed: widths, ovalisation, torsion, strain
- * of the surface. */
+/* Deformation of the sections of a wire that is a mesh: widths, ovalisation, torsion, strain of the
+ * surface. */
 #include <math.h>
 
 #include "body/build.h"
@@ -12,16 +12,16 @@
 
 /* --- the place ---------------------------------------------------------------------- */
 
-/* A place on a mesh that can be read. */
+/* A place on a mesh. */
 typedef struct spot {
   const sw_scene_wire *wire;
   const sw_web *web;
-  const double *x; /* of its particles [m] */
-  size_t ring;     /* the one before; the next one is there too [-] */
-  double f;        /* share of the way to that [-] */
-  size_t slice;    /* this one's middle and the next one's lie nearest [-] */
-  int single;      /* 1: there is no next one */
-  double between;  /* share of the way from the one to the other, beyond 0 to 1 near ends [-] */
+  const double *x; /* places of its particles [m] */
+  size_t ring;     /* ring before the place; the next ring exists, too [-] */
+  double f;        /* share of the way to the next ring [-] */
+  size_t slice;    /* this slice and the next one have the nearest middles [-] */
+  int single;      /* 1: there is no next slice */
+  double between;  /* share of the way between their middles, outside 0 to 1 near ends [-] */
 } spot;
 
 static sw_status open_mesh(sw_scene *s, sw_handle h, const char *what, spot *out, sw_error *err) {
@@ -61,7 +61,7 @@ static sw_status open_place(sw_scene *s, sw_handle h, double place, spot *p, sw_
   return SW_OK;
 }
 
-/* Of the line through the spot, from ring to ring. */
+/* Returns the tangent of the middle line at the spot, interpolated between the rings. */
 static sw_vec tangent_of(const spot *p) {
   const sw_vec a = sw_strand_facing(p->web, p->x, p->ring);
   return sw_unit_or(sw_lerp(a, sw_strand_facing(p->web, p->x, p->ring + 1), p->f), a);
@@ -76,11 +76,11 @@ static void outline_of(const spot *p, double *out) {
 
 /* --- torsion ------------------------------------------------------------------------ */
 
-/* Turn and its rate at the spot, and where the section's x is. */
+/* Finds the turn and its rate at the spot, and where the section's x has turned to. */
 static void torsion(const spot *p, sw_section_shape *out) {
   const sw_web *w = p->web;
   const size_t last = p->ring + 1 > p->slice + 2 ? p->ring + 1 : p->slice + 2;
-  size_t start = p->ring; /* where the mesh begins that has the spot */
+  size_t start = p->ring; /* where the mesh of this spot begins */
   while (start > 0 && sw_web_is_ring(w, start - 1)) start--;
   sw_vec t = sw_strand_facing(w, p->x, start), u = sw_perpendicular(t);
   double before = sw_strand_turned(w, p->x, start, t, u), sum = 0, ends[2] = {0, 0},
@@ -116,7 +116,8 @@ static double line_strain(const spot *p, size_t slice, size_t particle) {
   return l / p->web->along[first[slice] + particle] - 1.0;
 }
 
-/* Of both lines round the wire that meet at number k of a ring's outline. */
+/* Returns the mean strain of the two lines round the wire that meet at point k of a ring's
+ * outline. */
 static double hoop_strain(const spot *p, size_t ring, size_t k) {
   const sw_web *w = p->web;
   const double *at = p->x + 3 * w->first[ring];
@@ -152,7 +153,7 @@ sw_status sw_scene_wire_outline(sw_scene *s, sw_handle h, size_t *count, sw_erro
   return SW_OK;
 }
 
-/* Within the surface, which is skin outside of the outline all round. */
+/* Returns the area within the surface, which lies `skin` outside the outline. */
 static double area_of(const sw_section_shape *p) {
   double area = 0, round = 0;
   for (size_t k = 0; k < p->count; k++) {

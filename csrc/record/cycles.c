@@ -4,10 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Kinds of ranges: so many to an octave from the widest down, then coarser ones, then one. */
+/* Kinds of ranges per octave, and octaves below the widest range: fine kinds, then coarse ones,
+ * then a single kind. */
 static const double FINE = 16, FINE_OCTAVES = 2, COARSE = 2, COARSE_OCTAVES = 10;
 
-/* Which kind a range is of, where the widest is so wide; those below are of lower ones. */
+/* Returns the kind of a range for a given widest range. Smaller ranges have smaller kinds. */
 static double kind_of(double range, double widest) {
   const double below = log2(widest / range);
   if (below < FINE_OCTAVES) return floor(FINE * log2(range));
@@ -15,7 +16,8 @@ static double kind_of(double range, double widest) {
   return -1e7;
 }
 
-/* Two kinds as one that damages at least as much: ranges add up as their power of the slope. */
+/* Merges two kinds into one that damages at least as much: the ranges' powers of the slope are
+ * averaged. */
 static sw_cycle joined(const sw_cycle *a, const sw_cycle *b) {
   const double share = a->range / b->range, count = a->count + b->count;
   const double mean = (a->count * pow(share, SW_CYCLES_SLOPE) + b->count) / count;
@@ -24,7 +26,7 @@ static sw_cycle joined(const sw_cycle *a, const sw_cycle *b) {
                     .count = count};
 }
 
-/* Join neighbours that are of one kind; the two lowest where there is still no room. */
+/* Merges neighbours of the same kind; if this makes no room, merges the two smallest. */
 static int condense(sw_cycle *list, int count) {
   const double widest = list[count - 1].range;
   int n = 0;
@@ -41,7 +43,7 @@ static int condense(sw_cycle *list, int count) {
   return n - 1;
 }
 
-/* Ranges of which one is so much of the other are one [-]. */
+/* Ranges that differ by less than this share are the same [-]. */
 static const double SAME = 1e-12;
 
 static void keep(sw_cycles *c, double a, double b, double count) {
@@ -85,9 +87,9 @@ void sw_cycles_add(sw_cycles *c, double value) {
   const int n = c->opened;
   if (!isfinite(value) || (n > 0 && value == x[n - 1])) return;
   if (n >= 2 && (x[n - 1] > x[n - 2]) == (value > x[n - 1])) {
-    x[n - 1] = value; /* it goes on the same way */
+    x[n - 1] = value; /* the same direction as before */
   } else {
-    if (n == SW_CYCLES_OPEN) { /* a swing that dies away: two of its halves are one cycle */
+    if (n == SW_CYCLES_OPEN) { /* a decaying oscillation: two of its halves are one cycle */
       keep(c, x[n - 2], x[n - 1], 1.0);
       drop(c, n - 2, 2);
     }

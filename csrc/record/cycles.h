@@ -1,37 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cycles of a load that comes value by value, by the rainflow count of ASTM E1049-85, 5.4.4, in
- * bounded room. A cycle closes as soon as no later value can change it, so that the count is that
- * of the whole history. Where room is short, what is kept damages at least as much by any law of a
- * slope up to SW_CYCLES_SLOPE. */
+/* Rainflow count of the cycles of a load that comes value by value (ASTM E1049-85, 5.4.4), in
+ * bounded room. A cycle closes as soon as no later value can change it, so the count is that of the
+ * whole history. When room is short, cycles are merged such that they damage at least as much under
+ * any S-N curve with a slope up to SW_CYCLES_SLOPE. */
 #ifndef SW_RECORD_CYCLES_H
 #define SW_RECORD_CYCLES_H
 
 #include <stddef.h>
 
-/* Reversals that wait for their cycle, kinds of cycles that are told apart, and the slope of an
- * S-N curve up to which those that are not count as at least what they were [-]. */
+/* Most reversals that wait for their cycle; most kinds of cycles kept apart; the slope of an S-N
+ * curve up to which merged cycles damage at least as much as the original ones [-]. */
 enum { SW_CYCLES_OPEN = 24, SW_CYCLES_KEPT = 56, SW_CYCLES_SLOPE = 8 };
 
 typedef struct sw_cycle {
   double range; /* from valley to peak [the load's unit] */
-  double mean;  /* largest of those that it stands for [the load's unit] */
-  double count; /* how many [-] */
+  double mean;  /* largest of the merged cycles [the load's unit] */
+  double count; /* number of cycles [-] */
 } sw_cycle;
 
 typedef struct sw_cycles {
   double open[SW_CYCLES_OPEN];   /* the last is the present value [the load's unit] */
-  sw_cycle kept[SW_CYCLES_KEPT]; /* ranges rising */
-  int opened, count;             /* how many of each [-] */
+  sw_cycle kept[SW_CYCLES_KEPT]; /* sorted, smallest range first */
+  int opened, count;             /* number of entries of each [-] */
 } sw_cycles;
 
-/* The next value; one that is not a number is left out. */
+/* Adds the next value; a NAN or infinite one is left out. */
 void sw_cycles_add(sw_cycles *c, double value);
-/* All cycles so far, SW_CYCLES_KEPT + SW_CYCLES_OPEN at most; those that wait count one half. Gives
- * how many. */
+/* Copies all cycles so far, SW_CYCLES_KEPT + SW_CYCLES_OPEN at most; waiting ones count one half.
+ * Returns their number. */
 size_t sw_cycles_read(const sw_cycles *c, sw_cycle *out);
-/* The widest range so far [the load's unit]. */
+/* Returns the widest range so far [the load's unit]. */
 double sw_cycles_widest(const sw_cycles *c);
-/* 1: what may have come from anywhere is a count. */
+/* 1 if a count of unknown origin is valid. */
 int sw_cycles_fine(const sw_cycles *c);
 
 #endif

@@ -27,7 +27,7 @@ static void tape_cycles(sw_tape *t, sw_cycles *c) {
 }
 
 static void tape_place(sw_tape *t, sw_wear_place *x) {
-  SW_TAPE_STRUCT(t, sw_wear_place, 104); /* load and touches are of one state */
+  SW_TAPE_STRUCT(t, sw_wear_place, 104); /* load and touches belong to one state and are not kept */
   sw_tape_double(t, &x->s), sw_tape_double(t, &x->rubbed), sw_tape_double(t, &x->slid);
   sw_tape_double(t, &x->turn), sw_tape_vec(t, &x->tangent), sw_tape_vec(t, &x->across);
   sw_tape_int(t, &x->side), sw_tape_int(t, &x->seen);
@@ -35,7 +35,7 @@ static void tape_place(sw_tape *t, sw_wear_place *x) {
   sw_tape_expect(t, isfinite(all) && sw_finite(x->tangent) && sw_finite(x->across), "wear");
 }
 
-/* Room for what the tape has. */
+/* Makes room for the tape's content. */
 static sw_status make_room(sw_wear *w, size_t count) {
   sw_wear_free(w);
   if (!count) return SW_OK;
@@ -51,7 +51,7 @@ static sw_status make_room(sw_wear *w, size_t count) {
 
 void sw_tape_wear(sw_tape *t, sw_wear *w) {
   size_t count = w->count, nodes = w->nodes;
-  SW_TAPE_STRUCT(t, sw_wear, 264); /* across is room for work */
+  SW_TAPE_STRUCT(t, sw_wear, 264); /* across is work space */
   sw_tape_count(t, &count, 8 * (10 + SW_WEAR_SIGNALS)), sw_tape_size(t, &nodes);
   sw_tape_expect(t, nodes <= count && (nodes > 0) == (count > 0), "wear");
   if (!sw_tape_good(t)) return;

@@ -7,11 +7,11 @@
 #include "base/alloc.h"
 #include "base/simd.h"
 
-static const double SLACK = 1e-9; /* of a window, by which times may be rounded [-] */
+static const double SLACK = 1e-9; /* of a window, for rounded times [-] */
 
 static double *sum_of(const sw_window *w) { return w->room + 2 * w->edges; }
 
-/* Mark number k, the oldest first. */
+/* Returns the slot of mark number k, the oldest first. */
 static size_t slot(const sw_window *w, size_t k) { return (w->first + k) % SW_WINDOW_MARKS; }
 
 static double *mark_of(const sw_window *w, size_t k) {
@@ -108,7 +108,7 @@ int sw_window_waits(const sw_window *w) {
 
 size_t sw_window_largest(const sw_window *w, double window, double *mean) {
   const double length = fmin(window, w->now - w->begun), from = w->now - length;
-  size_t k = w->marks; /* the mark after the window's beginning; the newest are looked at first */
+  size_t k = w->marks; /* the first mark inside the window; the search starts at the newest */
   while (k > 0 && !(w->time[slot(w, k - 1)] < from)) k--;
   const double *sum = sum_of(w), *two = k < w->marks ? mark_of(w, k) : sum;
   const double *one = k > 0 ? mark_of(w, k - 1) : two;
@@ -141,7 +141,7 @@ static void tape_times(sw_tape *t, sw_window *w) {
   }
 }
 
-/* A record that is to begin anew leaves nothing to be kept; of another one what is in use. */
+/* Writes or reads a window. Nothing is kept of a record that was started anew. */
 void sw_tape_window(sw_tape *t, sw_window *w) {
   size_t edges = w->marks ? w->edges : 0, marks = w->marks;
   SW_TAPE_STRUCT(t, sw_window, 192);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Balance of a wire when it changes between a mesh and a rod.
  *
- * A rod and a mesh do not lie quite alike under the same forces. So the wire that takes over is
- * shifted, by micrometres, to where it is in balance with the inertia of the other one. Else it
- * would begin to swing, and the gripper would feel that. */
+ * A rod and a mesh do not lie quite alike under the same forces. So the new model is shifted, by
+ * micrometres, to where it is in balance with the inertia of the old one. Otherwise it would begin
+ * to swing, and the gripper would feel the swinging. */
 #include <math.h>
 #include <string.h>
 
@@ -16,17 +16,17 @@
 #include "scene/parts.h"
 #include "scene/wire.h"
 
-enum { MOST_POSES = 200 }; /* iterations; without a result the wire stays as it lies [-] */
-static const double BALANCED = 1e-8; /* of the shifts that end them, of the wire's length [-] */
+enum { MOST_POSES = 200 };           /* iterations; if they fail the wire stays as it lies [-] */
+static const double BALANCED = 1e-8; /* largest shift that ends them, over the wire's length [-] */
 
-/* Add the forces that velocities make; work: (2 x freedoms). */
+/* Adds the forces that velocities cause. work: (2 x freedoms). */
 static sw_status add_friction_of_motion(sw_scene *s, double *force, double *work, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   const size_t n = 3 * system->nodes;
   double *still = work, *a = work + system->freedoms;
   const sw_coupling coupling = system->coupling;
   memset(still, 0, system->freedoms * sizeof *still);
-  system->coupling.eval = NULL; /* contact does not know velocities */
+  system->coupling.eval = NULL; /* contact forces do not depend on velocities here */
   sw_status status = sw_system_acceleration(system, sw_scene_time(s), system->x, system->v, a, err);
   for (size_t i = 0; i < n && status == SW_OK; i++) force[i] += system->delta[i];
   if (status == SW_OK)
@@ -36,8 +36,6 @@ static sw_status add_friction_of_motion(sw_scene *s, double *force, double *work
   return status;
 }
 
-/* Put the built scene where it is in balance with the accelerations that it has: of the wire those
- * of its rings or nodes before (rings x 3). Velocities stay. */
 sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_t count,
                             sw_balance *balance) {
   sw_system *system = sw_scene_system(s);
@@ -50,7 +48,7 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
   double *v = dead + n, *a = dead + 2 * n;
   memcpy(v, system->v, n * sizeof *v);
   memcpy(a, system->a, n * sizeof *a);
-  const int alike = count == (web ? web->rings : b->plan->nodes); /* none came for narrow gaps */
+  const int alike = count == (web ? web->rings : b->plan->nodes); /* no nodes were added */
   for (size_t i = 0; i < b->plan->nodes; i++) {
     const size_t r = web ? sw_web_ring_of(web, i) : i;
     sw_store(a + 3 * (b->first_node + i), alike ? sw_vec_at(rings, r) : sw_v(0, 0, 0));
@@ -70,7 +68,8 @@ sw_status sw_frozen_balance(sw_scene *s, size_t wire, const double *rings, size_
   return status == SW_ENOMEM || status == SW_ECALLBACK || status == SW_EINTR ? status : SW_OK;
 }
 
-/* Accelerations of a wire's rings, or of its nodes (count x 3), to be freed; NULL: no memory. */
+/* Returns the accelerations of a wire's rings or nodes (count x 3), to be freed. NULL: no
+ * memory. */
 static double *accelerations(const sw_scene *s, size_t wire, size_t *count) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[wire];

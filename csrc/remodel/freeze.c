@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that pads have squeezed for real is carried on as a rod which the tool holds rigidly.
- * Rings that were pressed move with the tool like the grip that stands for them; those beside them
+/* Freezes a grip: a wire that pads have squeezed becomes a rod that the tool holds rigidly. The
+ * pressed rings move with the tool, like the grip that replaces the pads; the rings beside them
  * turn with the rod. */
 #include <math.h>
 #include <string.h>
@@ -21,7 +21,7 @@
 #include "scene/wire.h"
 #include "state/hinge.h"
 
-/* Rings that the tool presses; 0: there are none. */
+/* Finds the rings that the tool presses; 0: there are none. */
 static int pressed_rings(const sw_scene *s, const sw_tool *t, const sw_body *b, sw_frozen *f) {
   f->first = SIZE_MAX, f->last = 0;
   for (size_t k = 0; sw_scene_contact(s) && k < sw_contact_touches(sw_scene_contact(s)); k++) {
@@ -55,7 +55,7 @@ static sw_status keep_memory(const sw_scene *s, const sw_body *b, sw_frozen *f) 
   f->node = b->first_node, f->nodes = b->plan->nodes;
   return SW_OK;
 }
-/* All that has to be known to come back. */
+/* Keeps all that the way back needs. */
 static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *f, sw_line *line,
                       sw_grip_end ends[2], sw_error *err) {
   sw_system *system = sw_scene_system(s);
@@ -77,8 +77,8 @@ static sw_status keep(sw_scene *s, const sw_tool *t, sw_handle wire, sw_frozen *
   return sw_frozen_condense(s, t, f, ends, err);
 }
 
-/* Twist of the line between each of the grip's ends and the ring where that end takes over: the
- * torque there times their length over GJ. */
+/* Sets the line's twist between each end of the grip and the ring from which outwards it lies like
+ * the mesh: the torque there times the length over GJ. */
 static void take_turns(sw_line *line, const sw_grip_end ends[2]) {
   const double turn[2] = {line->turn[ends[0].ring] - ends[0].turn,
                           line->turn[ends[1].ring] - ends[1].turn};
@@ -90,7 +90,7 @@ static void take_turns(sw_line *line, const sw_grip_end ends[2]) {
   }
 }
 
-/* The rod that the line is. */
+/* Makes the rod from the line. */
 static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw_error *err) {
   sw_scene_wire next = {.cls = sw_wire_find("rod")};
   sw_status status = sw_line_mesh(sw_scene_wire_in(s, wire.slot), line, &next.mesh);
@@ -102,7 +102,7 @@ static sw_status become_rod(sw_scene *s, sw_handle wire, const sw_line *line, sw
   return status;
 }
 
-/* The tool's grip on the rod. */
+/* Adds the tool's grip on the rod. */
 static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_grip_end ends[2],
                       sw_freeze_report *out, sw_error *err) {
   const sw_link_class *cls = sw_link_find("grip");
@@ -124,8 +124,8 @@ static sw_status grip(sw_scene *s, sw_handle tool, const sw_frozen *f, const sw_
   return sw_scene_tool_hold(s, tool, out->hold, err);
 }
 
-/* The rod at the places of the mesh's rings; the directions across it are carried over from the
- * mesh. */
+/* Keeps the rod's places at the mesh's rings, and its frames: the directions across it are carried
+ * over from the mesh. */
 static sw_status keep_rod(sw_scene *s, sw_frozen *f, sw_error *err) {
   sw_line rod = {0};
   const sw_status status = sw_line_read(s, f->wire, f->stations.n, f->stations.s, &rod, err);
@@ -160,7 +160,7 @@ static sw_status change_to_rod(sw_scene *s, const sw_exchange *x, const double *
   sw_hold *h = sw_scene_hold_in(s, out->hold.slot);
   sw_motion_state at;
   SW_TRY(sw_drive_eval(s, &h->drive, sw_scene_time(s), &at, err));
-  h->force = out->force; /* until a step tells: what the pads did */
+  h->force = out->force; /* the pads' force, until a step gives the grip's own */
   h->moment = sw_sub(out->moment, sw_cross(sw_sub(at.pose.p, f->pose.p), out->force));
   h->end_force = h->force, h->end_moment = h->moment;
   return SW_OK;

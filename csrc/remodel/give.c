@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the wire gives way where it leaves the pads, condensed from the deformed mesh.
+/* Condenses the deformed mesh into the give of a rod's grip where the wire leaves the pads.
  *
- * Between the pads sections are flat, and the surface that sticks to the pads shears. So the
- * wire gives way more than from a clamp at the pads' face, and not alike in all directions. To
- * measure it, on each side the mesh beyond some rings is moved and turned as one rigid body, in
- * six ways; the rings inside follow between the pads' touches. The forces and moments, and the
- * motion of a ring in between, give the compliance of the cell from the pads to that ring. A
- * rod has the same compliance when it is held further inside than the pads' face, which lets it
- * stretch more, and when its bending and twist begin further out. */
+ * Between the pads sections are flat, and the surface that sticks to the pads shears. So the wire
+ * yields more than it would from a clamp at the pads' face, and differently in each direction. To
+ * measure this on each side, the mesh beyond some rings is moved as one rigid body in six ways
+ * (three shifts, three turns); the rings inside follow between the pads' touches. The forces and
+ * moments, with the motion of a ring in between, give the compliance of the cell from the pads to
+ * that ring. A rod gets the same compliance when it is held further inside than the pads' face,
+ * which lets it stretch more, and when its bending and twist begin further out. */
 #include <math.h>
 #include <string.h>
 
@@ -23,23 +23,24 @@
 #include "system/linear.h"
 #include "system/system.h"
 
-enum { READ = 3, MOVED = 5, WAYS = 6 }; /* so many rings outside the pads; see above [-] */
-static const double MOST = 0.45;        /* a rod is held further inside by, of the pressed length */
+/* Rings outside the pads: the one that is read, the first one that is moved; number of ways [-]. */
+enum { READ = 3, MOVED = 5, WAYS = 6 };
+static const double MOST = 0.45; /* largest shift into the pads, over the pressed length [-] */
 
 typedef struct cell {
   sw_scene *s;
   size_t wire;
   const sw_web *web;
-  const double *x;       /* of its particles [m] */
-  size_t read[2];        /* rings before the pads and after; those of the pads: there is none */
-  size_t moved[2];       /* likewise */
-  sw_vec across;         /* how the pads close [-] */
+  const double *x;       /* places of its particles [m] */
+  size_t read[2];        /* ring that is read before and after the pads; a ring of the pads: none */
+  size_t moved[2];       /* the same of the first ring that is moved */
+  sw_vec across;         /* direction in which the pads close [-] */
   unsigned char *fixed;  /* (particles) [-] */
   double *motion, *push; /* (particles x 3) [m], [N] */
   double *inner;         /* (particles x 3) forces on each other at present [N] */
 } cell;
 
-/* A ring's own axes: along the wire, across it towards the pads, along their faces. */
+/* Axes of a ring: along the wire, across it towards the pads, along the pads' faces. */
 static void axes_of(const cell *c, size_t ring, sw_vec out[3]) {
   out[0] = sw_strand_facing(c->web, c->x, ring);
   const sw_vec across = sw_madd(c->across, out[0], -sw_dot(c->across, out[0]));
@@ -47,7 +48,7 @@ static void axes_of(const cell *c, size_t ring, sw_vec out[3]) {
   out[2] = sw_cross(out[0], out[1]);
 }
 
-/* Move the mesh from a ring on outwards in one of the ways: along an axis, or about it. */
+/* Moves the mesh from a ring on outwards in one of the ways: along an axis or about it. */
 static void move_rigidly(const cell *c, int side, int way, const sw_vec axes[3], sw_vec middle) {
   const size_t from = side ? c->web->first[c->moved[1]] : 0;
   const size_t to = side ? c->web->particles : c->web->first[c->moved[0] + 1];
@@ -58,7 +59,7 @@ static void move_rigidly(const cell *c, int side, int way, const sw_vec axes[3],
   }
 }
 
-/* Turn of a ring about one of its axes by the motion: of its plane, or in it [rad]. */
+/* Returns the ring's turn about one of its axes by the motion: of its plane, or in it [rad]. */
 static double turn_of(const cell *c, size_t ring, int axis, const sw_vec axes[3], sw_vec middle) {
   double sum = 0, second = 0;
   for (size_t p = c->web->first[ring]; p < c->web->first[ring + 1]; p++) {
@@ -70,7 +71,8 @@ static double turn_of(const cell *c, size_t ring, int axis, const sw_vec axes[3]
   return sum / second;
 }
 
-/* Forces and moments on the cell (rows) by ways, and how the ring that is read goes along. */
+/* Finds forces and moments on the cell (rows) for each way (columns), and the motion of the ring
+ * that is read. */
 static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double motion[WAYS][WAYS]) {
   sw_vec axes[3];
   const size_t ring = c->read[side], from = c->web->first[c->moved[side]];
@@ -95,7 +97,7 @@ static void try_ways(const cell *c, int side, double load[WAYS][WAYS], double mo
   }
 }
 
-/* out = b / a; returns 0 when a is singular. Row by row: a' out' = b'. */
+/* out = b / a; returns 0 when a is singular. Solves row by row: a' out' = b'. */
 static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][WAYS]) {
   for (int row = 0; row < WAYS; row++) {
     double turned[WAYS * WAYS];
@@ -107,23 +109,24 @@ static int divide(double b[WAYS][WAYS], double a[WAYS][WAYS], double out[WAYS][W
   return 1;
 }
 
-/* Force and moment of the part outside of the ring that is read, about the ring's middle. */
+/* Force and moment of the part outside the ring that is read, about that ring's middle. */
 static void load_of(const cell *c, int side, sw_vec middle, sw_vec *force, sw_vec *moment) {
   const size_t ring = c->read[side];
   const size_t from = side ? c->web->first[ring + 1] : 0;
   const size_t to = side ? c->web->particles : c->web->first[ring];
   *force = *moment = sw_v(0, 0, 0);
   for (size_t p = from; p < to; p++) {
-    const sw_vec f = sw_vec_at(c->inner, p); /* of the cell on it */
+    const sw_vec f = sw_vec_at(c->inner, p); /* of the cell on the outside */
     *force = sw_sub(*force, f);
     *moment = sw_sub(*moment, sw_cross(sw_sub(sw_vec_at(c->x, p), middle), f));
   }
 }
 
-enum { PARTS = 64 }; /* of the rod between the ring and where it is held [-] */
+enum { PARTS = 64 }; /* parts of the rod between the ring and its end [-] */
 
-/* Where a rod is held that lies at the ring that is read as the mesh does, under the present load:
- * from there inwards, bent and stretched by the load as far as the rod bends, to its end. */
+/* Finds where a rod must be held that lies at the ring that is read like the mesh, under the
+ * present load. Follows the rod from the ring inwards to its end. The load stretches all of it, and
+ * bends it over the length over which the rod bends. */
 static void follow(const cell *c, int side, double length, sw_grip_end *out) {
   const sw_beam *beam = &sw_scene_system(c->s)->bodies[c->wire].plan->beam;
   const sw_clamp_give *give = &out->give;
@@ -153,7 +156,7 @@ static void follow(const cell *c, int side, double length, sw_grip_end *out) {
   out->director = sw_rotate(back, t), out->give.axis = sw_rotate(back, axis);
 }
 
-/* The rod's end from the compliance of one side. */
+/* Finds the rod's end from the compliance of one side. */
 static void find_end(const cell *c, const sw_frozen *f, int side, double compliance[WAYS][WAYS],
                      sw_grip_end *out) {
   const sw_beam *beam = &sw_scene_system(c->s)->bodies[c->wire].plan->beam;
@@ -183,12 +186,12 @@ static void find_side(const cell *c, const sw_frozen *f, int side, sw_grip_end *
   if (divide(motion, load, compliance)) find_end(c, f, side, compliance, out);
 }
 
-/* So many rings outside the pads, or fewer. */
+/* Returns the ring `count` rings outside the pads, or fewer where the mesh ends. */
 static size_t ring_outside(const sw_web *web, size_t face, int side, int count) {
   size_t ring = face;
   for (int k = 0; k < count; k++) {
     const size_t next = side ? ring + 1 : ring - 1;
-    if (next >= web->rings || !sw_web_is_ring(web, next)) break; /* below 0 is above all, too */
+    if (next >= web->rings || !sw_web_is_ring(web, next)) break; /* 0 - 1 wraps to above all */
     ring = next;
   }
   return ring;
@@ -219,7 +222,8 @@ static sw_status condense(sw_scene *s, const sw_tool *t, cell *c, const sw_froze
   return SW_OK;
 }
 
-/* As the mesh lies at the pads' face: of a wire that ends between them. */
+/* Sets the end at the pads' face, where the mesh lies. It stays there for a wire that ends between
+ * the pads. */
 static void rigid_end(const cell *c, const sw_frozen *f, int side, sw_grip_end *out) {
   const size_t ring = side ? f->last : f->first;
   *out = (sw_grip_end){.s = f->stations.s[ring],

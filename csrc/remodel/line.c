@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The middle line of a wire, as it goes over to another model. */
+/* The middle line of a wire, which carries it over to another model. */
 #include "remodel/line.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static sw_status new_line(size_t n, sw_line *out) {
 
 /* --- what it is ---------------------------------------------------------------------- */
 
-/* Twist per length of a rod at arc length s of its mesh [rad/m]. */
+/* Returns a rod's twist per length at arc length s of its mesh [rad/m]. */
 static double rod_rate(const sw_scene *s, const sw_body *b, double at) {
   const sw_plan *p = b->plan;
   for (size_t k = 0; b->has_twist && k < p->span_count; k++) {
@@ -36,7 +36,7 @@ static double rod_rate(const sw_scene *s, const sw_body *b, double at) {
   return p->beam.rest_twist;
 }
 
-/* Where the x of a section's lattice has gone, across its tangent. */
+/* Returns the mean direction of a section's lattice x axis, across the section's tangent. */
 static sw_vec section_x(const sw_web *w, const double *x, size_t ring, sw_vec t) {
   double at[3];
   sw_web_middle(w, x, ring, at);
@@ -45,13 +45,13 @@ static sw_vec section_x(const sw_web *w, const double *x, size_t ring, sw_vec t)
     const uint32_t i = w->around[k];
     const sw_vec r = sw_sub(sw_vec_at(x, w->first[ring] + i), sw_load(at));
     const double X = w->section[2 * i], Y = w->section[2 * i + 1];
-    sum = sw_madd(sum, r, X);              /* as if turned by nothing */
-    sum = sw_madd(sum, sw_cross(r, t), Y); /* and by a quarter turn: y comes to x */
+    sum = sw_madd(sum, r, X);              /* the x parts */
+    sum = sw_madd(sum, sw_cross(r, t), Y); /* the y parts, turned by -90 degrees onto x */
   }
   return sw_unit_or(sw_madd(sum, t, -sw_dot(sum, t)), sw_perpendicular(t));
 }
 
-/* Twist from one place to another against carrying the direction along. */
+/* Returns the twist between two frames, relative to carrying the direction along [rad]. */
 static double turn_between(sw_vec t0, sw_vec u0, sw_vec t1, sw_vec u1) {
   const sw_edge_frame a = {t0, u0}, b = {t1, u1};
   return sw_hinge_twist(&a, &b, 0.0);
@@ -77,7 +77,7 @@ static sw_status sample(sw_scene *s, sw_handle h, const double *at, sw_line *out
   return SW_OK;
 }
 
-/* Directions across the line: those of the mesh, or carried along with the rod's twist. */
+/* Directions across the line: those of the mesh, or carried along a rod with its twist. */
 static void sample_frames(const sw_scene *s, size_t wire, sw_line *out) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[wire];
@@ -106,7 +106,7 @@ static void sample_frames(const sw_scene *s, size_t wire, sw_line *out) {
   }
 }
 
-/* What the sections are strained by: differences of their frames, beyond rest. */
+/* Strains of the sections: differences of their frames, minus those at rest. */
 static void find_strains(const sw_beam *beam, sw_line *l) {
   for (size_t i = 0; i < l->n; i++) {
     const size_t a = i > 0 ? i - 1 : 0, b = i + 1 < l->n ? i + 1 : i;
@@ -138,7 +138,6 @@ sw_status sw_line_read(sw_scene *s, sw_handle h, size_t n, const double *at, sw_
 
 /* --- what it becomes --------------------------------------------------------------------- */
 
-/* Nodes on the line. */
 sw_status sw_line_mesh(const sw_scene_wire *w, const sw_line *l, sw_mesh *out) {
   const double ends[6] = {0, 0, 0, l->length, 0, 0};
   if (!l->block) return SW_ENOMEM;
@@ -151,7 +150,6 @@ sw_status sw_line_mesh(const sw_scene_wire *w, const sw_line *l, sw_mesh *out) {
   return SW_OK;
 }
 
-/* Sections turn with the line: the velocities of their particles. */
 void sw_line_spin(const sw_line *l, const sw_web *web, const double *x, double *v) {
   for (size_t r = 0; r < l->n; r++) {
     const size_t a = r > 0 ? r - 1 : 0, b = r + 1 < l->n ? r + 1 : r;
@@ -166,7 +164,7 @@ void sw_line_spin(const sw_line *l, const sw_web *web, const double *x, double *
   }
 }
 
-/* Twist by parts, for whatever spans the rod has. */
+/* Stores the twist edge by edge, for any spans that the rod may have. */
 sw_status sw_line_twist(const sw_line *l, sw_scene_wire *out) {
   out->twisted = sw_alloc(l->n, sizeof *out->twisted);
   if (!out->twisted) return SW_ENOMEM;

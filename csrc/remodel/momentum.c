@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Momentum of a wire whose model changes: measured before, made the same afterwards. */
+/* Momentum of a wire whose model changes: measured before, restored afterwards. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "solve/dense.h"
 #include "system/system.h"
 
-/* Momentum of velocities v and its moment about a point: out, 6 numbers [N s], [N m s]. */
+/* Momentum of velocities v and its moment about a point: out (6) [N s], [N m s]. */
 static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec about,
                      double out[6]) {
   sw_vec P = sw_v(0, 0, 0), L = sw_v(0, 0, 0);
@@ -25,16 +25,16 @@ static void momentum(const sw_plan *p, const double *x, const double *v, sw_vec 
   sw_store(out + 3, L);
 }
 
-/* A rigid motion with a smaller share of the largest inertia is left out: a straight wire's turn
- * about itself [-]. */
+/* A rigid motion with less inertia than this share of the largest is left out, such as a straight
+ * wire's turn about its axis [-]. */
 static const double LEAST = 1e-10;
-/* And, where that would give the wire more energy than it has, the turn about itself of a line that
- * is straight to within this share of its radius: a mesh that rolls would give its turn to nodes
- * micrometres off that axis, as metres per second [-]. */
+/* If the correction would have more energy than the wire, the turn about its own axis of a line
+ * that is straight within this share of its radius is left out, too [-]. A rolling mesh would pass
+ * this turn on to nodes micrometres off that axis, as metres per second. */
 static const double STRAIGHT = 0.1;
 
-/* A rigid motion of the free nodes: number k < 3 shifts, else turns about a point; a turn's speed
- * is the speed at a given distance. */
+/* Velocities of a rigid motion of the free nodes: number k < 3 shifts along an axis, others turn
+ * about an axis through a point. A turn's unit is the speed at a given distance. */
 static void rigid(const sw_plan *p, const double *x, sw_vec about, double distance, size_t k,
                   double *v) {
   const sw_vec unit = sw_v(k % 3 == 0, k % 3 == 1, k % 3 == 2);
@@ -45,7 +45,8 @@ static void rigid(const sw_plan *p, const double *x, sw_vec about, double distan
   }
 }
 
-/* What the velocities v lack of the momentum wanted, as a rigid motion; field: work (3 x nodes). */
+/* Finds the rigid motion that gives the velocities v the wanted momentum. field: work (3 x
+ * nodes). */
 static void lacks(const sw_plan *p, const double *x, const double *v, sw_vec about,
                   const double wanted[6], double least, double *field, double *lack) {
   double A[6][6], y[6], now[6], column[6];
@@ -70,7 +71,6 @@ static double kinetic(const sw_plan *p, const double *v) {
   return sum;
 }
 
-/* Give the built wire the momentum wanted. */
 sw_status sw_momentum_match(sw_scene *s, size_t wire, sw_vec about, const double wanted[6]) {
   sw_system *system = sw_scene_system(s);
   const sw_plan *p = system->bodies[wire].plan;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Another model for a wire during a run. Shape, stretch, twist and velocity are carried over by the
- * wire's middle line. Mass and arc lengths stay the same; momentum and angular momentum are made
- * the same by the smallest rigid motion that does it. Sections of a new mesh deform under stretch,
- * bend and twist as in an endless mesh. Other deformation of sections, such as squeezing, is lost;
- * the change of energy tells how much. */
+/* Gives a wire another model during a run. The wire's middle line carries over shape, stretch,
+ * twist and velocity. Mass and arc lengths stay the same; the smallest rigid motion that does so
+ * restores momentum and angular momentum. Sections of a new mesh deform under stretch, bend and
+ * twist as in an endless mesh. Other deformation of sections, such as squeezing, is lost; the
+ * change of energy shows how much. */
 #include "remodel/remodel.h"
 
 #include <math.h>
@@ -53,7 +53,7 @@ static sw_status retake(sw_scene *s, size_t wire, sw_error *err) {
   for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     sw_hold *h = sw_scene_hold_in(s, k);
     waits[k] = h->alive && h->wire == wire;
-    if (waits[k]) h->alive = 0; /* where it held the wire that was is not in the others' way */
+    if (waits[k]) h->alive = 0; /* its old place must not be in the way of the other holds */
   }
   for (size_t k = 0; k < sw_scene_hold_slots(s); k++) {
     sw_motion_state now;
@@ -74,7 +74,7 @@ static void replace(sw_scene *s, size_t wire, sw_scene_wire *with) {
   sw_free(w->twisted);
   w->cls = with->cls, w->mesh = with->mesh, w->strand = with->strand;
   w->twisted = with->twisted, w->twisted_count = with->twisted_count, w->untwisted = 0;
-  w->wear.holds = 0; /* directions across it are other ones, even at the same places */
+  w->wear.holds = 0; /* the directions across the wire differ, even at the same places */
   sw_scene_forget_mesh(s, wire);
 }
 
@@ -118,7 +118,7 @@ static sw_status make(sw_scene *s, size_t wire, const sw_strand_plan *plan, cons
   return status == SW_ENOMEM ? sw_fail(err, status, "remodel: out of memory") : status;
 }
 
-/* The line, once the number of its nodes is known. */
+/* Reads the line; first determines the number of its nodes. */
 static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
                            const sw_strand_plan *plan, const sw_wire_class *cls,
                            const sw_stations *stations, sw_line *out, sw_error *err) {
@@ -132,7 +132,7 @@ static sw_status read_line(sw_scene *s, sw_handle h, const sw_wire_args *args,
   return sw_line_read(s, h, segments + 1, stations->s, out, err);
 }
 
-enum { USUAL_SEGMENTS = 50 }; /* of a wire that is a line, when nobody says [-] */
+enum { USUAL_SEGMENTS = 50 }; /* default for a wire that is a line [-] */
 
 static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
                              const sw_strand_plan *plan, const double *region, sw_stations *out,
@@ -160,7 +160,7 @@ static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
   return sw_region_plan(s, h.slot, region, length / (double)slices, length / segments, out, err);
 }
 
-/* More than this is lost in lines [rad]. */
+/* Twist above which a change to lines is refused; they cannot carry twist [rad]. */
 static const double LEAST_TWIST = 1e-3;
 
 static sw_status check_twist(const sw_scene_wire *w, const sw_line *l, sw_error *err) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that a tool held rigidly in place of its pads is given back to them: a mesh as it was
- * between the pads, with their friction. */
+/* Thaws a frozen grip: a wire that a tool held rigidly becomes a mesh between the tool's pads
+ * again, as it was there when frozen, with the pads' friction. */
 #include <math.h>
 #include <string.h>
 
@@ -20,8 +20,8 @@
 #include "scene/wire.h"
 #include "state/hinge.h"
 
-/* Directions across the rod's line start anywhere: turn them so that the ring that the tool holds
- * has the one that went with the tool. */
+/* The start direction across the rod's line is arbitrary. Turns all of them so that the tool's ring
+ * gets the direction that moved with the tool. */
 static void align(const sw_frozen *f, const sw_pose *now, sw_line *l) {
   const size_t r = f->first;
   const sw_quat moved = sw_quat_mul(now->q, sw_quat_conj(f->pose.q));
@@ -35,30 +35,31 @@ static void align(const sw_frozen *f, const sw_pose *now, sw_line *l) {
   }
 }
 
-/* a, known in the frame (t, u) of one line, in that of another. */
+/* Turns a vector from the frame (t, u) of one line into the frame of another. */
 static sw_vec turned(const double *from, const double *to, sw_vec a) {
   const sw_vec t = sw_load(from), u = sw_load(from + 3), w = sw_cross(t, u);
   const sw_vec t2 = sw_load(to), u2 = sw_load(to + 3), w2 = sw_cross(t2, u2);
   return sw_madd(sw_madd(sw_scale(t2, sw_dot(a, t)), u2, sw_dot(a, u)), w2, sw_dot(a, w));
 }
 
-/* From the pads' face on the wire goes over from where it was between the pads to where the rod is,
- * within so many radii: the rod is held further inside, and lies there as no mesh would [-]. */
+/* Length in radii, from the pads' face on, over which the line passes from the wire's kept shape to
+ * the rod's [-]. The rod is held further inside than the face, so it lies near the face as no mesh
+ * would. */
 static const double SPREAD = 12.0;
 
-/* One end of the pressed rings: how the line beside it, which goes on to where the rod is, differs
- * from the rod. Edges turn and keep their lengths: a cable would pull with newtons for each micron
- * that they miss. */
+/* One end of the pressed rings, and how the line outside it differs from the rod until the line
+ * meets the rod. Edges turn and keep their lengths: a cable would pull with newtons for each micron
+ * of stretch. */
 typedef struct face {
   size_t ring;
-  int step;     /* to the next ring outside, as an index */
-  double reach; /* of the difference, along the wire [m] */
-  sw_vec way;   /* from the rod to where the wire was at the face [m] */
-  sw_vec turn;  /* likewise [rad] */
-  sw_vec back;  /* more of it further out, that brings the line back to the rod [rad] */
+  int step;     /* index step to the next ring outside */
+  double reach; /* length of the difference along the wire [m] */
+  sw_vec way;   /* from the rod to the kept wire at the face [m] */
+  sw_vec turn;  /* the same as a turn [rad] */
+  sw_vec back;  /* additional turn further out that brings the line back to the rod [rad] */
 } face;
 
-/* The turn from a frame to another one, which has been moved. */
+/* Returns the turn from one frame to another one, which has been moved by `moved`. */
 static sw_quat between(const double *from, sw_quat moved, const double *to) {
   const sw_vec t = sw_rotate(moved, sw_load(to)), across = sw_rotate(moved, sw_load(to + 3));
   const sw_quat bend = sw_quat_between(sw_load(from), t);
@@ -67,24 +68,25 @@ static sw_quat between(const double *from, sw_quat moved, const double *to) {
   return sw_quat_mul(sw_quat_exp(sw_scale(t, twist)), bend);
 }
 
-/* Share of the reach at an arc length, 1 beyond it [-]. */
+/* Returns the distance from the face over the reach, at most 1 [-]. */
 static double share_at(const face *e, const sw_line *l, double at) {
   return e->reach > 0 ? fmin(1.0, fabs(at - l->s[e->ring]) / e->reach) : 1.0;
 }
 
-/* How the line is turned there [rad]. */
+/* Returns the line's turn there [rad]. */
 static sw_vec turn_at(const face *e, const sw_line *l, double at) {
   const double u = share_at(e, l, at), left = (1.0 - u) * (1.0 - u);
   return sw_madd(sw_scale(e->turn, left * (1.0 + 2.0 * u)), e->back, left * u);
 }
 
-/* The next ring outside of ring r; the arc length between them [-], [m]. */
+/* Next ring outside of ring r [-]; arc length at the middle between both [m]. */
 static size_t next_to(const face *e, size_t r) { return (size_t)((long)r + e->step); }
 static double middle_of(const face *e, const sw_line *l, size_t r) {
   return 0.5 * (l->s[r] + l->s[next_to(e, r)]);
 }
 
-/* From ring r of the rod to the next one outside; how far it comes by the turn of that edge. */
+/* Returns the rod's edge from ring r to the next one outside. gain: how far the edge's turn shifts
+ * its end. */
 static sw_vec edge_of(const face *e, const sw_line *l, size_t r, sw_vec *gain) {
   const sw_vec edge = sw_sub(sw_vec_at(l->x, next_to(e, r)), sw_vec_at(l->x, r));
   const sw_quat turn = sw_quat_exp(turn_at(e, l, middle_of(e, l, r)));
@@ -96,8 +98,8 @@ static int goes_on(const face *e, const sw_line *l, size_t r) {
   return e->step > 0 ? r + 1 < l->n : r > 0;
 }
 
-/* The turn that brings the line back: it is off by d, and shifts by back x the sum of all edges,
- * each by its share. */
+/* Returns the turn that brings the line back to the rod. Without it the line ends off the rod by
+ * `off`; a turn `back` shifts the end by back x sum, the sum of all edges times their shares. */
 static sw_vec back_of(const face *e, const sw_line *l) {
   sw_vec off = e->way, sum = sw_v(0, 0, 0), gain;
   for (size_t r = e->ring; goes_on(e, l, r); r = next_to(e, r)) {
@@ -122,12 +124,12 @@ static face face_of(const sw_frozen *f, const sw_motion_state *tool, const sw_li
   return out;
 }
 
-/* The line beyond a face. */
+/* Shifts and turns the line outside a face. */
 static void lead_out(const face *e, sw_line *l) {
   sw_vec off = e->way, gain;
   for (size_t r = e->ring; goes_on(e, l, r); r = next_to(e, r)) {
     const size_t next = next_to(e, r);
-    (void)edge_of(e, l, r, &gain); /* ring r is where the rod has it yet */
+    (void)edge_of(e, l, r, &gain); /* before ring r is shifted */
     if (r != e->ring) sw_store(l->x + 3 * r, sw_add(sw_vec_at(l->x, r), off));
     off = sw_add(off, gain);
     const sw_quat turn = sw_quat_exp(turn_at(e, l, l->s[next]));
@@ -137,7 +139,7 @@ static void lead_out(const face *e, sw_line *l) {
   }
 }
 
-/* Lead the line through the pads as the wire was there. */
+/* Leads the line through the pads as the wire was there. */
 static void lead(const sw_frozen *f, const sw_motion_state *tool, sw_line *l, double radius) {
   for (int after = 0; after < 2; after++) {
     const face e = face_of(f, tool, l, after, radius);
@@ -147,8 +149,9 @@ static void lead(const sw_frozen *f, const sw_motion_state *tool, sw_line *l, do
     sw_store(l->x + 3 * r, sw_pose_point(tool->pose, sw_pose_local(f->pose, sw_vec_at(f->rod, r))));
 }
 
-/* A ring's frame on a line at x: it faces along the edges beside it; where the wire goes on as a
- * line, along that edge alone, for they are tied to each other. */
+/* Returns a ring's frame on a line at x. The ring faces along the chord between its neighbours.
+ * Next to a part that is a line, it faces along that edge alone, since both are tied to each
+ * other. */
 static void frame_at(const sw_web *web, const double *x, const double *frame, size_t r,
                      double out[6]) {
   const sw_vec t = sw_load(frame + 6 * r), across = sw_load(frame + 6 * r + 3);
@@ -160,8 +163,8 @@ static void frame_at(const sw_web *web, const double *x, const double *frame, si
   sw_store(out + 3, sw_carry_unit(across, t, facing));
 }
 
-/* Move the particles of the strand from their places at the freeze to their present places: between
- * the pads as they were, beside them with the line. */
+/* Moves the strand's particles from their places at the freeze to their present places: between the
+ * pads rigidly with the tool, beside them with the line. */
 static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line *l,
                   sw_strand *strand) {
   const sw_web *web = strand->web;
@@ -183,13 +186,13 @@ static void place(const sw_frozen *f, const sw_motion_state *tool, const sw_line
     sw_store(v + 3 * p, sw_add(tool->v, sw_cross(tool->omega, arm)));
   }
   memset(strand->a, 0, 3 * web->particles * sizeof *strand->a);
-  sw_free(strand->rate); /* that of long ago */
+  sw_free(strand->rate); /* it belongs to the time of the freeze */
   strand->rate = NULL;
   for (size_t e = 0; e < web->links; e++) {
     const sw_web_link *k = &web->link[e];
     const double length = sw_dist(sw_vec_at(x, k->a), sw_vec_at(x, k->b));
     if (!sw_web_is_ring(web, sw_web_ring_of(web, k->a)))
-      strand->axial[e] = k->k * (length - k->rest); /* of a line: as it lies now */
+      strand->axial[e] = k->k * (length - k->rest); /* of a line: from its present length */
   }
 }
 

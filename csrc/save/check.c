@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks of a scene that came from a file. Objects name each other by numbers; whatever the file
- * says, no number may lead to an object that is not there. */
+/* Checks a scene read from a file. Objects name each other by numbers. Whatever the file says, no
+ * number may lead to an object that does not exist. */
 #include <stdint.h>
 #include <string.h>
 
@@ -56,7 +56,7 @@ static void check_wire(sw_tape *t, const sw_scene *s, size_t number) {
 
 /* --- holds ------------------------------------------------------------------------- */
 
-/* No particle of a mesh is held twice, or does not exist. */
+/* Checks that no particle of a mesh is held twice, and that all held ones exist. */
 static void check_particles(sw_tape *t, const sw_scene *s, size_t wire) {
   const sw_web *web = s->wires[wire].strand.web;
   unsigned char *taken SW_LOCAL = sw_alloc(web->particles, 1);
@@ -135,7 +135,7 @@ static void check_force(sw_tape *t, const sw_scene *s, const sw_scene_force *f) 
     sw_tape_expect(t, list.particle[i] < web->particles, "a force on particles");
 }
 
-/* What carries something is there, and is not carried itself. */
+/* Checks that the tool that carries something exists, and that nothing is driven twice. */
 static void check_drive(sw_tape *t, const sw_scene *s, const sw_drive *d) {
   sw_tape_expect(t, d->tool <= s->tool_count && !(d->tool && d->motion), "what a gripper carries");
 }

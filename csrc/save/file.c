@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as bytes that outlive the process. A file is a head, a note of the caller's, the objects,
  * and the state of the built scene or what an edited one remembers. A scene that is not built is
- * saved as it is: building it between two edits would not give the same bits. */
+ * saved as it is, because building it between two edits would give other bits. */
 #include "save/file.h"
 
 #include <stdio.h>
@@ -21,8 +21,8 @@
 
 typedef struct head {
   char magic[16];
-  uint32_t version, order; /* order: bytes in a number, as this machine has them */
-  uint64_t size, sum;      /* of all [B]; checksum of all that follows the head */
+  uint32_t version, order; /* order: this machine's byte order */
+  uint64_t size, sum;      /* of all bytes [B]; checksum of all that follows the head */
 } head;
 
 static const char MAGIC[16] = "SoftWorld scene";
@@ -48,7 +48,7 @@ static sw_status check_drive(const sw_scene *s, const sw_drive *d, const char *n
       s->name, name);
 }
 
-/* Functions live in the process and cannot leave it. */
+/* Refuses forces and motions that are functions: they cannot leave the process. */
 static sw_status check_functions(const sw_scene *s, sw_error *err) {
   for (size_t k = 0; k < s->force_count; k++) {
     const sw_scene_force *f = &s->forces[k];
@@ -106,7 +106,7 @@ static sw_status check_head(const void *bytes, size_t size, sw_error *err) {
   return SW_OK;
 }
 
-/* The note, and the tape where the scene begins. */
+/* Checks the head; returns the note, and the tape at the start of the scene. */
 static sw_status open_tape(const void *bytes, size_t size, const void **note, size_t *note_size,
                            sw_tape *t, sw_error *err) {
   SW_TRY(check_head(bytes, size, err));
@@ -137,7 +137,8 @@ static sw_status read_scene(const void *bytes, size_t size, sw_scene *s, sw_live
   return t.status;
 }
 
-/* A file that cannot be read is worse than none: better to know now than after what it is for. */
+/* Reads the written bytes back, so that an unreadable file is found at once and not when it is
+ * needed. */
 static sw_status read_back(const sw_tape *t, sw_error *err) {
   sw_live live = {0};
   int built = 0;
@@ -195,14 +196,14 @@ sw_status sw_scene_resume(sw_scene *s, const void *bytes, size_t size, sw_error 
   return status;
 }
 
-/* --- what a scene is made of ------------------------------------------------------------- */
+/* --- fingerprints of objects ------------------------------------------------------------- */
 
 static void sum_name(sw_tape *t, const char *name) {
   char word[SW_NAME_SIZE];
   sw_tape_word(t, name, word);
 }
 
-/* Springs and masses of an object that was put together by hand. */
+/* Adds springs and masses of an object that was put together by hand. */
 static void sum_web(sw_tape *t, const sw_scene_wire *w) {
   if (!sw_scene_is_loose(w)) return;
   sw_web *web = w->strand.web;

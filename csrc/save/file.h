@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes as bytes of a file, and what a scene is made of. */
+/* Scenes as the bytes of a file, and fingerprints of a scene's objects. */
 #ifndef SW_SAVE_FILE_H
 #define SW_SAVE_FILE_H
 
 #include "scene/scene.h"
 
-/* The whole scene as bytes, which the caller writes to a file and frees with sw_free, with a note
- * of the caller's in it. Nothing changes. SW_EINVAL when a user's function moves something now or
- * is a force: it cannot leave the process. */
+/* Writes the whole scene, with a note of the caller's, as bytes. The caller writes them to a file
+ * and frees them with sw_free. The scene does not change. SW_EINVAL when a user's function moves
+ * something at present or is a force: a function cannot leave the process. */
 sw_status sw_scene_save(sw_scene *scene, const void *note, size_t note_size, unsigned char **out,
                         size_t *size, sw_error *err);
-/* The note, within the bytes. SW_EFORMAT: they are not of a scene, damaged, cut off, of another
- * version; err tells which, as "it is ...". */
+/* Finds the note within the bytes. SW_EFORMAT: the bytes are not a scene, damaged, cut off, or of
+ * another version; err says which, as "it is ...". */
 sw_status sw_saved_note(const void *bytes, size_t size, const void **note, size_t *note_size,
                         sw_error *err);
-/* A new scene of them; on the same kind of machine it goes on with the same bits. */
+/* Makes a new scene from the bytes; on the same kind of machine it goes on with the same bits. */
 sw_status sw_scene_load(const void *bytes, size_t size, sw_scene **out, sw_error *err);
-/* Load it into an existing scene: objects that are in both keep their handles. The scene's
- * snapshots cannot be restored any more. On failure nothing changes. */
+/* Loads the bytes into an existing scene: objects that are in both keep their handles. The scene's
+ * snapshots can no longer be restored. On failure nothing changes. */
 sw_status sw_scene_resume(sw_scene *scene, const void *bytes, size_t size, sw_error *err);
 
-/* What the scene is made of, object by object: two that were made alike have the same sum,
- * wherever they are by now. */
+/* Fingerprints of the scene's objects. Objects that were made alike have the same sum, wherever
+ * they are at present. */
 typedef struct sw_scene_item {
   char kind[SW_NAME_SIZE], name[SW_NAME_SIZE]; /* "wire", "box", "force", ... */
   uint64_t sum;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of a scene. */
+/* Creates and frees scenes. */
 #include "save/life.h"
 
 #include <math.h>

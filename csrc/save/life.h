@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of a scene, and its snapshots. */
+/* Creation and deletion of a scene, and its snapshots. */
 #ifndef SW_SAVE_LIFE_H
 #define SW_SAVE_LIFE_H
 
@@ -17,10 +17,10 @@ sw_status sw_scene_set_gravity(sw_scene *scene, sw_vec gravity, sw_error *err);
 
 /* --- snapshots -------------------------------------------------------------- */
 
-/* 0 when neither the scene nor a living snapshot of it will use the force again. */
+/* 0 if neither the scene nor a living snapshot of it will use the force again. */
 int sw_scene_force_needed(const sw_scene *scene, sw_handle force);
-/* Restoring takes back what was made after the snapshot: its handles are stale
- * from then on, unless another living snapshot still knows it. */
+/* Restoring removes what was made after the snapshot. Its handles are stale from then on, unless
+ * another living snapshot still knows it. */
 sw_status sw_scene_snapshot(sw_scene *scene, sw_snapshot **out, sw_error *err);
 sw_status sw_scene_restore(sw_scene *scene, const sw_snapshot *snapshot, sw_error *err);
 void sw_snapshot_free(sw_snapshot *snapshot);         /* NULL is allowed */

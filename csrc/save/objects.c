@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The objects of a scene on a tape, field by field. */
+/* Writes and reads the objects of a scene, field by field. */
 #include <string.h>
 
 #include "body/obstacle_log.h"
@@ -85,7 +85,7 @@ void sw_tape_wire(sw_tape *t, sw_scene_wire *x, int placed) {
 /* --- holds ------------------------------------------------------------------------- */
 
 void sw_tape_hold_args(sw_tape *t, sw_hold_args *x) {
-  SW_TAPE_STRUCT(t, sw_hold_args, 200); /* those of a slider become its own */
+  SW_TAPE_STRUCT(t, sw_hold_args, 200); /* a slider's are part of its own state */
   DOUBLE(s), DOUBLE(width), VEC(direction), NAME(name);
   DOUBLE(speed), DOUBLE(force), DOUBLE(force_limit);
 }
@@ -108,7 +108,7 @@ static void tape_sums(sw_tape *t, sw_hold_sums *x) {
 
 void sw_tape_hold(sw_tape *t, sw_scene *s, sw_hold *x) {
   char word[SW_NAME_SIZE];
-  SW_TAPE_STRUCT(t, sw_hold, 1632); /* node, number and rail are found when it is built */
+  SW_TAPE_STRUCT(t, sw_hold, 1632); /* node, number and rail are set when it is built */
   UINT32(generation), INT(alive), NAME(name);
   if (!sw_tape_address(t, &x->cls)) {
     const char *kind = sw_tape_word(t, sw_tape_reads(t) ? NULL : x->cls->name, word);
@@ -158,7 +158,7 @@ void sw_tape_obstacle(sw_tape *t, sw_scene *s, sw_scene_obstacle *x) {
   sw_tape_expect(t, x->restitution >= 0 && x->restitution <= 1, "restitution of an obstacle");
 }
 
-/* The arguments without the addresses in them, which mean nothing elsewhere. */
+/* Writes and reads the arguments without the addresses in them, which are invalid elsewhere. */
 static void tape_force_args(sw_tape *t, sw_scene_force *x) {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const int some = x->cls->flags & SW_FORCE_ON_SOME;
@@ -197,7 +197,7 @@ void sw_tape_join(sw_tape *t, sw_joint *x) {
   int broken = x->fate[SW_TIE_BROKEN] > 0;
   SW_TAPE_STRUCT(t, sw_joint, 1000);
   UINT32(generation), INT(alive), INT(rigid), NAME(name), SIZE(count);
-  DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is found when it is built */
+  DOUBLE(slack), DOUBLE(stiffness), DOUBLE(strength); /* its spring is set when it is built */
   if (sw_tape_reads(t)) x->cls = sw_joint_class(x->slack);
   sw_tape_int(t, &broken);
   x->fate[SW_TIE_BROKEN] = broken;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Snapshots: the scene on a tape that stays at home. Restoring gives the same bits as if nothing
- * had happened in between. */
+/* Snapshots: the scene on a tape that stays in the process. Restoring gives the same bits as if
+ * nothing had happened in between. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -18,12 +18,12 @@
 #include "scene/world.h"
 
 struct sw_snapshot {
-  sw_scene *scene; /* NULL once it is gone */
+  sw_scene *scene; /* NULL once the scene is gone */
   sw_snapshot *next;
   sw_tape tape;
   double time; /* [s] */
   size_t build, holds, obstacles, tools, forces, joins, rules, zones, frames, frame_stride;
-  uint32_t *force; /* (forces) generations of those that are there; 0 of others */
+  uint32_t *force; /* (forces) generations of living forces; 0 for others */
 };
 
 int sw_snapshot_busy(const sw_snapshot *p) { return p->scene && p->scene->restoring == p; }
@@ -58,13 +58,13 @@ void sw_snapshot_free(sw_snapshot *p) {
   sw_free(p);
 }
 
-/* About as many bytes as the scene takes; a tape grows when it is more. */
+/* Estimates the bytes of the scene; the tape grows if it needs more. */
 static size_t size_of(const sw_scene *s) {
   const sw_live live = sw_live_of(s);
   size_t size = sw_live_size(&live) + sizeof *s + s->events.count * sizeof *s->events.list;
   SW_EACH(wire, wire, s) {
     const size_t records = wire->window.marks ? (2 + wire->window.marks) * wire->window.edges : 0;
-    const size_t each = wire->mesh.rest ? 17 : 7; /* doubles for a node */
+    const size_t each = wire->mesh.rest ? 17 : 7; /* doubles per node */
     size += sizeof *wire + (each * wire->mesh.n + records) * sizeof(double);
     size += wire->wear.count * (sizeof(sw_wear_place) + SW_WEAR_SIGNALS * sizeof(double));
     size += (2 + wire->wear.pressed.marks) * wire->wear.pressed.edges * sizeof(double);
@@ -108,7 +108,8 @@ sw_status sw_scene_snapshot(sw_scene *s, sw_snapshot **out, sw_error *err) {
   return SW_OK;
 }
 
-/* Is the built system the snapshot's? A feed moves its nodes. */
+/* 1 if the built system is still the snapshot's. A feed moves its nodes, so with a feed it is
+ * not. */
 static int same_system(const sw_scene *s, const sw_snapshot *p) {
   if (!s->built || s->build != p->build || s->hold_count != p->holds) return 0;
   SW_EACH(hold, h, s)
@@ -118,7 +119,7 @@ static int same_system(const sw_scene *s, const sw_snapshot *p) {
          s->zones.count == p->zones;
 }
 
-/* The system stays, all else goes where it is. */
+/* Restores into the existing system. */
 static sw_status put_back(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   sw_live live = {0};
   int built;
@@ -136,7 +137,7 @@ static sw_status put_back(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   return status;
 }
 
-/* A scene made anew takes the place of this one. */
+/* Restores by making a new scene that takes the place of this one. */
 static sw_status make_anew(sw_scene *s, const sw_snapshot *p, sw_error *err) {
   sw_live live = {0};
   int built;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene on a tape, which is all that a file, a snapshot or another process has of it: its
+/* Puts a scene on a tape, the only form in which a file, a snapshot or another process gets it: its
  * objects, and the state of the built scene or what an edited one remembers. A scene that is not
- * built is put on it as it is: building it between two edits would not give the same bits. */
+ * built is written as it is, because building it between two edits would give other bits. */
 #include "base/alloc.h"
 #include "body/build.h"
 #include "body/history.h"
@@ -18,10 +18,10 @@
 #include "watch/observe.h"
 #include "watch/zone.h"
 
-enum { LEAST = 32 }; /* no object takes less on a tape [B] */
+enum { LEAST = 32 }; /* smallest size of an object on a tape [B] */
 
-/* A list of slots: its count, and room for them when reading. Reading counts them one by one, so
- * that those that exist are freed whatever happens. */
+/* Writes or reads the count of a list of slots, and makes room when reading. The caller then counts
+ * the slots one by one, so that those that exist are freed in any case. */
 static size_t tape_list(sw_tape *t, void *list_pointer, size_t *count, size_t *capacity,
                         size_t item) {
   size_t n = *count;
@@ -64,7 +64,7 @@ static void tape_numbers(sw_tape *t, sw_scene *s) {
   sw_tape_int(t, &s->wears);
 }
 
-/* What a scene that is not built remembers of its last system. */
+/* Memory of the last system, of a scene that is not built. */
 static void tape_kept(sw_tape *t, sw_scene *s) {
   sw_tape_kept_contact(t, s);
   size_t unused = s->histories.count;
@@ -76,7 +76,8 @@ static void tape_kept(sw_tape *t, sw_scene *s) {
   }
 }
 
-/* These stay with a scene whose tape stays at home: they are only cut off. */
+/* Only on tapes that leave the process. A restored scene keeps its frames and only drops later
+ * ones. */
 static void tape_frames(sw_tape *t, sw_scene *s) {
   LIST(frames.list, frames.count, frames.capacity, sw_tape_frame(t, s, &s->frames.list[k]));
   sw_tape_size(t, &s->frames.stride), sw_tape_double(t, &s->frames.bytes);
@@ -97,7 +98,7 @@ static void tape_objects(sw_tape *t, sw_scene *s, int built) {
   LIST(zones.list, zones.count, zones.capacity, sw_tape_zone(t, &s->zones.list[k]));
   LIST(joins, join_count, join_capacity, sw_tape_join(t, &s->joins[k]));
   if (!t->home) tape_frames(t, s);
-  if (sw_tape_reads(t)) s->events.count = 0; /* they own nothing */
+  if (sw_tape_reads(t)) s->events.count = 0; /* events own no memory */
   LIST(events.list, events.count, events.capacity, sw_tape_event(t, &s->events.list[k]));
   sw_tape_size(t, &s->events.dropped);
   sw_tape_watches(t, &s->watches);
@@ -114,7 +115,8 @@ void sw_tape_scene(sw_tape *t, sw_scene *s, int *built, sw_live *live) {
   sw_tape_live(t, live);
 }
 
-/* Go on where the scene of a tape was. What was edited since it was built stays to be built. */
+/* Continues at the state of the tape's scene. What was edited after it was built remains to be
+ * built. */
 static sw_status go_on(sw_scene *s, const sw_live *live, int built, sw_error *err) {
   static const char OFF[] = "its state does not go with its objects";
   const int next = s->course.next;
@@ -133,7 +135,7 @@ sw_status sw_scene_take_place(sw_scene *s, sw_scene *other, const sw_live *live,
                               const sw_snapshot *restoring, sw_error *err) {
   sw_scene old = *s;
   *s = *other;
-  s->frames.memory = old.frames.memory; /* of the run that may be under way */
+  s->frames.memory = old.frames.memory; /* the present run's limit stays */
   s->restoring =
       restoring; /* placing the holds may call a user's function, which may close others */
   if (restoring) s->snapshots = old.snapshots;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires that are pulled harder than they bear, or pressed hard, as they may hold a run back.
- * Nothing breaks here; it is told. */
+/* Reports wires that are pulled harder than they bear, and obstacles that press hard, as possible
+ * reasons when a run fails. Nothing breaks here. */
 #include <math.h>
 #include <stdio.h>
 
@@ -63,7 +63,7 @@ void sw_scene_tell_broken(const sw_scene *s, char *out, size_t size) {
   }
 }
 
-/* Pushes of less than this are no reason, of the wire's weight at rest on earth [-]. */
+/* Presses below this are not reported as a reason, over the wire's weight on earth [-]. */
 static const double HARD = 20.0;
 
 void sw_scene_tell_pressed(const sw_scene *s, char *out, size_t size) {

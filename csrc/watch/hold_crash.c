@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Are holds driven into obstacles? What they hold goes where they go, so nothing stops it: the wire
- * there is looked at in every step, and on the way from the step before. And do they push or pull
- * with more than any wire bears? Both are noticed and told. */
+/* Reports holds that are driven into obstacles. A held piece of wire follows its hold, so nothing
+ * stops it; it is checked in every step and on the way from the step before. Also reports holds
+ * that push or pull harder than any wire bears. */
 #include <math.h>
 
 #include "link/hold.h"
@@ -13,13 +13,13 @@
 #include "watch/observe.h"
 #include "watch/series.h"
 
-/* A held place may be so much deeper in an obstacle than where it was taken hold of, of the
- * distance from there to the surface [-]. Contact itself lets wires in by far less. */
+/* Depth in an obstacle that a held place may gain after it was grasped, over the distance from the
+ * place to the wire's surface [-]. Contact itself lets wires in by far less. */
 static const double ALLOWED = 0.25;
-static const double NOTICED = 1e-5; /* at least [m] */
+static const double NOTICED = 1e-5; /* smallest gain that counts [m] */
 
-/* Between two steps places are looked at so that none moves by more than this share of the
- * distance to its surface; at most so often [-]. */
+/* Largest motion of a place between two checks, over the same distance; number of checks per step
+ * [-]. */
 static const double STRIDE = 0.5;
 enum { MOST_LOOKS = 32 };
 
@@ -33,8 +33,8 @@ static double reach_of(const sw_hold *h) {
   return far;
 }
 
-/* How deep the held places, and what is between them, are in a shape in which the hold has this
- * pose [m]. */
+/* Returns the depth of the held places, and of the wire between them, in a shape; pose: of the hold
+ * in the shape's axes [m]. */
 static double depth_at(const sw_hold *h, const sw_shape *shape, sw_pose pose, double skin) {
   double depth = 0;
   sw_vec before = sw_v(0, 0, 0);
@@ -49,13 +49,13 @@ static double depth_at(const sw_hold *h, const sw_shape *shape, sw_pose pose, do
   return depth;
 }
 
-/* 1: a place is farther than this from the bounds along one of their axes. */
+/* 1 if a place is farther than this from the bounds along one of their axes. */
 static int is_off(const sw_bounds *b, sw_vec p, double far) {
   return p.x < b->min.x - far || p.x > b->max.x + far || p.y < b->min.y - far ||
          p.y > b->max.y + far || p.z < b->min.z - far || p.z > b->max.z + far;
 }
 
-/* The deepest on the way from one pose to the other, both as the shape sees them [m]. */
+/* Returns the largest depth on the way from one pose to another, both in the shape's axes [m]. */
 static double depth_on_way(const sw_hold *h, const sw_shape *shape, sw_pose from, sw_pose to,
                            double skin) {
   const sw_bounds b = sw_shape_bounds(shape);
@@ -75,7 +75,7 @@ static double depth_on_way(const sw_hold *h, const sw_shape *shape, sw_pose from
   return depth;
 }
 
-/* The obstacle that the hold is deepest in. */
+/* Finds the obstacle that the hold is deepest in. */
 static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_error *err) {
   const double skin = skin_of(s, h), before = h->watch.looking ? h->watch.looked : sw_scene_time(s);
   sw_motion_state to, from, there, was;
@@ -94,7 +94,8 @@ static sw_status find_crash(sw_scene *s, const sw_hold *h, sw_crash *out, sw_err
   return SW_OK;
 }
 
-/* What no wire bears: of the strongest steel there is, or twice as long as it is [Pa]. */
+/* Force over section that no wire bears: that of the strongest steel [Pa]. EA is a limit, too: it
+ * would double the wire's length. */
 static const double STRONGEST = 4e9;
 
 static void watch_force(sw_scene *s, const sw_hold *h, double arc) {
@@ -112,7 +113,7 @@ sw_status sw_hold_look_out(sw_scene *s, sw_hold *h, sw_error *err) {
   const double arc = 0.5 * (h->s1 + h->s2) - sw_scene_wire_in(s, h->wire)->mesh.s[0];
   watch_force(s, h, arc);
   if (!sw_scene_obstacle_slots(s) || h->cls->hold->rail)
-    return SW_OK; /* rails lead where they lead */
+    return SW_OK; /* a rail may lead anywhere */
   SW_TRY(find_crash(s, h, &now, err));
   if (!h->watch.looking) h->watch.given = now.depth;
   h->watch.looking = 1, h->watch.looked = sw_scene_time(s);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Kinks of tubes whose wall is known. Bent, a tube flattens by a^2 of its radius, with a =
- * curvature R^2/t, and its moment has a limit at a = sqrt(2)/3 (Brazier). Its compressed side, less
- * curved the flatter it is, buckles in short waves a little before, at a (1 - a^2) = (1 - 3 a^2)/
- * sqrt 3. Either way there is nothing to be found beyond but a tube that is folded at one place. */
+/* Kinks of tubes whose wall is known. A bent tube flattens by a^2 of its radius, with a = curvature
+ * R^2/t. Its moment has its maximum at a = sqrt(2)/3 (Brazier). The compressed side, which is less
+ * curved the flatter it is, buckles in short waves a little earlier, at a (1 - a^2) = (1 - 3 a^2) /
+ * sqrt 3. Beyond either limit the only state is a tube that is folded at one place. */
 #include <math.h>
 
 #include "body/section.h"
@@ -14,26 +14,27 @@
 #include "system/axial.h"
 #include "watch/observe.h"
 
-static const double LIMIT = 0.4714, BUCKLES = 0.381; /* a [-] */
-/* A fold has a curvature above the first, over the limit, and an ovalisation above the second [-].
- */
+static const double LIMIT = 0.4714, BUCKLES = 0.381; /* maximum of the moment; buckling [-] */
+/* A fold has a curvature over the limit above the first value, and an ovalisation above the second
+ * [-]. */
 static const double BEYOND = 1.5, FLAT = 0.35;
 
 static double radius2(const sw_beam *beam) { return 2.0 * beam->EI_axis[0] / beam->EA; }
 
-/* The wall's thickness, from its bending and axial stiffness per length round it [m]. */
+/* Returns the wall's thickness, from its bending stiffness and axial stiffness per length of
+ * circumference [m]. */
 static double thickness(const sw_beam *beam, double wall) {
   const double Et = beam->EA / (2.0 * M_PI * sqrt(radius2(beam)));
   return sqrt(12.0 * wall / Et);
 }
 
-/* Curvature by which a is one [1/m]. */
+/* Returns the curvature at a = 1 [1/m]. */
 static double unit_curvature(const sw_beam *beam, double wall) {
   return thickness(beam, wall) / radius2(beam);
 }
 
-/* A tube that is pressed or bent flat: nothing keeps its walls from passing through each other, so
- * what it does beyond that is not right, and is told. */
+/* Reports a tube that is pressed or bent flat. Nothing keeps its walls from passing through each
+ * other, so its further behaviour is wrong. */
 static void watch_walls(sw_scene *s, size_t wire, const sw_wire_extremes *now) {
   sw_system *system = sw_scene_system(s);
   const sw_scene_wire *w = sw_scene_wire_in(s, wire);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of every accepted state: extremes, forces, frames. */
+/* Observes each accepted state: extremes, wear, zones, series, forces of holds, contact, tools. */
 #include "watch/observe.h"
 
 #include "base/log.h"
@@ -84,7 +84,7 @@ static sw_status observe_contact(sw_scene *s, sw_error *err) {
                  sw_scene_name(s));
 }
 
-/* What forces on wires have found. */
+/* Reports the findings of forces on wires (sw_term_news). */
 static void tell_news(sw_scene *s) {
   sw_system *system = sw_scene_system(s);
   sw_force_news news;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction of the last step, at the places of wires that slid: nodes of a line, sections of a mesh.
- */
+/* Adds the friction of the last step to the places of wires that slid: nodes of a line, sections of
+ * a mesh. */
 #include "body/touching.h"
 #include "scene/parts.h"
 #include "watch/wear.h"
 
-/* Length of wire that belongs to a place along it [m]. */
+/* Returns the length of wire that belongs to a place [m]. */
 static double share_of(const sw_wear *w, size_t i) {
   const double before = i > 0 ? w->places[i].s - w->places[i - 1].s : 0.0;
   const double after = i + 1 < w->nodes ? w->places[i + 1].s - w->places[i].s : 0.0;
@@ -37,7 +37,7 @@ static void rub_obstacles(const sw_scene *s, const sw_body *b, sw_wear *w) {
   }
 }
 
-/* Places where two bodies press on each other wear both. */
+/* Places where two bodies press on each other wear both bodies. */
 static void rub_bodies(const sw_scene *s, const sw_body *b, sw_wear *w) {
   const size_t body = (size_t)(b - sw_scene_system(s)->bodies);
   size_t next[2] = {0, 0};

@@ -68,7 +68,7 @@ sw_status sw_watch_wire(sw_scene *s, size_t slot, const sw_wire_extremes *now, s
   return add(s, OF_WIRE, (sw_handle){(uint32_t)slot, w->generation}, row, w->name, err);
 }
 
-/* Number of force_x among the read-outs of the force; -1: it has none. */
+/* Returns the index of force_x among the force's read-outs; -1: it has none. */
 static int place_of_force(const sw_force_class *cls) {
   for (int k = 0; cls->read && cls->outputs[k]; k++)
     if (strcmp(cls->outputs[k], "force_x") == 0) return k;
@@ -121,8 +121,8 @@ void sw_watches_clear(sw_watches *w) {
   *w = (sw_watches){0};
 }
 
-/* Of a wire, a force or a tie; NULL with err when there is no such object. Of a wire that was taken
- * away, too. */
+/* Returns the log of a wire, also of one that was removed, a force or a tie. NULL with err when
+ * there is no such object. */
 static const sw_log *watched(sw_scene *s, sw_kind kind, sw_handle of, sw_error *err) {
   static const sw_log empty;
   double gone;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Is a rod or string squeezed between two obstacles? Its section does not give way, except to pads,
- * so the force is that of the solver's own stiffness, which depends on the step. This is told. */
+/* Reports a rod or string that two obstacles squeeze. Its section does not yield, except to pads,
+ * so the force comes from the solver's own stiffness, which depends on the step. */
 #include <math.h>
 
 #include "scene/events.h"
@@ -9,10 +9,11 @@
 #include "scene/wire.h"
 #include "watch/observe.h"
 
-/* A gap narrower than the wire by less than this squeezes nothing [m]. */
+/* A gap that is narrower than the wire by less than this squeezes nothing [m]. */
 static const double NOTICED = 1e-6;
 
-/* Less presses no section: the wire's weight on earth, or the force that bends it [N]. */
+/* Returns the force below which no section counts as pressed: the larger of the wire's weight on
+ * earth and the force that bends it [N]. */
 static double usual_force(const sw_plan *p) {
   return fmax(9.81 * p->beam.mass * p->length, p->beam.EI / (p->length * p->length));
 }
@@ -22,8 +23,8 @@ static int is_pad(const sw_scene *s, int obstacle) {
          sw_scene_obstacle_in(s, obstacle)->drive.tool;
 }
 
-/* By how much the gap between two obstacles is narrower than the wire; 0 or less: it is not, or
- * they do not face each other [m]. */
+/* Returns how much narrower than the wire the gap between two obstacles is; 0 or less: it is not,
+ * or the obstacles do not face each other [m]. */
 static double narrower(const sw_contact_push *a, const sw_contact_push *b, double radius) {
   if (a->obstacle == b->obstacle || sw_dot(a->normal, b->normal) > SW_FACING) return 0;
   const sw_vec across = sw_sub(a->point, b->point);

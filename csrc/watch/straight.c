@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wire that is perfectly straight stays so under any push along it, and one that lies in a plane
- * stays in that: nothing bends it to a side, not even rounding. Real ones buckle, and the run says
- * so. */
+/* Finds unstable wires that cannot buckle in the simulation. A perfectly straight wire stays
+ * straight under any push along it, and a wire in a plane stays in the plane: nothing bends it to a
+ * side, not even rounding. Real wires buckle, and the run reports this. */
 #include <float.h>
 #include <math.h>
 
@@ -14,19 +14,20 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* A wire whose tangents differ by less than this is straight [-]. */
+/* A wire whose tangents differ by at most this is straight [-]. */
 static const double STRAIGHT = 1e-9;
-/* Push over EI/L^2 below which no wire that is held somewhere buckles: pi^2/4 [-]. */
+/* Push over EI/L^2 below which no wire with a hold buckles: pi^2/4 [-]. */
 static const double LEAST_PUSH = 2.467;
-/* A slower growth does not count, over sqrt(g/L) [-]. */
+/* Growth rates below this are ignored, over sqrt(g/L) [-]. */
 static const double SLOWEST = 1.0 / 30.0;
-/* A push is looked at again when it has grown by this factor [-]. */
+/* A wire is checked again when its push has grown by this factor [-]. */
 static const double GROWN = 1.2;
 
-/* Rounding of places pushes edges by this many units in the last place of their coordinates [-]. */
+/* Push from rounding of places, in units in the last place of their coordinates per edge [-]. */
 static const double ROUNDED = 16.0;
 
-/* A push that rounding may have made, in a long wire more than what would buckle it [N]. */
+/* Returns a push that rounding may have made; in a long wire it may exceed the buckling push
+ * [N]. */
 static double rounding_of(const sw_system *system, const sw_body *b) {
   const double *x = system->x + 3 * b->first_node;
   const sw_beam *beam = &b->plan->beam;
@@ -36,7 +37,7 @@ static double rounding_of(const sw_system *system, const sw_body *b) {
   return ROUNDED * DBL_EPSILON * (far + b->plan->length) / edge * beam->EA;
 }
 
-/* The largest push in an edge, and where; 0: none [N]. */
+/* Returns the largest push in an edge, and which edge; 0: none [N]. */
 static double largest_push(const sw_system *system, const sw_body *b, size_t *edge) {
   double push = 0;
   for (size_t e = 0; e < b->plan->edges; e++)
@@ -45,14 +46,14 @@ static double largest_push(const sw_system *system, const sw_body *b, size_t *ed
   return push;
 }
 
-/* Tangents of a wire in a plane are out of it by less than this; what rounding has bent of a turned
- * scene has not fallen yet [-]. */
+/* Tangents of a wire in a plane are out of the plane by at most this [-]. Rounding in a rotated
+ * scene bends a wire less than this before it starts to fall. */
 static const double IN_PLANE = 1e-6;
-/* A wire in a plane is looked at where it is slow: faster, it may be elsewhere before it buckles.
- * Speed, over sqrt(g L) [-]. */
+/* A wire in a plane is checked only when slower than this, over sqrt(g L) [-]. A faster one may be
+ * elsewhere before it buckles. */
 static const double SLOW = 0.01;
-/* A motion goes across the plane if it has this share of its shifts there: by symmetry all of it
- * has, or nothing [-]. */
+/* A motion goes across the plane if at least this share of its squared shifts does [-]. By symmetry
+ * either all of it does or none. */
 static const double ACROSS = 0.5;
 
 static sw_vec tangent_at(const sw_system *system, const sw_body *b, size_t e) {
@@ -68,7 +69,7 @@ static int is_straight(const sw_system *system, const sw_body *b) {
 
 static double gravity_of(const sw_scene *s) { return fmax(sw_norm(sw_scene_gravity(s)), 1.0); }
 
-/* Is the wire bent in a plane, and slow? */
+/* 1 if the wire is bent in a plane, and slow. */
 static int lies_in_plane(const sw_scene *s, const sw_system *system, const sw_body *b,
                          sw_vec *normal) {
   const double most = SLOW * sqrt(gravity_of(s) * b->plan->length);
@@ -87,7 +88,7 @@ static int lies_in_plane(const sw_scene *s, const sw_system *system, const sw_bo
   return 1;
 }
 
-/* How many of the unstable motions go across the plane? */
+/* Counts the unstable motions that go across the plane. */
 static sw_status count_across(const sw_system *system, size_t w, double slow, sw_vec normal,
                               size_t *count) {
   const size_t nodes = system->bodies[w].plan->nodes;
@@ -112,7 +113,8 @@ static int cannot_be_said(sw_status status) {
   return status == SW_EDIVERGED || status == SW_EINVAL || status == SW_ENOCONV;
 }
 
-/* With the system linearised. normal: of the plane it lies in; zero, it is straight. */
+/* Checks a wire of the linearised system. normal: of the plane in which the wire lies; zero: it is
+ * straight. */
 static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec normal) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
@@ -143,7 +145,7 @@ static sw_status look_at(sw_scene *s, size_t w, double push, size_t edge, sw_vec
   return SW_OK;
 }
 
-/* Is the wire straight or in a plane, and pushed by enough more than when it was looked at last? */
+/* 1 if the wire is straight or in a plane, and pushed by enough more than at its last check. */
 static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, sw_vec *normal) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[w];
@@ -156,7 +158,7 @@ static int is_new_push(const sw_scene *s, size_t w, double *push, size_t *edge, 
          (is_straight(system, b) || lies_in_plane(s, system, b, normal));
 }
 
-/* The system is linearised once for all wires. */
+/* Checks all wires. The system is linearised once for all of them. */
 static sw_status look_at_all(sw_scene *s, int *linear, sw_error *err) {
   sw_system *system = sw_scene_system(s);
   sw_status made = SW_OK;

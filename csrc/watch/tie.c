@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What breaks when it is pulled harder than it bears: joints, and forces that say so. */
+/* Breaks ties that are pulled beyond their strength: joints between wires, and forces with a
+ * pull. */
 #include <math.h>
 #include <string.h>
 
@@ -13,9 +14,9 @@
 #include "system/system.h"
 #include "watch/observe.h"
 
-/* Pull of a tie to a point with nodes at x, and what it bears, 0 once it is broken; of the last
- * stage: x is where that left them. A body's own field may still name the places of a trial that is
- * gone [N]. */
+/* Returns the pull of a tie to a point with nodes at x; bears: its strength, 0 once it is broken
+ * [N]. last = 1: x is the last stage's result, and the pull is evened with the first stage's. The
+ * body's own field may still point to the places of an abandoned trial. */
 static double pull_of(const sw_system *s, const sw_body *b, const sw_term *term, const double *x,
                       int last, double *bears) {
   sw_field at = b->field;
@@ -34,8 +35,8 @@ static double pull_of_joint(const sw_scene *s, size_t joint, const double *x, do
                                                       sw_scene_system(s), x, bears);
 }
 
-/* The same of the last stage, of methods that find pulls that only hold against turning too large
- * or too small (integrate/turning.h). */
+/* The same for a tie between wires, after the last stage. Some methods find pulls that balance a
+ * rotation too large or too small (integrate/turning.h); this function corrects them. */
 static double pull_now(const sw_scene *s, size_t joint, const double *x, double *bears) {
   const sw_system *system = sw_scene_system(s);
   const sw_vec now = {pull_of_joint(s, joint, x, bears), 0, 0};
@@ -44,7 +45,7 @@ static double pull_now(const sw_scene *s, size_t joint, const double *x, double 
   return sw_even_force(&system->first, NULL, first, now).x;
 }
 
-/* What its ends bear; of a tie it is known from step to step. */
+/* Keeps the forces on the joint's ends; those of a tie at every step. */
 static void keep_borne(const sw_scene *s, sw_joint *j) {
   const sw_system *system = sw_scene_system(s);
   const int tie = j->cls->joint->pull != NULL;
@@ -108,7 +109,8 @@ sw_status sw_scene_check_ties(const sw_scene *s, const double *x, sw_error *err)
   return SW_OK;
 }
 
-/* A tie pulls so hard at the scene's places and in a trial, wires p at its ends [N]. */
+/* Notes a tie that is slack at the scene's state and taut in a trial. before, now: its pulls [N];
+ * p: the wires at its ends. */
 static int note_snap(const sw_scene *s, double before, double now, const sw_plan *const *p,
                      sw_snap *snap) {
   if (before > 0 || !(now > 0)) return 0;
@@ -156,7 +158,7 @@ int sw_scene_ties_snap(const sw_scene *s, sw_snap *snap) {
   return any;
 }
 
-/* Ties to points, which break when their force is told of the accepted state. */
+/* Reports ties to points. They break when they follow the accepted state. */
 static void tell_of_terms(sw_scene *s, size_t body) {
   sw_system *system = sw_scene_system(s);
   const sw_body *b = &system->bodies[body];
@@ -165,7 +167,7 @@ static void tell_of_terms(sw_scene *s, size_t body) {
     if (!term->cls->pull) continue;
     const double pull = pull_of(system, b, term, system->x, 1, &bears);
     if (!(bears > 0 && pull > bears)) continue;
-    sw_course_jump(sw_scene_course(s)); /* its force is gone, the state's accelerations have it */
+    sw_course_jump(sw_scene_course(s)); /* the accelerations still have its force */
     sw_scene_tell(s, "tie", sw_scene_wire_in(s, body)->name, NAN, pull,
                   "a tie of wire '%s' breaks at %.4g N; it bears %.4g N",
                   sw_scene_wire_in(s, body)->name, pull, bears);

@@ -14,10 +14,10 @@
 
 /* --- places ---------------------------------------------------------------------- */
 
-/* Places along a wire: nodes of a line, rings of a mesh. */
+/* Number of places along a wire: nodes of a line, rings of a mesh. */
 static size_t along(const sw_plan *p) { return p->web ? p->web->rings : p->nodes; }
 
-/* And those at clamps, of a line. */
+/* Number of additional places at clamps of a line. */
 static size_t at_clamps(const sw_plan *p) { return p->web ? 0 : p->clamp_count; }
 
 static double place_of(const sw_plan *p, size_t k) {
@@ -29,7 +29,8 @@ static int side_of(const sw_plan *p, size_t k) {
   return k < along(p) ? 0 : p->clamps[k - p->nodes].side;
 }
 
-/* Are the places those of the plan? Nodes beside a feed go along it. */
+/* 1 if the places are those of the plan. Nodes beside a feed may have moved a little along the
+ * wire. */
 static int is_same(const sw_wear *w, const sw_plan *p) {
   const size_t n = along(p);
   const double slack = 0.25 * (place_of(p, n - 1) - place_of(p, 0)) / (double)n;
@@ -47,8 +48,8 @@ static double widest(const sw_wear *w, size_t k) {
   return most;
 }
 
-/* The old place that a new one goes on from: the nearest; of those at one node the one of its side,
- * else the one that has gone through most. */
+/* Returns the old place from which a new one goes on: the nearest. Of several at one node: the one
+ * of the same side, else the one with the widest cycles. */
 static size_t origin(const sw_wear *old, double s, int side) {
   size_t best = 0;
   for (size_t k = 1; k < old->count; k++) {
@@ -62,15 +63,15 @@ static size_t origin(const sw_wear *old, double s, int side) {
   return best;
 }
 
-/* The wire that belongs to place k along it begins here; that of the last one ends at that of
- * number nodes [m]. */
+/* Returns where the wire that belongs to place k begins. Place k ends where k + 1 begins; the last
+ * one ends at k = nodes [m]. */
 static double begin_of(const sw_wear *w, size_t k) {
   if (k == 0) return w->places[0].s;
   return k < w->nodes ? 0.5 * (w->places[k - 1].s + w->places[k].s) : w->places[k - 1].s;
 }
 
-/* Work of friction stays where it was done, and all of it: a new place has the mean of the old
- * ones' over its length. */
+/* Moves the work of friction to the new places without changing its sum: a new place gets the mean
+ * of the old ones over its length. */
 static void spread_friction(const sw_wear *old, sw_wear *new) {
   size_t from = 0;
   for (size_t k = 0; k < new->count; k++) new->places[k].rubbed = new->places[k].slid = 0;
@@ -86,7 +87,7 @@ static void spread_friction(const sw_wear *old, sw_wear *new) {
   }
 }
 
-/* As it was, at the places of the plan. */
+/* Carries the wear over to the places of the plan. */
 static void carry_over(const sw_wear *old, const sw_plan *p, sw_wear *new) {
   for (size_t k = 0; k < new->count; k++) {
     const double s = place_of(p, k);
@@ -102,7 +103,7 @@ static void carry_over(const sw_wear *old, const sw_plan *p, sw_wear *new) {
   if (old->count) spread_friction(old, new);
 }
 
-/* The same places, some of which went along the wire. */
+/* Handles unchanged places of which some have moved along the wire. */
 static sw_status move_places(sw_wear *w, const sw_plan *p) {
   int moved = 0;
   for (size_t k = 0; k < w->count; k++) moved |= w->places[k].s != place_of(p, k);
@@ -129,7 +130,7 @@ static sw_status fit(sw_wear *w, const sw_plan *p) {
   }
   carry_over(w, p, &new);
   new.pressed = w->pressed, w->pressed = (sw_window){0};
-  new.sidewall = w->sidewall; /* holds 0: directions are found anew */
+  new.sidewall = w->sidewall; /* holds stays 0: directions are found anew */
   sw_wear_free(w);
   *w = new;
   return SW_OK;
@@ -137,8 +138,8 @@ static sw_status fit(sw_wear *w, const sw_plan *p) {
 
 /* --- sidewall pressure ---------------------------------------------------------- */
 
-/* Pressure at a node that touches: chords on a round thing turn by turns too much and too little,
- * so that where the next node touches too, the mean of both counts. */
+/* Returns the pressure at a touching node. On a round body the turns at the nodes are alternately
+ * too large and too small. So where the next node touches too, the mean of both counts. */
 static double pressure_at(const sw_wear *w, size_t i) {
   const sw_wear_place *x = &w->places[i];
   if (!x->touches) return 0;
@@ -146,7 +147,7 @@ static double pressure_at(const sw_wear *w, size_t i) {
   return i > 0 && x[-1].touches ? 0 : x->load;
 }
 
-/* Beside a clamp its node has what the clamp has. */
+/* A node beside a clamp gets the larger load of the two. */
 static void press_sides(const sw_plan *p, sw_wear *w) {
   for (size_t c = 0; c < p->clamp_count; c++) {
     sw_wear_place *node = &w->places[p->clamps[c].node];
@@ -154,7 +155,8 @@ static void press_sides(const sw_plan *p, sw_wear *w) {
   }
 }
 
-/* Differences of integrals leave rounding where nothing presses; no load is as small [N/m]. */
+/* Differences of integrals leave rounding errors where nothing presses. Every real load is larger
+ * [N/m]. */
 static const double ROUNDING = 1e-12;
 
 static void keep(sw_extreme *kept, double value, double place, double time) {
@@ -169,7 +171,7 @@ sw_extreme sw_wear_sidewall(const sw_scene *s, const sw_wear *w) {
   if (!window->marks || window->edges != w->nodes) return most;
   const int due =
       sw_window_waits(window) && sw_scene_is_averaged(s) && sw_window_full(window, c->window);
-  if (most.value > 0 && !due) return most; /* else a record shorter than the window */
+  if (most.value > 0 && !due) return most; /* otherwise the run is shorter than the window */
   const size_t i = sw_window_largest(window, c->window, &mean);
   keep(&most, mean, w->places[i].s, window->now);
   return most;
@@ -183,7 +185,8 @@ static sw_status fit_pressed(sw_wear *w) {
   return sw_window_fit(&w->pressed, w->nodes, s);
 }
 
-/* Single steps of a blow say nothing of how long it lasts: means count, as of other peaks. */
+/* A single step of an impact does not tell how long it lasts. So means over the window count, as
+ * for other peaks. */
 static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   sw_course *c = sw_scene_course(s);
   const int averaged = sw_scene_is_averaged(s);
@@ -206,7 +209,7 @@ static sw_status press(sw_scene *s, const sw_plan *p, sw_wear *w) {
   return SW_OK;
 }
 
-/* What came from a tape or a snapshot has none. */
+/* Makes room for across, which wear from a tape or a snapshot does not have. */
 static sw_status make_room(sw_wear *w) {
   if (!w->across) w->across = sw_alloc(w->count, sizeof *w->across);
   return w->across ? SW_OK : SW_ENOMEM;
@@ -217,7 +220,7 @@ sw_status sw_wear_note(sw_scene *s, size_t w, int rubs, sw_error *err) {
   sw_wear *wear = &sw_scene_wire_in(s, w)->wear;
   const sw_body *b = &system->bodies[w];
   const sw_web *web = b->plan->web;
-  if (web && !web->per_ring) return SW_OK; /* an object, no wire */
+  if (web && !web->per_ring) return SW_OK; /* an object, not a wire */
   sw_status status = fit(wear, b->plan);
   if (status == SW_OK) status = make_room(wear);
   if (status == SW_OK && web) sw_wear_count_mesh(system, b, wear);

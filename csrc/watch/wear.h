@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wear of each place of a wire, added up over all steps of a run: cycles of tension and of bending,
- * work of friction. Recorded if the run asks for it.
+/* Wear of each place of a wire, summed over all steps of a run: cycles of tension and of bending,
+ * and work of friction. Recorded only if the run asks for it.
  *
- * Bending is counted as the fibres feel it, in SW_WEAR_WAYS directions that turn with the wire, so
- * that to and fro is one cycle of the whole range. They are those of its material frames or of the
- * sections of its mesh where it has them; else they are carried along it from the holds, twisted as
- * it is twisted evenly between two of them, and where nothing holds it from its first edge, which
- * does not roll. */
+ * Bending is counted as the wire's fibres feel it, in SW_WEAR_WAYS directions that turn with the
+ * wire: bending to and fro is one cycle of the whole range. The directions are those of the wire's
+ * material frames or mesh sections, if it has them. Otherwise they are carried along the wire from
+ * its holds, with the twist spread evenly between two holds. Without a hold they are carried from
+ * the first edge, which does not roll. */
 #ifndef SW_WATCH_WEAR_H
 #define SW_WATCH_WEAR_H
 
@@ -16,35 +16,36 @@
 #include "scene/scene.h"
 #include "system/system.h"
 
-/* The state of wire w is one of the run; rubs: reached by a step, in which touches slid. SW_ENOMEM.
- */
+/* Notes the present state of wire w. rubs = 1: a step led to it, in which touches slid.
+ * SW_ENOMEM. */
 sw_status sw_wear_note(sw_scene *scene, size_t w, int rubs, sw_error *err);
 
-/* What one place bears at a state. */
+/* Load of one place at a state. */
 typedef struct sw_wear_load {
-  sw_vec tangent, across; /* of the wire; the direction that turns with it [-] */
-  sw_vec bend;            /* the curvature, across the wire towards where it bends [1/m] */
+  sw_vec tangent, across; /* wire tangent; direction that turns with the wire [-] */
+  sw_vec bend;            /* curvature, across the wire towards where it bends [1/m] */
   double tension;         /* [N] */
 } sw_wear_load;
 
-/* It joins the cycles of place k. anew: across is not what it was before the step; the place goes
- * on with its own direction as if it had not rolled in it. */
+/* Adds a load to the cycles of place k. anew = 1: across has changed its meaning since the last
+ * step; the place keeps its own direction, as if it had not rolled in this step. */
 void sw_wear_count(sw_wear *wear, size_t k, const sw_wear_load *load, int anew);
-/* The same of all places of a line, with axial forces T of its edges [N], and of a mesh. */
+/* The same for all places of a line, with axial forces T of its edges [N], and of a mesh. */
 void sw_wear_count_line(const sw_system *system, const sw_body *body, const double *T,
                         sw_wear *wear);
 void sw_wear_count_mesh(const sw_system *system, const sw_body *body, sw_wear *wear);
-/* A bend of this size towards the change of tangent, seen across the tangent t [1/m]. */
+/* Returns a vector of this size in the direction of the tangent's change, across the tangent t
+ * [1/m]. */
 sw_vec sw_wear_towards(sw_vec change, sw_vec t, double size);
 
-/* Friction of the step that ends now, at the wire's places. */
+/* Adds the friction of the step that just ended, at the wire's places. */
 void sw_wear_rub(const sw_scene *scene, const sw_body *body, sw_wear *wear);
 
-/* The largest pressure T/R up to now, with what the last step is part of [N/m]. */
+/* Returns the largest pressure T/R so far, including the window of the last steps [N/m]. */
 sw_extreme sw_wear_sidewall(const sw_scene *scene, const sw_wear *wear);
 
-/* The wire's directions across its edges (edges), carried from what holds it; first: that of its
- * first edge where nothing does [-]. */
+/* Finds the wire's directions across its edges (edges), carried from its holds [-]. first: the
+ * first edge's direction if no hold gives one. */
 void sw_wear_axes(const sw_system *system, const sw_body *body, sw_vec first, sw_vec *across);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Directions across a wire that turn with it. */
+/* Finds directions across a wire that turn with it. */
 #include <math.h>
 
 #include "state/clamp.h"
@@ -10,7 +10,7 @@ static sw_vec turned(sw_vec u, sw_vec t, double angle) {
   return sw_madd(sw_scale(u, cos(angle)), sw_cross(t, u), sin(angle));
 }
 
-/* A direction that goes with the hold, carried to the edge beside it. */
+/* Returns a direction that moves with the hold, carried to the edge beside it. */
 static sw_vec from_hold(const sw_system *s, const sw_body *b, const sw_clamp_hinge *c) {
   const size_t at = sw_clamp_place(c);
   const sw_vec local = sw_perpendicular(sw_unit_or(sw_vec_at(s->directors, at), sw_v(1, 0, 0)));
@@ -19,14 +19,15 @@ static sw_vec from_hold(const sw_system *s, const sw_body *b, const sw_clamp_hin
   return sw_carry_unit(u, d, sw_field_tangent(&b->field, c->edge));
 }
 
-/* The clamp of the plan at which the edge leaves (1) or arrives (-1), or NULL. */
+/* Returns the plan's clamp that the edge leaves (1) or arrives at (-1), or NULL. */
 static const sw_clamp_hinge *clamp_of(const sw_plan *p, size_t edge, int side) {
   for (size_t c = 0; c < p->clamp_count; c++)
     if (p->clamps[c].edge == edge && p->clamps[c].side == side) return &p->clamps[c];
   return NULL;
 }
 
-/* The first edge that a hold gives a direction to, from which the wire before it has its own. */
+/* Returns the first edge that gets its direction from a hold. The wire before it takes its
+ * directions from this edge. */
 static size_t first_source(const sw_plan *p, const sw_clamp_hinge **clamp) {
   *clamp = NULL;
   for (size_t c = 0; c < p->clamp_count; c++)
@@ -34,7 +35,7 @@ static size_t first_source(const sw_plan *p, const sw_clamp_hinge **clamp) {
   return *clamp ? (*clamp)->edge : 0;
 }
 
-/* Twist of the edges of spans: even between their holds. */
+/* Adds the twist of spans to their edges: it grows evenly between the two holds. */
 static void twist_spans(const sw_system *s, const sw_body *b, sw_vec *across) {
   const sw_plan *p = b->plan;
   for (size_t k = 0; b->has_twist && k < p->span_count; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a place of a wire bears at a state joins its cycles. */
+/* Adds the load of a wire's place at a state to the place's cycles. */
 #include <math.h>
 
 #include "state/hinge.h"
@@ -14,7 +14,7 @@ static double angle_from(sw_vec a, sw_vec b, sw_vec t) {
   return atan2(sw_dot(sw_cross(a, b), t), sw_dot(a, b));
 }
 
-/* The place's own direction: as before where what holds the wire is not as before. */
+/* Sets the place's own direction. It stays as it was in a step in which the holds changed. */
 static void turn_place(sw_wear_place *x, sw_vec tangent, sw_vec across, int anew) {
   if (!x->seen) x->turn = 0;
   if (x->seen && anew) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the places of a line bear: tension of its edges, bends of its hinges and beside clamps. */
+/* Loads of the places of a line: tensions of its edges, bends of its hinges and beside clamps. */
 #include <math.h>
 
 #include "base/each.h"
@@ -8,7 +8,7 @@
 #include "state/hinge.h"
 #include "watch/wear.h"
 
-/* A number for what holds the wire's direction where. */
+/* Returns a number that tells which holds fix the wire's direction, and where. */
 static uint64_t holds_of(const sw_body *b) {
   uint64_t sum = sw_sum(SW_SUM_START, &b->plan->clamp_count, sizeof b->plan->clamp_count);
   SW_ITEMS(const sw_clamp_hinge, h, b->plan->clamps, b->plan->clamp_count) {
@@ -23,7 +23,7 @@ static size_t edge_of(const sw_plan *p, size_t k) {
   return k < p->edges ? k : p->edges - 1;
 }
 
-/* Where the wire bends to, by the curvature, across the edge of the place [1/m]. */
+/* Returns the curvature at a place, as a vector across the place's edge towards the bend [1/m]. */
 static sw_vec bend_of(const sw_system *s, const sw_body *b, size_t k) {
   const sw_plan *p = b->plan;
   if (k >= p->nodes) {
@@ -38,7 +38,7 @@ static sw_vec bend_of(const sw_system *s, const sw_body *b, size_t k) {
   return sw_wear_towards(change, t, 2.0 * asin(fmin(1.0, 0.5 * sw_norm(change))) / p->hinge[k]);
 }
 
-/* Across the wire at a place: between those of both edges. */
+/* Returns the direction across the wire at a place: the mean of both edges' directions. */
 static sw_vec across_at(const sw_body *b, const sw_vec *across, size_t k) {
   const sw_plan *p = b->plan;
   const size_t e = edge_of(p, k);
@@ -48,7 +48,7 @@ static sw_vec across_at(const sw_body *b, const sw_vec *across, size_t k) {
   return sw_unit_or(sw_add(before, across[e]), across[e]);
 }
 
-/* Axial force at a place: the mean of both edges, beside a clamp that of its edge. */
+/* Returns the axial force at a place: the mean of both edges; beside a clamp that of its edge. */
 static double tension_at(const sw_plan *p, const double *T, size_t k) {
   if (k >= p->nodes) return T[p->clamps[k - p->nodes].edge];
   if (k == 0) return T[0];
@@ -64,7 +64,7 @@ void sw_wear_count_line(const sw_system *s, const sw_body *b, const double *T, s
       start->seen ? sw_carry_unit(start->across, start->tangent, t0) : sw_perpendicular(t0);
   sw_wear_axes(s, b, first, across);
   const uint64_t holds = holds_of(b);
-  const int free_start = !p->clamp_count && !b->spin_block; /* it is carried on by itself */
+  const int free_start = !p->clamp_count && !b->spin_block; /* directions start at the first edge */
   if (free_start) start->turn = 0;
   for (size_t k = 0; k < wear->count; k++) {
     const sw_wear_load load = {.tangent = sw_field_tangent(&b->field, edge_of(p, k)),

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the rings of a mesh bear, as its read-outs tell it: values of slices, linear between their
- * middles and on to the ends. Directions across are those of the sections, so that nothing has to
- * be known of how the mesh came to be turned.
+/* Loads of the rings of a mesh, as its read-outs give them: values of slices, linear between the
+ * slices' middles and extrapolated to the ends. The directions across are those of the sections, so
+ * the history of the mesh's rotation need not be known.
  *
- * Where parts of it are lines of particles, which carry no twist, sections between them turn about
- * themselves at no cost, as a wire does not. There the sections that holds keep from turning give
- * the directions, carried along the wire untwisted from the nearer one. */
+ * Where parts of the mesh are lines of particles, which carry no twist, the sections between them
+ * can turn about the wire's axis at no cost; a real wire does not. There only the sections that
+ * holds keep from turning give directions, and these are carried untwisted along the wire from the
+ * nearer section. */
 #include <math.h>
 
 #include "body/section.h"
@@ -25,7 +26,8 @@ static void carry(const sw_web *w, const double *x, size_t from, size_t to, sw_v
       sw_carry_unit(across[from], sw_strand_facing(w, x, from), sw_strand_facing(w, x, to));
 }
 
-/* Those from begin to before end, between two that have their directions, or beside one. */
+/* Fills the directions from begin to before end, between two rings that have theirs, or beside
+ * one. */
 static void fill(const sw_web *w, const double *x, size_t begin, size_t end, sw_vec *across) {
   const int before = begin > 0, after = end < w->rings;
   const size_t middle = before && after ? begin + (end - begin) / 2 : before ? end : begin;
@@ -35,12 +37,12 @@ static void fill(const sw_web *w, const double *x, size_t begin, size_t end, sw_
 
 static int has_lines(const sw_web *w) { return w->particles != w->rings * w->per_ring; }
 
-/* What of its surface is held cannot turn. */
+/* 1 if the ring's surface is held, so the ring cannot turn. */
 static int is_held(const sw_plan *p, size_t r) {
   return p->held[p->web->first[r] + p->web->around[0]] != SW_FREE;
 }
 
-/* Does ring r give a direction? only_held: sections that are held do. */
+/* 1 if ring r gives a direction. only_held = 1: only held sections do. */
 static int gives(const sw_plan *p, size_t r, int only_held) {
   return sw_web_is_ring(p->web, r) && (!only_held || is_held(p, r));
 }
@@ -51,12 +53,12 @@ static int any_gives(const sw_plan *p) {
   return 0;
 }
 
-/* Returns a number for which of them give the directions. */
+/* Finds the directions. Returns a number that tells which rings gave them. */
 static uint64_t axes(const sw_plan *p, const double *x, sw_vec *across) {
   const sw_web *w = p->web;
   const int only_held = has_lines(w) && any_gives(p);
   uint64_t sum = sw_sum(SW_SUM_START, &only_held, sizeof only_held);
-  size_t rest = 0; /* where those begin that still have none */
+  size_t rest = 0; /* first ring without a direction so far */
   for (size_t r = 0; r < w->rings; r++) {
     if (!gives(p, r, only_held)) continue;
     across[r] = section_axis(w, x, r);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run did to a wire, place by place, where it was asked to keep that; see wear.h. */
+/* Read-outs of a wire's recorded wear, place by place; see wear.h. */
 #ifndef SW_WATCH_WORN_H
 #define SW_WATCH_WORN_H
 
@@ -11,21 +11,21 @@
 typedef struct sw_worn {
   double s;      /* [m] */
   double rubbed; /* work of friction per length [J/m] */
-  double slid;   /* normal force per length times the way that slid [N] */
-  int side;      /* -1, 1: where the wire enters or leaves what holds its direction; else 0 */
+  double slid;   /* normal force per length times slid distance [N] */
+  int side;      /* -1, 1: where the wire arrives at or leaves a clamp; else 0 */
 } sw_worn;
 
-/* How many places there are: 0 where nothing is kept. */
+/* Number of places; 0 where nothing is recorded. */
 sw_status sw_scene_worn(const sw_scene *scene, sw_handle wire, size_t *places, sw_error *err);
-/* The largest pressure T/R of its surface where it touched something [N/m]. */
+/* Returns the largest pressure T/R of the wire on what it touched [N/m]. */
 sw_extreme sw_scene_worn_sidewall(const sw_scene *scene, sw_handle wire);
-/* Place number k of them, and its cycles of a signal (SW_CYCLES_KEPT + SW_CYCLES_OPEN at most),
- * whose number is returned. */
+/* Returns place number k. cycles: fills in its cycles of a signal (SW_CYCLES_KEPT + SW_CYCLES_OPEN
+ * at most) and returns their number. */
 sw_worn sw_scene_worn_place(const sw_scene *scene, sw_handle wire, size_t k);
 size_t sw_scene_worn_cycles(const sw_scene *scene, sw_handle wire, size_t k, int signal,
                             sw_cycle *out);
-/* Values of the reversals among these that still wait for their cycle (SW_CYCLES_OPEN at most);
- * gives how many. */
+/* Fills in the values of the reversals that still wait for their cycle (SW_CYCLES_OPEN at most),
+ * and returns their number. */
 size_t sw_scene_worn_open(const sw_scene *scene, sw_handle wire, size_t k, int signal, double *out);
 
 #endif

@@ -66,7 +66,7 @@ const sw_zone_past *sw_scene_zone_past(const sw_scene *s, sw_handle h, size_t k)
 
 /* --- distances ------------------------------------------------------------------- */
 
-/* Pieces that a wire is seen as: its edges, or the particles of a mesh. */
+/* Number of pieces of a wire: its edges, or the particles of a mesh. */
 static size_t pieces_of(const sw_plan *p) { return p->web ? p->nodes : p->edges; }
 
 static double gap_at(const sw_shape *shape, sw_vec p) {
@@ -74,7 +74,7 @@ static double gap_at(const sw_shape *shape, sw_vec p) {
   return sw_shape_point(shape, p, HUGE_VAL, &at) ? at.gap : HUGE_VAL;
 }
 
-/* Of the piece a-b from the zone, and how far along it that is. */
+/* Returns the gap between the piece a-b and the zone; along: where on the piece, 0 to 1. */
 static double gap_of(const sw_zone *z, sw_vec a, sw_vec b, double *along) {
   sw_closest list[SW_CLOSEST_MAX];
   const sw_vec p = sw_pose_local(z->pose, a), q = sw_pose_local(z->pose, b);
@@ -97,19 +97,20 @@ static double place_of(const sw_plan *p, size_t e, double along) {
   return p->s[e] + along * (p->s[e + 1] - p->s[e]);
 }
 
-/* How far an end of the piece has moved since the last step's end. */
+/* Returns the larger shift of the piece's ends since the last step's end. */
 static double moved(const sw_zone_watch *w, size_t e, sw_vec from, sw_vec to) {
   return fmax(sw_dist(sw_load(w->x + 6 * e), from), sw_dist(sw_load(w->x + 6 * e + 3), to));
 }
 
-/* By how much the axes that the zone goes with have turned since the last step's end [rad]. */
+/* Returns the turn of the zone's obstacle since the last step's end [rad]. */
 static double turned(const sw_zone *z, const sw_zone_past *past) {
   return sw_norm(sw_quat_log(sw_quat_mul(z->carrier.q, sw_quat_conj(past->before.q))));
 }
 
-/* The way of a point in those axes. It goes straight, they shift evenly by what makes c of its
- * way, and turn evenly by an angle, at a distance of r at most: then its way there is longer than
- * the chord by (2 angle c + angle^2 r) / 3 at most, a third of its largest second derivative. */
+/* Returns a bound of the path length of a point in the obstacle's axes. The point moves straight at
+ * constant speed, relative to the obstacle by c; the obstacle turns at a constant rate by an angle;
+ * r is the largest distance between them. The path is longer than its chord by (2 angle c + angle^2
+ * r) / 3 at most, a third of its largest second derivative. */
 static double way_in(const sw_zone *z, const sw_zone_past *past, double angle, sw_vec from,
                      sw_vec to) {
   const sw_vec a = sw_pose_local(past->before, from), b = sw_pose_local(z->carrier, to);
@@ -118,7 +119,7 @@ static double way_in(const sw_zone *z, const sw_zone_past *past, double angle, s
   return sw_dist(a, b) + (2 * angle * c + angle * angle * r) / 3;
 }
 
-/* How far an end of the piece has moved since, as seen from the zone. */
+/* Returns how far an end of the piece has moved since then, as seen from the zone. */
 static double passed(const sw_zone *z, const sw_zone_past *past, const sw_zone_watch *w, size_t e,
                      sw_vec from, sw_vec to) {
   if (!z->on.generation) return moved(w, e, from, to);
@@ -127,11 +128,11 @@ static double passed(const sw_zone *z, const sw_zone_past *past, const sw_zone_w
               way_in(z, past, angle, sw_load(w->x + 6 * e + 3), to));
 }
 
-/* The farthest that any node may have gone since a time. */
+/* Returns the largest distance that any node may have gone since a time. */
 static double farthest(const sw_scene *s, const sw_body *b, double since) {
   double most = 0;
   if (!(sw_scene_time(s) > since)) return 0;
-  if (!(sw_scene_course(s)->span > 0)) return HUGE_VAL; /* poses have no speeds */
+  if (!(sw_scene_course(s)->span > 0)) return HUGE_VAL; /* rest poses have no speeds */
   for (size_t i = 0; i < b->plan->nodes; i++)
     most = fmax(most, sw_norm(sw_vec_at(sw_scene_system(s)->v, b->first_node + i)));
   return most * (sw_scene_time(s) - since);
@@ -164,7 +165,7 @@ static void note_zone(const sw_scene *s, size_t w, size_t k, int same) {
     double along;
     piece(system, b, e, &from, &to);
     const double gap = gap_of(zone, from, to, &along) - sw_plan_skin(b->plan, e);
-    /* a place that was `old` away and is `gap` away now was never nearer than this */
+    /* a place at distance `old` before and `gap` at present was never nearer than this */
     const double way = !same ? far : seen ? passed(zone, past, watch, e, from, to) : 0;
     const double old = same ? gaps[e] : before;
     past->between = fmin(past->between, seen ? fmin(gap, 0.5 * (old + gap - way)) : gap);
@@ -196,12 +197,12 @@ static sw_status fit(sw_scene *s, size_t w, int *same) {
   return SW_OK;
 }
 
-/* One that goes with an obstacle is taken away with it. */
+/* 0 if the zone's obstacle is gone: the zone goes with it. */
 static int is_there(const sw_scene *s, const sw_zone *z) {
   return !z->on.generation || sw_scene_find_obstacle(s, z->on, NULL);
 }
 
-/* Zones that go with an obstacle are where it is. */
+/* Moves zones with their obstacles. */
 static sw_status carry(sw_scene *s, sw_error *err) {
   const sw_zones *zones = sw_scene_zones_of(s);
   for (size_t k = 0; k < zones->count; k++) {
