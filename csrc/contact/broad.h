@@ -10,7 +10,7 @@
 typedef struct sw_contact_at {
   sw_pose pose;
   sw_vec v, omega; /* [m/s], [rad/s] */
-  sw_vec pivot; /* what moments are about, see sw_motion_state [m] */
+  sw_vec pivot;    /* what moments are about, see sw_motion_state [m] */
 } sw_contact_at;
 
 /* Obstacles with a tree of their own. */

@@ -59,8 +59,7 @@ static sw_status spin(sw_scene *s, sw_handle h, double place, double *out, sw_er
   sw_point_state p;
   SW_FIND(const sw_scene_wire, w, sw_scene_find_wire(s, h, err));
   if (!w->beam.rolls)
-    return sw_fail(err, SW_EINVAL, "wire '%s': spin needs a wire made with rolls = true",
-                   w->name);
+    return sw_fail(err, SW_EINVAL, "wire '%s': spin needs a wire made with rolls = true", w->name);
   SW_TRY(sw_scene_wire_at(s, h, place, &p, err));
   *out = p.spin;
   return SW_OK;
