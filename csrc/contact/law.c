@@ -231,9 +231,9 @@ static sw_vec rubbed(const sw_press *p, double friction) {
 /* Friction by the linearised law at displacement u, reversed, over its limit. If each touch's
  * curvature comes from its place alone, an iteration on sums of many directions u/|u| is misled,
  * because along u there is no curvature: touches that should stick are thrown past their place and
- * back, hundreds at once. So the direction w is an unknown beside the place, with |w| <= 1, and |u|
- * w = u is linearised; curvature then acts only where friction is at its limit (Chan, Golub and
- * Mulet 1999, for sums of norms in images). */
+ * back, hundreds at once. So the direction w, |w| <= 1, is an unknown beside the place, and the
+ * equation |u| w = u is linearised; curvature then acts only where friction is at its limit (Chan,
+ * Golub and Mulet 1999, for sums of norms in images). */
 static sw_vec pulled(const sw_press *p, sw_vec u, sw_vec along, double most) {
   double length;
   const sw_vec d = direction(p, &length);

@@ -79,7 +79,7 @@ double sw_ends_speed(const sw_system *s, const sw_ends *e) {
 
 /* --- steps ----------------------------------------------------------------------- */
 
-/* Scale of the forces that a body may press with: its weight; of a wire also bending force and
+/* Scale of a body's pressing forces: its weight; for a wire also its bending force and its
  * tension. */
 static double force_of(const sw_system *s, const sw_body *b) {
   const sw_plan *p = b->plan;
@@ -324,8 +324,7 @@ static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) 
   return 1;
 }
 
-/* Adds a touch made from memory. For read-outs it stands for the touch until a step finds
- * touches. */
+/* Adds a touch made from memory, which stands for it in read-outs until a step finds touches. */
 static sw_status show(sw_mutual *m, const sw_met *met) {
   sw_meet *t = sw_meet_new(m);
   if (!t) return SW_ENOMEM;
