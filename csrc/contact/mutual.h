@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact between bodies: wires with wires and themselves; objects of particles with wires, each
- * other and themselves. The law is that of obstacles. Two finders (pairs_near.c, grains.c) give the
+ * other and themselves. The law is that of obstacles. Two finders (pairs.c, grains.c) give the
  * places of touch and how these depend on nodes; the rest is common. The effect on both bodies
  * stays in the matrix as bridges between their nodes. */
 #ifndef SW_CONTACT_MUTUAL_H
