@@ -15,7 +15,7 @@ static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
-static const double SKIN = 1.5;        /* radii: anything this near is a candidate [-] */
+static const double SKIN = 1.5;        /* anything nearer than this many radii is a candidate [-] */
 
 static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
   return low.x > b->max.x || high.x < b->min.x || low.y > b->max.y || high.y < b->min.y ||
@@ -146,7 +146,7 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
 
 /* A node and the other ends of its segments. */
 typedef struct outlook {
-  sw_vec x, low, high; /* the node's place, the box of all [m] */
+  sw_vec x, low, high; /* the node's position; the box of all nodes [m] */
   double reach;        /* largest reach of these nodes, without the motion of obstacles [m] */
 } outlook;
 

@@ -159,11 +159,11 @@ static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift)
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
-/* 1 if this is a stage's first update, which is not accepted on obstacles that are not flat. It
- * starts from a prediction, where the normals of round obstacles are a little off. If it were
- * accepted, ropes that slide round a cylinder would shake: their force would swing by 12 % instead
- * of 1 %. A mesh that rocks on a peg would gain energy. Meshes in a gripper's pads are excepted:
- * the gripper then finds its force in fewer trials. */
+/* 1 if this is a stage's first update, on an obstacle that is not flat. It starts from a
+ * prediction, where the normals of round obstacles are a little off, and is not accepted unchecked:
+ * ropes that slide round a cylinder would shake (their force would swing by 12 % instead of 1 %),
+ * and a mesh that rocks on a peg would gain energy. Meshes in a gripper's pads are excepted: the
+ * gripper then finds its force in fewer trials. */
 static int is_first(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   if (c->obstacles[t->obstacle].grips > 0 && s->bodies[t->body].plan->web) return 0;
   return c->updates == 1 && c->regime == SW_CONTACT_IMPLICIT && !c->flat[t->obstacle] &&
@@ -177,7 +177,7 @@ static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
          !(shift <= SW_SMALL_SHIFT * radius);
 }
 
-/* Updates a touch's forces to the solved update; 1 = it agrees with what the solve assumed.
+/* Sets a touch's forces after the solved update; 1 = it agrees with what the solve assumed.
  * Friction of a loose object's many touches may never agree everywhere. After many updates it no
  * longer keeps iterations going if it shifts a touch by less than a small share of the radius; for
  * that step friction is then off by less than its own size. */
@@ -227,8 +227,8 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   return any;
 }
 
-/* Updates all touches to the update; 1 if they agree. Then pressing touches are noted, and *changes
- * tells whether stiffnesses should change. */
+/* Sets the forces of all touches after the update; 1 if they agree. Then pressing touches are
+ * noted, and *changes tells whether stiffnesses should change. */
 static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta,
                       int *changes) {
   const int may = c->regime != SW_CONTACT_EXPLICIT && !s->rough;

@@ -52,7 +52,7 @@ static inline double sw_press_grip(const sw_press *p) {
 typedef struct sw_kept {
   double normal_force; /* 0: near, but without force [N] */
   double depth;        /* depth at that force [m] */
-  double k;            /* to begin the next step with [N/m] */
+  double k;            /* stiffness at the next step's start [N/m] */
   double steady; /* mean normal force of the last steps; when just kept, that at the end [N] */
   double soft;   /* as in sw_press [-] */
   double left;   /* further depth, left from when it was made stiffer because it was squeezed [m] */

@@ -33,7 +33,7 @@ typedef struct sw_meet {
   int slides[2];  /* 1: the place follows the nearest points */
   double firm[2]; /* how firmly a sliding place keeps to the middle of each segment [-] */
   int flies;    /* 1: an overlap here may be of wires that flew into each other in the prediction */
-  int turns;    /* 1: its force turns with its normal in the linearisation */
+  int turns;    /* 1: the linearisation includes the turn of its normal */
   int far;      /* 1: too far from its last place for its force to be known */
   int barred;   /* 1: kept on its side by a barrier */
   int emerges;  /* 1: the wires were placed in each other and still come out */

@@ -87,7 +87,7 @@ static void lay(sw_contact *c, const sw_system *s, size_t i, int outwards) {
     if (c->touches[at].press.active) return;
     end = at;
   }
-  if (at == SIZE_MAX) return; /* up to the wire's end */
+  if (at == SIZE_MAX) return; /* pressed in up to the wire's end */
   size_t k = neighbour(c, i, -outwards, PRESSING);
   for (int n = 0; k != SIZE_MAX && n < 2; n++, k = neighbour(c, k, -outwards, PRESSING))
     c->touches[k].press.spare = 1; /* its pull belongs to that couple */

@@ -14,7 +14,7 @@
  * touch in this step. */
 typedef struct sw_candidate {
   int obstacle;
-  int segment;        /* number of the segment among those of its node; 0: the node itself */
+  int segment;        /* number of the segment at its node, from 1; 0: the node itself */
   size_t node, other; /* node in the system's arrays; the segment's other end, or the node again */
   size_t body;
   double radius;             /* of the wire there [m] */
@@ -142,7 +142,7 @@ typedef struct sw_contact_loads {
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed the starting velocities [N s] */
   sw_contact_load trial; /* load at the end of a trial [N] */
-  int busy;              /* 1: in the list of loaded obstacles */
+  int busy;              /* 1: in the list `busy` of loaded obstacles */
 } sw_contact_loads;
 
 /* Data of a stage that is solved by parts, here groups of bodies: the current part. */

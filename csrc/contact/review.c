@@ -97,10 +97,10 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
 }
 
 /* 1 if the step must be redone without rebound, at most once in a step. An impulse at the step's
- * start does not include the motion by forces within the step, which drive a wire into an obstacle.
- * The integrator makes such a touch bounce. From a moving obstacle, that bounce gets work step
- * after step. A mesh would hop by g h^2 for ever, because the restart at each landing gives back
- * what damping takes. */
+ * start does not include forces within the step that drive a wire into an obstacle. The integrator
+ * makes such a touch bounce: off a moving obstacle, which does work in each bounce, step after
+ * step; or of a mesh, which would hop by g h^2 for ever, because the restart at each landing gives
+ * back what damping takes. */
 static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < c->touch_count; i++) {
@@ -117,8 +117,8 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
 }
 
 /* A barrier holds a place like an endless face, even if the obstacle ends just above it. If it
- * bears more than this many weights of its wire, or of the force that bends the wire, it is in the
- * way of a wire that would pass over. A smaller step then decides [-]. */
+ * bears more than this many weights of its wire (or bending forces), it is in the way of a wire
+ * that would pass over; a smaller step decides that [-]. */
 static const double MOST_BORNE = 10.0;
 
 static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {

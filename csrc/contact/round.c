@@ -218,7 +218,7 @@ static int make_place(const sw_piece *c, double u, sw_place *place) {
   return 1;
 }
 
-/* The list may get several places: a ring has them. */
+/* A ring may give several places. */
 void sw_contact_round_places(const sw_piece *c, double reach, sw_places *list) {
   double before = rise_at(c, 0.0);
   for (int i = 0; i < PARTS; i++) {

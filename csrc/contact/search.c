@@ -50,10 +50,10 @@ static void go_on_from(sw_touch *t, sw_vec shift) {
   p->ahead = sw_madd(shift, p->normal, -sw_dot(p->normal, shift));
 }
 
-/* Number of stages that double the length of the bend. On stiff springs a wire bends within one
- * edge where it lifts off, and each solve would release a few nodes. On soft springs it bends over
- * many edges (doubled for each stage), and lifts off in few solves. Then springs become 16 times as
- * stiff from solve to solve, which halves the uncertainty of the lift-off place each time [-]. */
+/* DOUBLINGS: doublings of the bend's length on the softest springs. On stiff springs a wire bends
+ * within one edge where it lifts off, and each solve would release a few nodes. On soft springs it
+ * bends over many edges and lifts off in few solves. Then springs become 16 times as stiff from
+ * solve to solve, which halves the uncertainty of the lift-off place each time [-]. */
 enum { DOUBLINGS = 12 };
 static const double SOFTEST = 1e-9; /* least softened stiffness, of the touch's own [-] */
 

@@ -120,7 +120,7 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
 }
 
 /* Displacement of the wire's material at the touch since the step's start, relative to the
- * obstacle's. For a wire that rolls: of its surface. */
+ * obstacle's. For a wire that rolls, that of its surface. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
   const sw_vec from = sw_mean_place(c, s->x, &t->spot);
