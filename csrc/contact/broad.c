@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the obstacles near a place. One tree holds those that stand, another those that may move,
- * each with the box that a step may reach. Unbounded obstacles are always looked at; so are all
- * where there are few. Results are in the order of the obstacles, as from a search of all. */
+/* Finds the obstacles near a place. One tree holds the obstacles that stand, another one those that
+ * may move, each with the box that it may reach in a step. Unbounded obstacles are always looked
+ * at; if there are few obstacles, all are. Results are in the order of the obstacles, as from a
+ * search of all. */
 #include "contact/broad.h"
 
 #include <math.h>
@@ -12,10 +13,10 @@
 #include "base/halving.h"
 #include "contact/touch.h"
 
-enum { FEW = 8 }; /* obstacles that need no tree [-] */
+enum { FEW = 8 }; /* up to this many obstacles need no tree [-] */
 /* The tree of moving boxes is built again after this many steps [-]. */
 enum { MOST_REFITS = 32 };
-/* An obstacle that turns by more than this over sqrt(3) in the step may meet anything [rad]. */
+/* An obstacle whose turn in the step is more than this over sqrt(3) may meet anything [rad]. */
 static const double FASTEST_TURN = 0.5;
 static const double EVERYWHERE = 1e300;  /* [m] */
 static const double ROUNDING = 1.000001; /* [-] */
@@ -97,16 +98,16 @@ static sw_bounds world_bounds(const sw_shape *shape, const sw_pose *pose) {
   return (sw_bounds){sw_sub(middle, reach), sw_add(middle, reach)};
 }
 
-/* The largest distance of a corner of the box from p. */
+/* Largest distance of a corner of the box from p. */
 static double farthest(const sw_bounds *b, sw_vec p) {
   return sw_norm(sw_v(fmax(fabs(b->max.x - p.x), fabs(b->min.x - p.x)),
                       fmax(fabs(b->max.y - p.y), fabs(b->min.y - p.y)),
                       fmax(fabs(b->max.z - p.z), fabs(b->min.z - p.z))));
 }
 
-/* The box in which an obstacle meets things at most a away. Its material at x moves by (v + omega
- * |x - p|) h in the step, and x is within a plus that way. Solved for the largest reach: factor (a
- * + the margin of the box). */
+/* Returns the box in which an obstacle meets things at most a away. Its material at x moves by (v +
+ * omega |x - p|) h in the step, and x is within a plus that way. Solved for the largest reach:
+ * factor (a + the margin of the box). */
 static sw_bounds swept(sw_broad *b, const sw_contact *c, size_t o) {
   const sw_contact_at *at = &c->start[o];
   const sw_bounds *box = &c->bounds[o];
@@ -139,7 +140,7 @@ static void add_member(sw_broad *b, int group, size_t o) {
   g->member[g->count++] = (int)o;
 }
 
-/* Who belongs to which tree. */
+/* Sorts obstacles into the trees' groups. */
 static void sort_out(sw_contact *c) {
   sw_broad *b = &c->broad;
   const int few = c->count <= FEW;
@@ -180,7 +181,7 @@ sw_status sw_broad_update(sw_contact *c) {
   measure(c);
   if (!moving->count) return SW_OK;
   if (moving->refits++ >= MOST_REFITS) {
-    c->broad.sorted = 0; /* there may be no memory for it */
+    c->broad.sorted = 0; /* if there is no memory for the tree, the next update starts anew */
     SW_TRY(plant(moving));
     c->broad.sorted = 1;
     return SW_OK;
@@ -194,7 +195,7 @@ static int by_number(const void *a, const void *b) {
   return (p > q) - (p < q);
 }
 
-enum { QUICKLY = 32 }; /* numbers that are sorted by insertion [-] */
+enum { QUICKLY = 32 }; /* up to this many numbers are sorted by insertion [-] */
 
 static void sort(int *a, size_t n) {
   if (n > QUICKLY) {

@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Candidates of a step: a node or segment and an obstacle that it may touch; and the stiffness of
- * new touches. */
+/* Finds the candidates of a step (a node or segment and an obstacle that it may touch), and the
+ * stiffness of new touches. */
 #include <math.h>
 
 #include "base/alloc.h"
 #include "base/interrupt.h"
 #include "contact/round.h"
 
-/* A wire at rest sinks in by this much when a single touch carries its whole
- * weight [m]. */
+/* A wire at rest sinks in by this much if one touch carries its whole weight [m]. */
 static const double ALLOWED_PENETRATION = 20e-6;
-/* Stiffness over mass/hbar^2 in implicit steps: far above what the step
- * resolves, so that the gap closes to a thousandth of the free fall [-]. */
+/* Stiffness over mass/hbar^2 in implicit steps. It is far above what the step resolves, so that the
+ * gap closes to a thousandth of the free fall [-]. */
 static const double IMPLICIT_SHARE = 1000.0;
 /* An explicit step is stable while k h^2 / m stays below 4 [-]. */
 static const double EXPLICIT_SHARE = 0.2;
 static const double STAGE_SHARE = 0.3; /* hbar of the default method over the step [-] */
-static const double SKIN = 1.5;        /* radii: anything this near is a candidate [-] */
+static const double SKIN = 1.5;        /* anything nearer than this many radii is a candidate [-] */
 
 static int outside(const sw_bounds *b, sw_vec low, sw_vec high) {
   return low.x > b->max.x || high.x < b->min.x || low.y > b->max.y || high.y < b->min.y ||
@@ -39,7 +38,7 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   return reserve * c->h * (sw_norm(v) + g * c->h) + SW_FLIGHT_LEAST;
 }
 
-/* The widest gap of each node that can close in the step, without the motion of obstacles. */
+/* Finds the widest gap of each node that can close in the step, without the motion of obstacles. */
 static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
   const double radius = b->plan->beam.radius;
   double *const reach = c->reach + b->first_node;
@@ -52,14 +51,14 @@ static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
     reach[i] = c->regime == SW_CONTACT_STATIC ? whole : still + time * sw_norm(sw_load(v + 3 * i));
 }
 
-/* The same with what the obstacle does. */
+/* Returns that gap with the motion of obstacle o added. */
 static double reach_of(const sw_contact *c, const sw_system *s, size_t node, size_t o) {
   if (c->regime == SW_CONTACT_STATIC || !c->broad.moves[o]) return c->reach[node];
   const sw_vec x = sw_contact_where(c, s->x, node, node, 0);
   return c->reach[node] + sw_norm(sw_obstacle_velocity(&c->start[o], x)) * c->h;
 }
 
-/* Does the smooth curve of the wire meet the candidate's obstacle? */
+/* Decides whether the wire's smooth curve, not its chords, meets the candidate's obstacle. */
 static void find_smooth(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_plan *p = s->bodies[k->body].plan;
   if (p->web || p->beam.rolls) return;
@@ -87,7 +86,8 @@ static sw_status add_candidate(sw_contact *c, const sw_system *s, size_t body, s
   return SW_OK;
 }
 
-/* The other end of segment number k (from 1) that starts at node i, or i: there is none. */
+/* Returns the other end of segment number k (from 1) that starts at node i, or i if there is
+ * none. */
 static size_t other_end(const sw_plan *p, size_t i, int k) {
   const sw_web *w = p->web;
   if (!w) return k == 1 && i + 1 < p->nodes ? i + 1 : i;
@@ -95,17 +95,17 @@ static size_t other_end(const sw_plan *p, size_t i, int k) {
   return at < w->side_first[i + 1] ? w->side[at] : i;
 }
 
-/* Only particles meet pads if they lie close enough. Else the pad's edges would leave and enter the
- * surface's edges one by one, and the pad's force would jump. */
-static const double CLOSE = 3.0; /* rings along the pad's face, its x and z [-] */
+/* If particles lie close enough, only particles meet a pad, not the edges between them. These edges
+ * would leave and enter the pad's edges one by one, and the pad's force would jump. */
+static const double CLOSE = 3.0; /* least rings along the pad's face, its x and z [-] */
 
-/* The same for a line. A node at the edge of a pad comes and goes, and a whole segment's force with
- * it. So a pad with faces has evenly spread samples, this many along its width, that fade out at
- * its edges. Pins touch at the nearest place. */
+/* The same for a line. A node at the edge of a pad comes and goes, and with it the force of a whole
+ * segment. So a pad with faces has evenly spread samples, this many along its width, which fade out
+ * at its edges. Pins touch at the nearest place. */
 static const double SAMPLES = 12.0; /* [-] */
-enum { LEAST_SAMPLES = 2 };         /* of a segment [-] */
+enum { LEAST_SAMPLES = 2 };         /* least samples of a segment [-] */
 
-/* Pads' touches of the segment of a line. */
+/* Number of a pad's samples on segment i of a line; 0: none. */
 static int samples_of(const sw_plan *p, size_t i, double spaced) {
   if (!(spaced > 0)) return 0;
   return (int)fmin(SW_SAMPLES_MOST, fmax(LEAST_SAMPLES, ceil(p->rest[i] / spaced)));
@@ -146,8 +146,8 @@ static void look_at_pads(sw_contact *c, const sw_plan *p) {
 
 /* A node and the other ends of its segments. */
 typedef struct outlook {
-  sw_vec x, low, high; /* the node's place, the box of all [m] */
-  double reach;        /* of the farthest reach, without the motion of obstacles [m] */
+  sw_vec x, low, high; /* the node's position; the box of all nodes [m] */
+  double reach;        /* largest reach of these nodes, without the motion of obstacles [m] */
 } outlook;
 
 static outlook look_out(const sw_contact *c, const sw_system *s, const sw_body *b, size_t i) {
@@ -193,7 +193,7 @@ static sw_status node_candidates(sw_contact *c, sw_system *s, size_t body, size_
   return SW_OK;
 }
 
-/* Order of candidates and memory: node, then obstacle, then inside of segment. */
+/* Order of candidates and memory: node, then obstacle, then segment. */
 static int before(const sw_contact *c, const sw_memory *m, const sw_candidate *k) {
   if (m->node != k->node) return m->node < k->node;
   const int id = c->obstacles[k->obstacle].id;
@@ -229,26 +229,26 @@ void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal
 }
 
 /* Touches of an object of particles have at least this share of a bound on a particle's own
- * stiffness, because it may have no weight [-]. */
+ * stiffness, because the object may have no weight [-]. */
 static const double HARD_SHARE = 1.0;
 
-/* A mesh shorter than this many radii is a slice: it stands for a section and does not bend [-].
- * Its touches have this multiple of a solid section's stiffness against squeezing, for its EA [-].
- */
+/* A mesh shorter than this many radii is a slice: it stands for a section and does not bend. Its
+ * touches have HARDER times the stiffness of a solid section against squeezing, computed from its
+ * EA [-]. */
 static const double SLICE = 1.0, HARDER = 100.0;
-/* Of a ring with a wall: as its wall times length over radius^3 [-]. */
+/* The same for a ring with a wall: multiple of wall times length over radius^3 [-]. */
 static const double HARDER_WALL = 1e5;
 
-/* Touches between objects of particles, and with wires, have this multiple of the stiffness that
- * holds a particle. Then no force sinks it in by more than a tenth of the object's own compression
- * [-]. */
+/* Touches between objects of particles, and of particles with wires, have this multiple of the
+ * stiffness that holds a particle. Then no force sinks a particle in by more than a tenth of the
+ * object's own compression [-]. */
 static const double HARDER_GRAIN = 10.0;
 
 double sw_contact_hardness(const sw_web *web, size_t particle) {
   return HARDER_GRAIN * web->behind[particle];
 }
 
-/* The part of the body's force that one touch carries [N]. */
+/* The part of the body's usual force that one touch carries [N]. */
 static double usual_force(const sw_plan *p, double weight) {
   const double L = p->length, r = p->beam.radius;
   if (!p->web || L >= SLICE * r) return fmax(weight, p->beam.EI / (L * L));
@@ -257,7 +257,7 @@ static double usual_force(const sw_plan *p, double weight) {
   return fmax(weight, ALLOWED_PENETRATION * (ring > 0 ? ring : solid));
 }
 
-/* Line stiffness of one side of a round section between plates, of its mean modulus: a solid
+/* Line stiffness of one side of a round section between plates, over its mean modulus: a solid
  * cylinder has F/(E R) = 0.084 at an approach of a tenth of its diameter (plane strain, finite
  * elements) [-]. */
 static const double SECTION = 2.0 * 0.084 / 0.2;
@@ -265,8 +265,8 @@ static const double SECTION = 2.0 * 0.084 / 0.2;
 /* Depth of a pad's samples at the wanted force [m]. */
 static const double PRESSED_IN = 5e-6;
 
-/* A pad on a particle of a mesh has this multiple of the section's stiffness. With one times it,
- * the touch would be made stiffer during a squeeze, and its force would jump [-]. */
+/* A pad's touch on a particle of a mesh has this multiple of the section's stiffness. With 1, the
+ * touch would be made stiffer during a squeeze, and its force would jump [-]. */
 static const double STIFFER = 3.0;
 
 static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
@@ -275,8 +275,8 @@ static double mesh_pad_stiffness(const sw_plan *p, size_t particle) {
   return STIFFER * SECTION * p->beam.EA / (M_PI * r * r) * p->web->along[particle];
 }
 
-/* A pad on a wire without a section is as soft as a section would be, and no stiffer than its force
- * needs. Between rigid things no force could be set [N/m]. */
+/* Stiffness of a pad's touch on a wire without a section: as soft as a section would be, and no
+ * stiffer than its force needs. Between rigid things no force could be set [N/m]. */
 static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge, double grips) {
   const double r = p->beam.radius;
   const double section = SECTION * p->beam.EA / (M_PI * r * r);
@@ -284,11 +284,11 @@ static double pad_stiffness(const sw_plan *p, const sw_candidate *k, size_t edge
   return fmin(section * p->rest[edge] / k->samples, grips / (SAMPLES * PRESSED_IN));
 }
 
-/* A wire that is wound on something thick and round goes in by Q/k where it comes on and presses
- * with Q, and out again further on. That stretches it, by EA Q/(k R), and friction keeps a part. So
- * its touches are as stiff as EA/R: the tension is off by 5 % of the brake's force then, by 18 % at
- * a tenth of that, by 1 % at four times as much, for 1.6 times the iterations (H07V-K 10, 10 N,
- * edges of R/10; spec/contact/winding_spec) [N/m]. */
+/* Stiffness of the touches of a wire wound on something thick and round: at least EA/R. Where the
+ * wire comes on and presses with Q, it goes in by Q/k, and comes out again further on. That
+ * stretches it by EA Q/(k R), and friction keeps a part of this. With EA/R the tension is off by 5
+ * % of the brake's force, with a tenth of that by 18 %, with four times as much by 1 %, for 1.6
+ * times the iterations (H07V-K 10, 10 N, edges of R/10; spec/contact/winding_spec) [N/m]. */
 static double round_stiffness(const sw_contact *c, const sw_body *b, const sw_candidate *k) {
   const size_t i = k->node - b->first_node;
   if (c->regime != SW_CONTACT_IMPLICIT || b->plan->web || k->round || !(c->round[k->obstacle] > 0))
@@ -298,7 +298,8 @@ static double round_stiffness(const sw_contact *c, const sw_body *b, const sw_ca
   return radius > SW_THICK * edge ? b->EA / radius : 0.0;
 }
 
-/* Stiffness of a wire's new touches, from its weight, its bending or the force of a pad. */
+/* Sets the stiffness of a wire's new touches, from its weight, its bending or the force of a
+ * pad. */
 static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t first) {
   const sw_plan *p = s->bodies[body].plan;
   const double L = p->length, weight = p->beam.mass * L * sw_norm(sw_load(s->gravity));
@@ -319,12 +320,12 @@ static void set_stiffness(sw_contact *c, const sw_system *s, size_t body, size_t
     if (p->web) continue;
     const double soft = pad_stiffness(p, k, k->node - s->bodies[body].first_node, grips);
     k->given = c->regime != SW_CONTACT_EXPLICIT;
-    k->usual = k->given ? soft : fmin(soft, k->usual); /* explicit steps may not bear it */
+    k->usual = k->given ? soft : fmin(soft, k->usual); /* else explicit steps may be unstable */
   }
 }
 
-/* Empty lists with room for many touches at once. Lists that grow one by one would be copied often.
- */
+/* Makes empty lists with room for many touches at once. Lists that grow one by one would be copied
+ * often. */
 static sw_status make_room(sw_contact *c) {
   const size_t n = c->candidate_count;
   SW_TRY(sw_grow_empty((void **)&c->touches, &c->touch_capacity, n, sizeof *c->touches));

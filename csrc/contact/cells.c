@@ -6,7 +6,8 @@
 
 #include "base/alloc.h"
 
-/* Finite for places far away or not a number, so that the cells beside have numbers. */
+/* Number of a cell along an axis. It is finite for places far away and for NaN, so that
+ * neighbouring cells have numbers too. */
 static int32_t number_of(double x) { return (int32_t)fmax(-1e9, fmin(1e9, floor(x))); }
 
 /* The cell of a place [m]. */
@@ -19,13 +20,13 @@ static int is_same(sw_grid_cell a, sw_grid_cell b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Number d = 0 to 26 of the cells around; 13 is the cell itself. */
+/* The neighbouring cells are numbered d = 0 to 26; 13 is the cell itself. */
 enum { NEIGHBOURS = 27 };
 static sw_grid_cell beside(sw_grid_cell c, int d) {
   return (sw_grid_cell){c.x + d % 3 - 1, c.y + d / 3 % 3 - 1, c.z + d / 9 - 1};
 }
 
-/* Its list in a table of this size, a power of 2. */
+/* Index of a cell's list in a table of this size, a power of 2. */
 static size_t bucket(sw_grid_cell c, size_t size) {
   const uint32_t h =
       (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u;
@@ -36,7 +37,7 @@ double sw_thing_radius(const sw_body *b) {
   return b->plan->web ? b->plan->web->skin : b->plan->beam.radius;
 }
 
-/* Of a body's segments, or edges of its surface [m2]. */
+/* Square of the longest of a body's segments, or of the edges of its surface [m2]. */
 static double longest2(const sw_body *b, const double *x) {
   const sw_web *w = b->plan->web;
   double most = 0;
@@ -48,8 +49,8 @@ static double longest2(const sw_body *b, const double *x) {
   return most;
 }
 
-/* Width of a cell: the gap of the search plus the largest distance of a thing from its middle [m].
- */
+/* Width of a cell: the gap of the search plus the largest extent of two things from their middles,
+ * with their radii [m]. */
 static double width_of(const sw_mutual *m, const sw_system *s, double reach) {
   double radius = 0, length2 = 0, far = 0;
   for (size_t k = 0; k < s->body_count; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the contact with obstacles, its steps, read-outs. */
+/* Making and freeing the contact with obstacles, its steps, and its read-outs. */
 #include "contact/contact.h"
 
 #include <math.h>
@@ -81,7 +81,7 @@ void sw_contact_free(sw_contact *c) {
 
 /* --- steps ------------------------------------------------------------------- */
 
-/* Which pads press on anything at the step's start? */
+/* Finds which pads press on anything at the step's start. */
 static void find_pressing(sw_contact *c) {
   for (size_t k = 0; k < c->pad_count; k++) c->pressing[c->pads[k]] = 0;
   for (size_t i = 0; c->pad_count && i < c->memory_count; i++) {
@@ -179,7 +179,7 @@ sw_presses sw_contact_presses(const sw_contact *c) {
 
 size_t sw_contact_touches(const sw_contact *c) { return c->touch_count; }
 
-/* The first touch at or after this node: touches are in the order of nodes. */
+/* Returns the first touch at or after this node. Touches are in the order of nodes. */
 static size_t first_touch(const sw_contact *c, size_t node) {
   size_t i;
   SW_FIRST_NOT(c->touches[i].node < node, i, 0, c->touch_count);
@@ -231,7 +231,7 @@ double sw_contact_fastest(const sw_contact *c) {
   return fastest;
 }
 
-/* Is anything deeper inside than its force explains? */
+/* 1 if anything is deeper inside than its force explains. */
 static int emerges(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++)
     if (c->touches[i].forgiven > 0 || c->touches[i].let_out > 0) return 1;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of wires with rigid obstacles: unilateral normal force, anchored
- * Coulomb friction, impacts, and the swept test that keeps fast wires from
- * passing thin walls. It is one sw_coupling of the system. */
+/* Contact of wires with rigid obstacles: unilateral normal force, anchored Coulomb friction,
+ * impacts, and the swept test that keeps fast wires from passing thin walls. It is one sw_coupling
+ * of the system. */
 #ifndef SW_CONTACT_CONTACT_H
 #define SW_CONTACT_CONTACT_H
 
@@ -17,64 +17,67 @@ typedef struct sw_contact sw_contact;
 /* One obstacle as contact sees it. */
 typedef struct sw_contact_obstacle {
   const sw_shape *shape;
-  double friction;    /* of what sticks [-] */
-  double kinetic;     /* of what slides [-] */
+  double friction;    /* coefficient while the wire sticks [-] */
+  double kinetic;     /* coefficient while it slides [-] */
   double restitution; /* [-] */
-  double grips;       /* of a gripper's pad: its wanted force, INFINITY = any; 0 = no pad [N] */
+  double grips;       /* wanted force of a gripper's pad, INFINITY = any; 0 = no pad [N] */
   int id;             /* the owner's number; part of the memory's key */
   int off;            /* 1: nothing touches it */
 } sw_contact_obstacle;
 
-/* Load of wires on an obstacle: force and moment about the obstacle's pivot [N], [N m]; or
- * their impulses [N s], [N m s]. */
+/* Load of wires on an obstacle: force and moment about the obstacle's pivot [N], [N m]. Also used
+ * for impulses [N s], [N m s]. */
 typedef struct sw_contact_load {
   sw_vec force, moment;
 } sw_contact_load;
 
-/* Load of an obstacle in the last step. The owner keeps it, because contact is built anew. */
+/* Load of an obstacle in the last step. The owner keeps it, because contact is rebuilt when the
+ * scene changes. */
 typedef struct sw_contact_past {
-  sw_contact_load mean; /* mean over the step, with blows; in statics of the state; moment about the
-                           world's origin [N], [N m] */
-  sw_contact_load end;  /* at the step's end, for a method that begins the next step with it [N] */
-  double hardest;       /* mean over a step of the hardest blow that was followed in parts [N] */
-  sw_contact_load gained; /* of the step without blows, for methods that use earlier steps [N s] */
+  sw_contact_load mean;   /* mean over the step, with blows; in statics the load of the state; its
+                             moment is about the world's origin [N], [N m] */
+  sw_contact_load end;    /* at the step's end, for methods that begin the next step with it [N] */
+  double hardest;         /* hardest blow that was followed in parts: its mean over a step [N] */
+  sw_contact_load gained; /* the step's, without blows, for methods that use earlier steps [N s] */
 } sw_contact_past;
 
-/* Where obstacle number o is at a time. */
+/* Gives the position and motion of obstacle number o (the owner's number) at a time. */
 typedef sw_status (*sw_contact_place)(void *user, int o, double time, sw_motion_state *out,
                                       sw_error *err);
 
-/* Takes copies. SW_ENOMEM. */
+/* Makes a contact over copies of these obstacles. Their ids must ascend. SW_ENOMEM. */
 sw_status sw_contact_new(const sw_contact_obstacle *obstacles, size_t count, sw_contact_place place,
                          void *user, sw_contact **out);
-/* A copy over the same obstacles with the same memory, for a look ahead; the original does not
- * change. SW_ENOMEM. */
+/* Makes a copy over the same obstacles with the same memory, for a look ahead. The original does
+ * not change. SW_ENOMEM. */
 sw_status sw_contact_copy(const sw_contact *contact, sw_contact **out);
 void sw_contact_free(sw_contact *contact);
-/* Only obstacles of these numbers (count) are touched from now on. */
+/* Keeps only the obstacles with these owner's numbers (count); wires no longer touch the others. */
 void sw_contact_keep(sw_contact *contact, const size_t *ids, size_t count);
 
-/* How the coming steps are computed: decides the normal stiffness. */
+/* How the coming steps are computed. This decides the normal stiffness. */
 typedef enum sw_contact_regime {
   SW_CONTACT_STATIC,
   SW_CONTACT_IMPLICIT,
   SW_CONTACT_EXPLICIT
 } sw_contact_regime;
 
-/* Stiffness of a touch that is to carry up to force, plus rate2 times the mass behind it
+/* Stiffness of a touch that carries up to this force: base plus rate2 times the mass behind it
  * [N/m], [1/s2]. */
 void sw_contact_stiffness(sw_contact_regime regime, double force, double nominal, double *base,
                           double *rate2);
-/* Least stiffness of touches between a particle and other objects, but for explicit steps [N/m]. */
+/* Least stiffness of touches between a particle and other objects, except in explicit steps
+ * [N/m]. */
 double sw_contact_hardness(const sw_web *web, size_t particle);
 
-/* A step of size h begins at time t and the system's state: finds candidates. nominal: the run's
- * full step, which sets the stiffness. In statics both are the pseudo step, h = 0 without one. */
+/* Begins a step of size h at time t and the system's state: finds candidates. nominal: the run's
+ * full step, which sets the stiffness. In statics both are the pseudo step, and h = 0 if there is
+ * none. */
 sw_status sw_contact_begin_step(sw_contact *contact, sw_system *system, sw_contact_regime regime,
                                 double t, double h, double nominal, sw_error *err);
 
-/* Evaluations at the accepted state begin. Each touch has the stiffness force over depth of the
- * last step. */
+/* Begins evaluations at the accepted state. Each touch gets the last step's force over depth as its
+ * stiffness. */
 sw_status sw_contact_begin_look(sw_contact *contact, sw_system *system, double t, sw_error *err);
 
 /* The system's coupling functions (see sw_coupling), user = the contact. */
@@ -82,11 +85,12 @@ void sw_contact_part(void *contact, sw_system *system);
 sw_status sw_contact_begin_stage(sw_contact *contact, double time, double first, sw_error *err);
 sw_status sw_contact_eval(void *contact, sw_system *system, double time, double hbar,
                           const double *y, unsigned want, sw_error *err);
-/* 1: the last matrix holds. No touch slides, and the same touches press. */
+/* *out = 1: the last matrix still holds, because no touch slides and the same touches press. */
 sw_status sw_contact_keeps(void *contact, sw_system *system, const double *y, int *out,
                            sw_error *err);
 void sw_contact_refine(void *contact, sw_system *system);
-/* Bodies that are bridged are refined together, with all their touches. */
+/* Add the touches of bridged bodies to a list. Bridged bodies are refined together, with all their
+ * touches. */
 struct sw_spots;
 struct sw_ways;
 void sw_contact_add_spots(sw_contact *contact, const sw_system *system, struct sw_spots *spots);
@@ -95,24 +99,26 @@ int sw_contact_settled(void *contact, sw_system *system, const double *y, const 
 
 /* See sw_coupling. */
 void sw_contact_book(void *contact, const sw_booking *booking);
-/* What is booked so far in the step for an obstacle that is there, by the owner's number: impulse
- * and moment of impulse of the wires on it, about a point; without those of impacts [N s], [N m s].
+/* Impulse and moment of impulse of the wires on an obstacle, booked so far in the step, about a
+ * point; impacts are not included. id: the owner's number of an existing obstacle [N s], [N m s].
  */
 void sw_contact_gained(const sw_contact *contact, int id, sw_vec about, sw_vec *force,
                        sw_vec *moment);
 
-/* The owner's number of obstacle number k; what it remembers of an accepted step. */
+/* The owner's number of obstacle number k; the load that it remembers from the last accepted
+ * step. */
 int sw_contact_id(const sw_contact *contact, size_t k);
 const sw_contact_past *sw_contact_past_of(const sw_contact *contact, size_t k);
-/* Numbers (count) of the obstacles with a memory; all others have none. */
+/* Numbers (count) of the obstacles that have a load or may get one in this step. All others have
+ * none. */
 const int *sw_contact_busy(const sw_contact *contact, size_t *count);
-/* The same of those that may move. */
+/* Numbers (count) of the obstacles that may move. */
 const int *sw_contact_movers(const sw_contact *contact, size_t *count);
-/* By the owner's number: the obstacle's memory of the last step; 1: it may move. */
+/* By the owner's number: the obstacle's load of the last step; 1 if the obstacle may move. */
 typedef const sw_contact_past *(*sw_contact_past_function)(void *user, int id);
 typedef int (*sw_contact_moves_function)(void *user, int id);
-/* Has the owner told these since contact was built, got a memory, or had an obstacle moved by hand?
- * It must before a step. */
+/* 1 if the owner has called sw_contact_recall since contact was built, got a memory, or an obstacle
+ * was moved by hand. The owner must call it before a step; sw_contact_ask_again asks for it. */
 int sw_contact_informed(const sw_contact *contact);
 void sw_contact_recall(sw_contact *contact, sw_contact_past_function past,
                        sw_contact_moves_function moves);
@@ -121,127 +127,131 @@ void sw_contact_ask_again(sw_contact *contact);
 /* 1: an obstacle has moved since the step's start. */
 int sw_contact_moves(const sw_contact *contact);
 
-/* Judges a trial step to positions x1 and velocities v1. dull: a step without rebounds, for wires
- * that strike each other. */
+/* Judges a trial step to positions x1 and velocities v1. dull: 1 if the step does not rebound, as
+ * steps in which wires strike each other do. */
 typedef enum sw_contact_verdict {
   SW_CONTACT_ACCEPT,
-  SW_CONTACT_REDO, /* the step met impacts or crossings: starting velocities have changed, contacts
-                      were added; restart the step */
+  SW_CONTACT_REDO, /* impacts or crossings: starting velocities have changed or contacts were added;
+                      restart the step */
   SW_CONTACT_SOONER, /* a rebound within the step: end the step at sw_contact_soonest */
-  SW_CONTACT_STRIKE, /* something struck: redo the step without bouncing */
-  SW_CONTACT_SMALLER /* edges or corners cut too deep: only a smaller step helps */
+  SW_CONTACT_STRIKE, /* something struck: redo the step without rebound */
+  SW_CONTACT_SMALLER /* wires got too deep or got free: only a smaller step helps */
 } sw_contact_verdict;
 sw_contact_verdict sw_contact_review(sw_contact *contact, sw_system *system, const double *x1,
                                      const double *v1, double h, int dull);
 
-double sw_contact_soonest(const sw_contact *contact); /* after the step's start [s] */
-/* A step that began is not to be cut shorter than this [s]. */
+double sw_contact_soonest(const sw_contact *contact); /* of a rebound, after the step's start [s] */
+/* Sets the shortest time at which the begun step may be cut at a rebound [s]. */
 void sw_contact_cut(sw_contact *contact, double least);
-/* It was to be taken in parts of this size: touches that slowly get deeper in these are made
- * stiffer as in whole steps [s]. */
+/* Sets the part (substep) that the step was meant to have. Touches that slowly get deeper in parts
+ * of this size are made stiffer as in whole steps [s]. */
 void sw_contact_ask(sw_contact *contact, double part);
 
-/* The same for statics. Segments of a solution x1 that passed an obstacle are kept on their side
- * from now on. 1 = there are some, solve again. */
+/* Reviews a static solution x1. Segments that passed an obstacle are kept on their side from now
+ * on. 1 = there are some, solve again. */
 int sw_contact_review_static(sw_contact *contact, sw_system *system, const double *x1);
 
-/* The trial was accepted: keep friction anchors and sides for the next step. */
+/* Accepts the trial: keeps friction anchors and sides for the next step. */
 void sw_contact_commit(sw_contact *contact, sw_system *system);
 
-/* Total force on obstacle o at the last evaluated state, and its moment about a point [N], [N m].
- */
+/* Total force on obstacle o (the owner's number) at the last evaluated state, and its moment about
+ * a point [N], [N m]. */
 void sw_contact_force(const sw_contact *contact, int o, sw_vec about, sw_vec *force,
                       sw_vec *moment);
-/* What holds wires by obstacle o, added up over its touches. */
+/* Sums over the touches of obstacle o (the owner's number) that hold wires. */
 typedef struct sw_contact_grip {
-  double normal;  /* forces across the surface [N] */
-  double most;    /* friction that these allow [N] */
+  double normal;  /* normal forces [N] */
+  double most;    /* largest friction that these allow [N] */
   sw_vec tangent; /* friction on the wires [N] */
-  sw_vec slip;    /* sum of force times sliding way in the last step, of wires [N m] */
-  double sliding; /* force of touches that slide [N] */
-  double place;   /* sum of force times arc length in the wire's plan [N m] */
+  sw_vec slip;    /* sum of normal force times the wire's sliding way in the last step [N m] */
+  double sliding; /* normal force of the touches that slide [N] */
+  double place;   /* sum of normal force times arc length in the wire's plan [N m] */
 } sw_contact_grip;
 void sw_contact_add_grip(const sw_contact *contact, const sw_system *system, int o,
                          sw_contact_grip *sum);
-/* Deepest penetration of the accepted state, with the system's node nearest to
- * it [m]. */
+/* Deepest penetration of the accepted state, with the system's node nearest to it [m]. */
 double sw_contact_penetration(const sw_contact *contact, size_t *node);
-/* Touches, for contact/tally.h. */
+/* The list of touches, for contact/tally.h. */
 struct sw_presses sw_contact_presses(const sw_contact *contact);
 /* Pressure on a node or on a segment. */
 typedef struct sw_contact_push {
   int obstacle;        /* the owner's number */
   size_t node, other;  /* of the system; other = node if only the node is pressed [-] */
-  double at;           /* between both [-] */
+  double at;           /* place between both nodes [-] */
   double normal_force; /* [N] */
   sw_vec force;        /* on the wire, with friction [N] */
   sw_vec normal;       /* the obstacle's, outward [-] */
   sw_vec slip;         /* sliding way in the last step [m] */
   sw_vec point;        /* on the obstacle [m] */
   double place;        /* arc length [m] */
-  double slid;         /* sliding way since it began to press [m] */
+  double slid;         /* sliding way since the touch began to press [m] */
 } sw_contact_push;
-/* All touches, also those without a force; number k of them: 0 when it has none. */
+/* Number of touches, with or without a force. sw_contact_push_at reads touch number k and returns 0
+ * if it has no force. */
 size_t sw_contact_touches(const sw_contact *contact);
-/* Those from number *first up to *end are of nodes from node up to end_node. */
+/* Touches from *first up to *end (exclusive) are those of nodes from node up to end_node
+ * (exclusive). */
 void sw_contact_touches_of(const sw_contact *contact, size_t node, size_t end_node, size_t *first,
                            size_t *end);
 int sw_contact_push_at(const sw_contact *contact, const sw_system *system, size_t k,
                        sw_contact_push *out);
 
-/* After a step. 1: the obstacles' forces at its end come from a shock, and the next step must not
- * begin with them. */
+/* After a step: 1 if the obstacles' forces at its end come from a shock, so that the next step must
+ * not begin with them. */
 int sw_contact_shaken(const sw_contact *contact, const sw_system *system);
-/* Two obstacles face each other where the cosine of their normals is below this [-]. */
+/* Two obstacles face each other if the cosine between their normals is below this [-]. */
 #define SW_FACING (-0.7)
-/* A wire's weight; of one without, the force that bends it [N]. */
+/* A wire's weight; without gravity, its bending force EI/L^2 [N]. */
 double sw_contact_usual_force(const sw_system *system, const sw_plan *plan);
-/* Force of a touch from which on the wire is squeezed, or taut, and cannot come out; 0: of a mesh,
- * which may [N]. */
+/* From this force of a touch on, a wire is squeezed or taut and cannot come out. 0 for a mesh,
+ * which can [N]. */
 double sw_contact_squeezing_force(const sw_system *system, const sw_plan *plan);
-/* Axial stiffness of the edge that begins or ends at a node; 0: of a mesh, or a loose particle
+/* Axial stiffness of the edge that begins or ends at a node; 0 for a mesh or a loose particle
  * [N/m]. */
 double sw_contact_edge_stiffness(const sw_system *system, size_t body, size_t node);
 
 /* --- for the energy ledger, after a trial ------------------------------------- */
 
-/* Where obstacle number id is at the step's start and as last placed. 0: there is none. */
+/* Poses of obstacle id (the owner's number) at the step's start and as last placed. 0: there is no
+ * such obstacle. */
 int sw_contact_poses(const sw_contact *contact, int id, sw_pose *from, sw_pose *to);
-/* 1: the touches that press are those that pressed at the step's start. */
+/* 1 if the touches that press are those that pressed at the step's start, and nothing struck. */
 int sw_contact_steady(const sw_contact *contact);
-/* Largest energy given by stiffer touches of meshes, which sink in less than before [J]. */
+/* Largest energy that touches gain by a higher stiffness at the same depth or force, see
+ * sw_kept_hardened [J]. */
 double sw_contact_hardened(const sw_contact *contact);
-double sw_contact_fastest(const sw_contact *contact); /* of obstacles at the step's end [m/s] */
-/* 1: in this step wires come out of obstacles that they began in. */
+double sw_contact_fastest(const sw_contact *contact); /* fastest obstacle at the step's end [m/s] */
+/* 1: in this step wires come out of obstacles that they began in */
 int sw_contact_emerges(const sw_contact *contact);
-size_t sw_contact_impacts(const sw_contact *contact); /* dealt with in the step [-] */
-double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in these [J] */
+size_t sw_contact_impacts(const sw_contact *contact); /* impacts dealt with in the step [-] */
+double sw_contact_struck(const sw_contact *contact);  /* work of moving obstacles in them [J] */
 
-/* Memory kept between steps (anchors and sides), for snapshots: a block to copy
- * and to give back. */
+/* Memory kept between steps (anchors and sides), for snapshots: a block to copy and to give
+ * back. */
 const void *sw_contact_memory(const sw_contact *contact, size_t *bytes);
 /* SW_CONTACT_FRESH: no step was accepted yet, and there is no memory. SW_CONTACT_EMERGING: wires
- * that began inside of obstacles come out slowly, so that they are not thrown. Else 0. */
+ * that began inside obstacles come out slowly, so that they are not thrown. Else 0. */
 enum { SW_CONTACT_FRESH = 1, SW_CONTACT_EMERGING = 2 };
 int sw_contact_is_fresh(const sw_contact *contact);
 sw_status sw_contact_set_memory(sw_contact *contact, const void *memory, size_t bytes, int fresh);
 /* 1: a memory of any origin names only existing nodes and obstacles. */
 int sw_contact_memory_fits(const void *memory, size_t bytes, size_t nodes, size_t obstacles);
-/* The touches at the accepted state, for read-outs only; likewise. SW_EINVAL: it names nodes (of so
- * many) or obstacles that do not exist. */
+/* The touches at the accepted state, as a block for read-outs only. SW_EINVAL: the block names
+ * nodes (of this many) or obstacles that do not exist. */
 const void *sw_contact_seen(const sw_contact *contact, size_t *bytes);
 sw_status sw_contact_set_seen(sw_contact *contact, const void *seen, size_t bytes, size_t nodes);
-/* Changes with the layout of these blocks: tells files of another version. */
+/* A number that changes with the layout of these blocks. Files of another version have another
+ * one. */
 size_t sw_contact_layout(void);
-/* 1: a node of a wire without particles, or a segment beside it, touches something. */
+/* 1: a node of a wire without particles, or a segment that begins or ends there, has a memory. */
 int sw_contact_memory_names(const void *memory, size_t bytes, size_t node);
-/* Adds the memory of nodes from old_first up to old_end, numbered from new_first now, and of these
- * obstacles (count). SW_ENOMEM. */
+/* Adds the memory of nodes from old_first up to old_end (exclusive), for these obstacles (count)
+ * only. The nodes are renumbered to begin at new_first. SW_ENOMEM. */
 sw_status sw_contact_add_memory(sw_contact *contact, const void *memory, size_t bytes,
                                 size_t old_first, size_t old_end, size_t new_first,
                                 const size_t *obstacles, size_t count);
-/* The same from a contact with other node numbers. new_node: the new number of each old node,
- * SIZE_MAX if it is gone; new_edge: the same for segments by their first node. */
+/* Takes over the memory of a contact with other node numbers. new_node: the new number of each old
+ * node, SIZE_MAX if it is gone; new_edge: the same for segments, by their first node. SW_ENOMEM. */
 sw_status sw_contact_inherit(sw_contact *contact, const void *memory, size_t bytes, int fresh,
                              const size_t *new_node, const size_t *new_edge);
 

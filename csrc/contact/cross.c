@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Crossings: a swept test finds parts of wires that passed through an obstacle unseen. A barrier
- * then keeps them on their side for the rest of the step. */
+/* Crossings: a swept test finds parts of wires that passed through an obstacle within the step. A
+ * barrier then keeps them on their side for the rest of the step. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -36,7 +36,7 @@ static void add_barrier(sw_contact *c, sw_barrier *b) {
   c->barrier_at[b->node] = (uint32_t)c->barrier_count;
 }
 
-/* Candidates are in the order of their nodes. */
+/* 1 if the node is a candidate with this obstacle. Candidates are in the order of their nodes. */
 static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *looks) {
   size_t i;
   SW_FIRST_NOT((++*looks, c->candidates[i].node < node), i, 0, c->candidate_count);
@@ -45,10 +45,10 @@ static int is_candidate(const sw_contact *c, int obstacle, size_t node, size_t *
   return 0;
 }
 
-/* A hit this near to a segment's end is the node's [-]. */
+/* A hit this near to a segment's end counts as the node's [-]. */
 static const double END_SHARE = 1e-6;
 
-/* Keep a segment on its side for the rest of the step. */
+/* Keeps a segment on its side for the rest of the step. 1: there is a new barrier. */
 static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, const sw_closest *hit,
                          double h) {
   sw_barrier b = {.obstacle = k->obstacle,
@@ -86,7 +86,7 @@ static int raise_barrier(sw_contact *c, sw_system *s, const sw_candidate *k, con
   return 1;
 }
 
-/* How a part of a candidate crosses its obstacle between two places, taken as straight. */
+/* How a piece of a candidate crosses its obstacle between two places, taken as straight. */
 typedef struct crossing {
   sw_closest hit;
   double when; /* share of the step [-] */
@@ -108,8 +108,8 @@ static int cross_part(const sw_contact *c, const sw_system *s, const sw_candidat
   return 1;
 }
 
-/* The obstacle's bounds over the step, world. The swept test takes straight ways; a large turn has
- * none. */
+/* Bounds of the obstacle over the step, in world axes. The swept test takes straight ways, so the
+ * box of a moving obstacle is wide enough for any turn. */
 static sw_bounds passed(const sw_contact *c, size_t o) {
   if (!c->broad.moves[o]) return c->bounds[o];
   const sw_bounds own = sw_shape_bounds(c->obstacles[o].shape);
@@ -129,7 +129,7 @@ static void widen(sw_bounds *b, sw_vec p) {
                 p.z > b->max.z ? p.z : b->max.z);
 }
 
-/* The candidate's part of the wire and its smooth curve stay clear of the obstacle. */
+/* 1 if the candidate's piece of the wire, with its smooth curve, stays clear of the obstacle. */
 static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                       const double *x1) {
   const sw_body *b = &s->bodies[k->body];
@@ -147,8 +147,8 @@ static int stays_away(const sw_contact *c, const sw_system *s, const sw_candidat
          way.max.y < box.min.y || way.min.z > box.max.z || way.max.z < box.min.z;
 }
 
-/* The first crossing of the two halves of the curve's piece counts: a barrier holds it. A wire
- * round a peg would cut in with such halves, but not with its edges. */
+/* Raises a barrier at the earlier crossing of the two halves of the curve's piece. A wire round a
+ * peg would cut in with these halves, but does not with its edges, so its edges are tested. */
 static int cross(sw_contact *c, sw_system *s, const sw_candidate *k, const double *x1, double h) {
   crossing one, two;
   if ((k->smooth || c->broad.moves[k->obstacle]) && stays_away(c, s, k, x1)) return 0;

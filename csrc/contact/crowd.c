@@ -10,11 +10,11 @@
 #include "contact/joined.h"
 #include "contact/same.h"
 
-/* Pairs are looked for up to the distance and what they may come nearer in the step; in statics up
- * to so many distances [-]. */
+/* In statics pairs are looked for up to this many distances; else up to the distance plus the way
+ * that they may come nearer in the step [-]. */
 static const double STATIC_REACH = 2.0;
-static const double FARTHEST = 5.0;    /* in distances: whatever speeds are [-] */
-static const double SMALL_PUSH = 0.01; /* of the distance: does not keep iterations going [-] */
+static const double FARTHEST = 5.0; /* largest reach of the search in distances, at any speed [-] */
+static const double SMALL_PUSH = 0.01; /* share of the distance; less lets iterations end [-] */
 
 typedef struct couple {
   uint32_t a, b; /* a < b */
@@ -24,9 +24,9 @@ typedef struct group {
   size_t body;
   double distance, stiffness; /* [m], [N/m] */
   sw_joined joined;
-  couple *near; /* of this step */
+  couple *near; /* pairs of this step */
   size_t count, capacity;
-  void *grid; /* work of the search */
+  void *grid; /* memory for the search */
   size_t grid_capacity;
 } group;
 
@@ -81,7 +81,7 @@ void sw_crowd_free(sw_crowd *c) {
 
 /* --- who is near to whom ------------------------------------------------------------------ */
 
-/* How fast the fastest particle goes beside the mean of all [m/s]. */
+/* Largest speed of a particle relative to the mean of all [m/s]. */
 static double fastest(const sw_body *b, const double *v) {
   sw_vec mean = sw_v(0, 0, 0);
   double most = 0;
@@ -96,7 +96,7 @@ static double reach_of(const group *g, double speed, double h) {
   return fmin(g->distance + SW_RESERVE * h * speed, FARTHEST * g->distance);
 }
 
-/* More pairs than this near each other are of particles much closer than they should be [-]. */
+/* More near pairs than this mean that particles are much closer than they should be [-]. */
 static const size_t MOST_NEAR = 30000000;
 
 /* A search for pairs. */
@@ -121,7 +121,7 @@ static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   return SW_OK;
 }
 
-/* Each particle meets those that were put into the cells before. */
+/* Finds the pairs: each particle meets the particles put into the cells before it. */
 static sw_status find_pairs(group *g, const sw_body *b, const double *x, const double *v,
                             double h) {
   search all = {g, x, v, h};
@@ -135,7 +135,7 @@ static sw_status find_pairs(group *g, const sw_body *b, const double *x, const d
     SW_TRY(sw_cells_around(&cells, &cells.things[i], look_at, &all));
   }
   if (g->count)
-    qsort(g->near, g->count, sizeof *g->near, by_number); /* one order, whatever the cells were */
+    qsort(g->near, g->count, sizeof *g->near, by_number); /* an order independent of the cells */
   return SW_OK;
 }
 
@@ -152,8 +152,8 @@ sw_status sw_crowd_begin_step(sw_crowd *c, sw_system *s, double h) {
 
 /* --- forces ------------------------------------------------------------------------------- */
 
-/* Along the line between both; the part across, which pulls them off it, only where an
- * equilibrium is looked for and iterations converge. */
+/* Adds the stiffness along the line between both. The part across it is negative (it turns the
+ * line); it is added only where an equilibrium is looked for and iterations converge. */
 static void add_stiffness(sw_body *b, const group *g, const couple *p, double r, sw_vec t) {
   const double u[3] = {t.x, t.y, t.z};
   const sw_field *f = &b->field;

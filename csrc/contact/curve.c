@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The smooth curve of a wire, its feet over edges and corners, and how a touch there pushes. */
+/* The smooth curve of a wire, its feet (nearest places) over edges and corners, and the normals of
+ * touches there. */
 #include <math.h>
 
 #include "contact/lean.h"
 #include "contact/round.h"
 
 static const double QUARTER = 0.25;
-/* Lines closer to parallel than this have no foot, and nodes meet edges up to that angle. The two
- * limits overlap because a node's tangent differs from the curve's: no place is left out. Squared
- * sines [-]. */
+/* Lines closer to parallel than PARALLEL have no foot. Nodes meet edges up to the angle NEARLY. The
+ * two limits overlap because a node's tangent differs from the curve's, so that no place is left
+ * out. Squared sines [-]. */
 static const double PARALLEL = 0.005, NEARLY = 0.02;
-enum { MOST_TURNS = 6 };                 /* of the search for the foot [-] */
-static const double SHARP_ENOUGH = 1e-9; /* of an edge [-] */
-static const double NO_LENGTH = 1e-6;    /* of an edge, squared [-] */
+enum { MOST_TURNS = 6 };                 /* most steps of the search for the foot [-] */
+static const double SHARP_ENOUGH = 1e-9; /* tolerance of the foot's place, share of an edge [-] */
+static const double NO_LENGTH = 1e-6; /* squared share of an edge that counts as no distance [-] */
 
-/* A place on the curve with its derivatives by u there [m]. */
+/* A position on the curve with its first and second derivatives by u [m]. */
 typedef struct spot {
   sw_vec x, along, bend;
 } spot;
@@ -35,7 +36,7 @@ static spot at_curve(const sw_piece *c, double u) {
   return u < 0.5 ? around(c->p, u + 0.5) : around(c->p + 1, u - 0.5);
 }
 
-/* Number j of the four, in the world. */
+/* World position of node j of the four. */
 static sw_vec node_at(const sw_contact *c, const sw_body *b, size_t i, size_t j, const double *x) {
   const size_t n = b->plan->nodes, at = i + j < 1 ? 0 : i + j - 1 < n ? i + j - 1 : n - 1;
   const size_t node = b->first_node + at;
@@ -65,7 +66,7 @@ int sw_contact_piece(const sw_contact *c, const sw_system *s, const sw_candidate
   return sw_shape_meets(shape, out->p[1], out->p[2], reach + out->bulge + beyond);
 }
 
-/* Move a place to the curve's foot over its edge or corner. 0: no foot nearby. */
+/* Moves a place to the curve's foot over its edge or corner. 0: no foot nearby. */
 static int find_foot(const sw_piece *c, sw_place *place, double low, double high) {
   double u = place->near.at;
   const sw_vec q = place->near.point, e = place->edge;
@@ -81,7 +82,7 @@ static int find_foot(const sw_piece *c, sw_place *place, double low, double high
     const double ahead = -sw_dot(on.along, off) / (rise > 0 ? rise : across2);
     if (turn == MOST_TURNS || fabs(ahead) < SHARP_ENOUGH) break;
     const double next = fmin(fmax(u + ahead, low), high);
-    if (next == u) return 0; /* it is beyond the piece */
+    if (next == u) return 0; /* the foot is beyond the piece */
     u = next;
   }
   const double length = sw_norm(on.along), back = sw_dot(e, w);
@@ -105,7 +106,7 @@ int sw_contact_goes_across(sw_vec along, sw_vec edge) {
   return sw_norm2(along) - share * share > NEARLY * sw_norm2(along);
 }
 
-/* Nodes meet faces, edges along the wire and, at the wire's ends, everything. */
+/* Nodes meet faces and edges along the wire; nodes at the wire's ends meet everything. */
 int sw_contact_is_segments(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_contact_at *at, const double *x, const sw_closest *near) {
   const sw_body *b = &s->bodies[k->body];

@@ -1,35 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of contact of objects of particles. */
+/* Internal types and functions of contact of objects of particles. */
 #ifndef SW_CONTACT_GRAIN_H
 #define SW_CONTACT_GRAIN_H
 
 #include "contact/joined.h"
 #include "contact/meet.h"
 
-/* A pair that may touch. Each is a particle, a wire's node, an edge of a surface or a wire's
- * segment; a point comes first. */
+/* A pair that may touch. Each thing is a particle, a wire's node, an edge of a surface or a wire's
+ * segment. A point comes first. */
 typedef struct sw_grain_pair {
   sw_ends of;
   double reach;  /* sum of the radii [m] */
   double usual;  /* stiffness of a new touch [N/m] */
-  int held;      /* all nodes are: no force */
-  uint32_t last; /* its touch in the iterate before: number + 1, or 0 */
+  int held;      /* 1: all nodes are held, so there is no force */
+  uint32_t last; /* its touch in the previous iterate: number + 1, or 0 */
 } sw_grain_pair;
 
 typedef struct sw_grains {
   sw_mutual m;          /* first member: a pointer to it points to this struct too */
-  sw_joined *joined;    /* (bodies) of objects that touch themselves */
-  sw_grain_pair *pairs; /* (m.pair_count) of this step, in order */
+  sw_joined *joined;    /* (bodies) joined particles of objects that touch themselves */
+  sw_grain_pair *pairs; /* (m.pair_count) pairs of this step, in order */
   size_t pair_capacity;
 } sw_grains;
 
 static inline sw_grains *sw_grains_of(sw_mutual *m) { return (sw_grains *)(void *)m; }
 
-/* What sw_finder says. */
+/* See sw_finder. */
 sw_status sw_grains_choose(sw_mutual *grains, sw_system *system);
 sw_status sw_grains_find(sw_mutual *grains, const sw_system *system, const double *y);
 
-/* Nearest places of both at positions x; their distance [m]. */
+/* Finds the nearest places of both things at positions x. Returns their distance [m]. */
 static inline double sw_grain_nearest(const double *x, const sw_ends *e, double at[2]) {
   const double d = sw_segments_nearest(sw_vec_at(x, e->node[0]), sw_vec_at(x, e->end[0]),
                                        sw_vec_at(x, e->node[1]), sw_vec_at(x, e->end[1]), at);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of objects of particles, with each other and with wires. */
+/* Contact of objects of particles with each other and with wires: rules, review of a step, making
+ * and freeing. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -9,7 +10,8 @@
 
 static int is_loose(const sw_body *b) { return b->plan->web && !b->plan->web->per_ring; }
 
-/* Rules for two objects of particles, or for one and a wire that is a line. */
+/* Keeps only rules for two objects of particles, or for one and a wire that is a line. 1: there are
+ * some. */
 static int take_rules(sw_mutual *m, const sw_system *s) {
   int any = 0;
   for (size_t i = 0; i < m->bodies; i++)
@@ -32,8 +34,8 @@ static void free_own(sw_mutual *m) {
 
 /* --- review ---------------------------------------------------------------------------- */
 
-/* Largest distance of a node from its free flight in the step; the search allowed for free flight
- * only [m]. */
+/* Largest distance of a node from its free flight in the step, because the search allowed for free
+ * flight only [m]. */
 static double stray(const sw_system *s, const double *x1, double h) {
   double most = 0;
   for (size_t i = 0; i < s->nodes; i++) {

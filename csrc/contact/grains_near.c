@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs that may touch in a step: two particles, or a particle and a segment, near each other. */
+/* Finds the pairs that may touch in a step: two particles, a particle and a segment, or two edges
+ * near each other. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,7 +14,7 @@ static double reserve_of(const sw_grains *g, double reach, double speed) {
   return fmax(SW_LISTED_GAP * reach + g->m.fall, g->m.least_reserve) + SW_RESERVE * g->m.h * speed;
 }
 
-/* Of a body's node by itself [N/m]. */
+/* Stiffness of a touch at a body's node, from this body alone [N/m]. */
 static double stiffness_at(const sw_grains *g, const sw_system *s, uint32_t body, uint32_t node) {
   const sw_body *b = &s->bodies[body];
   const size_t i = node - b->first_node;
@@ -23,18 +24,18 @@ static double stiffness_at(const sw_grains *g, const sw_system *s, uint32_t body
   return g->m.regime == SW_CONTACT_EXPLICIT ? own : fmax(own, sw_contact_hardness(p->web, i));
 }
 
-/* More pairs than this: particles lie much closer than they should [-]. */
+/* More near pairs than this mean that particles lie much closer than they should [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-/* Which pairs are looked at: a particle with everything; a wire's node with edges of surfaces;
- * edges with each other and with segments. These cover the rest. */
+/* 1 if this kind of pair is looked at: a particle with everything; a wire's node with edges of
+ * surfaces; edges with each other and with segments. These cover the rest. */
 static int counts(const sw_system *s, const sw_thing *t, const sw_thing *u) {
   const int points = (t->node == t->end) + (u->node == u->end);
   const int wires = !s->bodies[t->body].plan->web + !s->bodies[u->body].plan->web;
   return points == 2 ? wires == 0 : wires < 2;
 }
 
-/* Are they connected parts of one object? */
+/* 1 if both are connected parts of one object. */
 static int is_one(const sw_grains *g, const sw_system *s, const sw_ends *e) {
   const uint32_t first = (uint32_t)s->bodies[e->body[0]].first_node;
   const uint32_t one[2] = {e->node[0], e->end[0]}, two[2] = {e->node[1], e->end[1]};
@@ -70,17 +71,18 @@ static sw_status look_at(sw_grains *g, const sw_system *s, const sw_thing *t, co
   return SW_OK;
 }
 
-/* A search for what may touch. */
+/* A search for pairs that may touch. */
 typedef struct search {
   sw_grains *g;
   const sw_system *s;
 } search;
 
-/* Points look for edges; of two alike the first one looks. */
+/* Of a point and an edge the point looks for the pair; of two points or two edges the first one
+ * does. */
 static sw_status meets(void *user, const sw_thing *t, const sw_thing *u) {
   const search *all = user;
   const int point = t->node == t->end, other = u->node == u->end;
-  const int line = !all->s->bodies[t->body].plan->web && !point; /* is the second of two edges */
+  const int line = !all->s->bodies[t->body].plan->web && !point; /* a wire's segment comes second */
   if (point == other ? u <= t : !point) return SW_OK;
   return look_at(all->g, all->s, line ? u : t, line ? t : u);
 }

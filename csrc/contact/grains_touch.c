@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of an iterate: where they are, and what they remember. */
+/* Touches of an iterate between particles and other things: where they are, and what they
+ * remember. */
 #include <math.h>
 
 #include "base/halving.h"
@@ -14,7 +15,8 @@ static size_t first_memory(const sw_mutual *m, const sw_ends *e) {
   return i;
 }
 
-/* Memory of the same pair; for a place on a wire the nearest memory, up to one segment away. */
+/* Returns the memory of the same pair; for a place on a wire the nearest memory, up to one segment
+ * away. */
 static const sw_met *recall(const sw_mutual *m, const sw_system *s, const sw_ends *e,
                             const double at[2]) {
   const int wire = e->node[1] != e->end[1] && !s->bodies[e->body[1]].plan->web;
@@ -43,14 +45,14 @@ static double softness(const sw_system *s, const sw_ends *e) {
   return fmin(SW_SOFTEST, most);
 }
 
-/* A new touch of a pair there, or NULL; slides: 1, it follows the nearest places. */
+/* Returns a new touch of a pair at a place, or NULL. slides: 1 if it follows the nearest places. */
 static sw_meet *new_touch(sw_grains *g, const sw_system *s, const sw_grain_pair *k,
                           const double at[2], const sw_bow bow[2], int slides) {
   sw_meet *t = sw_meet_new(&g->m);
   if (!t) return NULL;
   t->of = k->of, t->pair = (uint32_t)(k - g->pairs);
   t->reach = k->reach, t->usual = k->usual;
-  t->emerges = 1; /* let out as slowly as meshes are */
+  t->emerges = 1; /* its depth is let out as slowly as that of meshes */
   t->press.soft = softness(s, &k->of), t->press.by_place = 1;
   for (int n = 0; n < 2; n++)
     t->at[n] = at[n], t->bow[n] = bow[n], t->slides[n] = slides && at[n] > 0 && at[n] < 1;
@@ -64,7 +66,7 @@ static sw_rods rods_of(const double *x, const sw_ends *e) {
                    {sw_vec_at(x, e->node[1]), sw_vec_at(x, e->end[1])}};
 }
 
-/* Do they pass through each other on the straight way from x0 to y? 1 with the place and the
+/* 1 if both pass through each other on the straight way from x0 to y. Fills the place and the
  * direction just before. */
 static int passes(const double *x0, const double *y, const sw_grain_pair *k, double at[2],
                   sw_vec *normal) {
@@ -76,7 +78,8 @@ static int passes(const double *x0, const double *y, const sw_grain_pair *k, dou
   return 1;
 }
 
-/* Edges closer to parallel than this touch along their length: their points see to that [-]. */
+/* Edges closer to parallel than this touch along their length; their points' touches cover that
+ * [-]. */
 static const double PARALLEL = 1e-3;
 
 static int crosses(const double *y, const sw_ends *k, double at[2]) {
@@ -87,16 +90,16 @@ static int crosses(const double *y, const sw_ends *k, double at[2]) {
   return at[0] > 0 && at[0] < 1 && at[1] > 0 && at[1] < 1;
 }
 
-/* The nearest place along the segment to a point, beyond its ends too [-]. */
+/* Returns the place along the segment nearest to a point; it may be beyond its ends [-]. */
 static double along(const double *x, uint32_t point, uint32_t from, uint32_t to) {
   const sw_vec u = sw_sub(sw_vec_at(x, to), sw_vec_at(x, from));
   const double uu = sw_norm2(u);
   return uu > 0 ? sw_dot(u, sw_sub(sw_vec_at(x, point), sw_vec_at(x, from))) / uu : 0.0;
 }
 
-/* The place of touch; 0: another pair has it. Edges cross within both. A point's place is within
- * the edge. On a wire's segment it may also be the first node, if the segment before does not reach
- * it, or the wire's end. */
+/* Finds the place of touch; 0: it belongs to another pair. Edges cross within both. A point's place
+ * is within the edge. On a wire's segment it may also be the first node, if the segment before does
+ * not reach the point, or the wire's end. */
 static int owns(const sw_system *s, const double *y, const sw_ends *k, double at[2]) {
   const sw_body *b = &s->bodies[k->body[1]];
   const uint32_t point = k->node[0], from = k->node[1], to = k->end[1];
@@ -120,7 +123,7 @@ static sw_status find(sw_grains *g, const sw_system *s, const double *y, const s
   const int barred = passes(s->x, y, k, at, &normal), own = !barred && owns(s, y, &k->of, at);
   if (!barred && !own) {
     if (!last || !(last->press.normal_force > 0)) return SW_OK;
-    at[0] = last->at[0], at[1] = last->at[1]; /* one that pushed stays where it was */
+    at[0] = last->at[0], at[1] = last->at[1]; /* a touch that pushed stays where it was */
   }
   const sw_bow bow[2] = {sw_bow_between(k->of.node[0], k->of.end[0], at[0]),
                          sw_bow_between(k->of.node[1], k->of.end[1], at[1])};

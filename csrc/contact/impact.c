@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Impacts. A step that meets an obstacle it did not touch before
- * is redone with the approach speed cut to what just reaches the surface (or
- * turned round by the restitution): the impulse acts at the step's start, and
- * the integrator never sees the shock that would make it bounce. */
+/* Impacts. A step that meets an obstacle it did not touch before is redone with the approach speed
+ * cut to the speed that just reaches the surface (or reversed by the restitution). The impulse acts
+ * at the step's start, so the integrator never sees the shock that would make it bounce. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +22,8 @@ static int was_struck(const sw_contact *c, const sw_pressed *t, size_t node, siz
   return 0;
 }
 
-/* On the smooth curve, another iterate may find the same touch from the segment beside. */
+/* 1 if the touch's impact was dealt with in this step. On the smooth curve another iterate may find
+ * the same touch from the segment beside. */
 static int dealt_with(const sw_contact *c, const sw_pressed *t, size_t *looks) {
   if (was_struck(c, t, t->node, looks)) return 1;
   if (!t->sharp) return 0;
@@ -56,7 +56,7 @@ sw_status sw_contact_calm(sw_contact *c, size_t nodes) {
   return SW_OK;
 }
 
-/* Share of the momentum that each node of a touch takes; held ones take none. */
+/* Computes the share of the momentum that each node of a touch takes; held nodes take none. */
 static void shares(const sw_system *s, const sw_pressed *t, double out[SW_MEAN_MOST]) {
   const sw_body *b = &s->bodies[t->body];
   double sum = 0;
@@ -68,7 +68,7 @@ static void shares(const sw_system *s, const sw_pressed *t, double out[SW_MEAN_M
   for (size_t e = 0; e < t->spot.count; e++) out[e] = sum > 0 ? out[e] / sum : 0.0;
 }
 
-/* A gap this small is none: what touches already takes on the obstacle's speed [m]. */
+/* A gap up to this is closed; the touch already moves with the obstacle [m]. */
 static const double CLOSED = 1e-6;
 
 /* Mean velocity of the obstacle's material at p in the step. */
@@ -79,11 +79,11 @@ static sw_vec mean_velocity(const sw_contact *c, int obstacle, sw_vec p) {
   return sw_scale(sw_sub(after, p), 1.0 / (c->stage_time - c->time));
 }
 
-/* The obstacle's velocity at p that matters to an impact, and the approach that does not [m/s].
- * What touches goes on with the speed at the step's start, and what the obstacle gains in the
- * step is no impact: the integrator deals with it, and a restart would only disturb it. A gap
- * closes on the way, so there it is the mean speed: struck with that of the start, a wire would
- * be reached early and leave again. */
+/* Returns the obstacle's velocity at p for an impact. *slow: a slower approach is no impact [m/s].
+ * A closed touch uses the speed at the step's start: what the obstacle gains within the step is no
+ * impact; the integrator handles it, and a restart would only disturb it. An open gap closes on the
+ * way and uses the mean speed: struck with the starting speed, a wire would be reached early and
+ * leave again. */
 static sw_vec striking_velocity(const sw_contact *c, const sw_pressed *t, sw_vec p, double gap,
                                 double *slow) {
   const sw_vec start = sw_obstacle_velocity(&c->start[t->obstacle], p);
@@ -118,7 +118,8 @@ static section section_of(const sw_system *s, const sw_body *b, size_t node) {
   return c;
 }
 
-/* A particle alone has none: what rounding leaves of it is not to count [kg m2]. */
+/* Moment of inertia of a section about an axis through its centre. Exactly 0 for a single particle,
+ * for which rounding would leave a little [kg m2]. */
 static double inertia_about(const sw_system *s, const sw_body *b, const section *c, sw_vec axis) {
   double sum = 0;
   if (c->end - c->first == 1) return 0;
@@ -129,9 +130,9 @@ static double inertia_about(const sw_system *s, const sw_body *b, const section 
   return sum;
 }
 
-/* Change a node's velocity by dv. What strikes a particle of a wire stops the whole section, as a
- * rigid one that may turn: its springs do that within any step but the shortest, and would throw it
- * back. Returns the impulse over |dv| [kg]. */
+/* Changes a node's velocity by dv. A strike on a particle of a wire stops the whole section, as a
+ * rigid one that may turn: the section's springs do this within any step except the shortest, and
+ * would throw it back. Returns the impulse over |dv| [kg]. */
 static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
   const section c = section_of(s, b, node);
   const sw_vec arm = sw_sub(sw_load(s->x + 3 * node), c.centre), moment = sw_cross(arm, dv);
@@ -151,28 +152,32 @@ static double kick(sw_system *s, const sw_body *b, size_t node, sw_vec dv) {
 
 /* How a touch with restitution meets its obstacle within a step. */
 typedef struct meeting {
-  double after; /* so long after the step's start [s] */
+  double after; /* time after the step's start [s] */
   double speed; /* approach at that moment [m/s] */
 } meeting;
 
-/* Gravity goes on until the surfaces meet, pull being how much of it is towards the obstacle. */
+/* Returns how a gap closes, with gravity acting until the surfaces meet. pull: gravity towards the
+ * obstacle [m/s2]. */
 static meeting meet(double gap, double approach, double pull) {
   const double speed = sqrt(fmax(0.0, approach * fabs(approach) + 2.0 * pull * gap));
   return (meeting){speed + approach > 0 ? 2.0 * gap / (speed + approach) : HUGE_VAL, speed};
 }
 
-/* A rebound from above the surface, where the step began, keeps the height that it did not fall
- * through: this share of the rebound's own is let pass [-]. */
+/* A rebound acts where the step began, above the surface, and so gains the height that the wire did
+ * not fall through. Allowed gain, as a share of the rebound's own height [-]. */
 static const double HEIGHT_ERROR = 0.02;
-/* So is this share of the way in a whole step, which is an error of time [-]. */
+/* Largest gap at such a rebound, as a share of the way in a whole step. It is an error of time
+ * [-]. */
 static const double WAY_ERROR = 1.0 / 8;
-/* A step that is cut ends this share of the time before the surface is met: the next one strikes at
- * its start [-]. */
+/* A step that is cut ends before the surface is met, by this share of the time up to there. The
+ * next step strikes at its start [-]. */
 static const double LEFT_OPEN = 0.02;
-/* What meets the surface sooner than by gravity alone is pushed there: so much of the step [-]. */
+/* A wire that meets the surface sooner than by gravity alone is pushed there. The step is then cut
+ * to this share [-]. */
 static const double CUT_AGAIN = 0.7;
 
-/* Is the rebound wrong if it is from where the step begins? Notes when the step is to end then. */
+/* 1 if a rebound from where the step begins would be wrong. Then c->soonest gets the time at which
+ * the step should end. */
 static int is_too_early(sw_contact *c, double e, double gap, double pull, meeting m, double h) {
   const double height = e * e * m.speed * m.speed, fallen = 2.0 * (1.0 - e * e) * pull * gap;
   if (c->regime == SW_CONTACT_EXPLICIT || gap <= CLOSED) return 0;
@@ -185,11 +190,11 @@ static int is_too_early(sw_contact *c, double e, double gap, double pull, meetin
 
 /* A touch and its obstacle, at the step's start. */
 typedef struct encounter {
-  sw_vec at;             /* on the wire's surface, if it can roll; else on its axis [m] */
+  sw_vec at;             /* point on the wire's surface if it can roll, else on its axis [m] */
   double gap;            /* [m] */
   sw_vec wall;           /* the obstacle's velocity there [m/s] */
-  sw_vec speed;          /* the wire's against it [m/s] */
-  double approach, slow; /* how fast the gap closes, and what is none [m/s] */
+  sw_vec speed;          /* the wire's velocity relative to it [m/s] */
+  double approach, slow; /* closing speed of the gap; up to slow it is no impact [m/s] */
 } encounter;
 
 static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_pressed *t,
@@ -208,20 +213,20 @@ static encounter encounter_of(const sw_contact *c, const sw_system *s, const sw_
   return e;
 }
 
-/* How much of its velocity towards the obstacle a touch is to lose; 0: it strikes nothing [m/s]. */
+/* Returns the velocity towards the obstacle that a touch loses; 0: it strikes nothing [m/s]. */
 static double velocity_lost(sw_contact *c, const sw_system *s, const sw_pressed *t,
                             const encounter *meets, double h) {
   const double allowed = meets->gap / h, e = c->obstacles[t->obstacle].restitution;
   const double pull = fmax(0.0, -sw_dot(sw_load(s->gravity), t->normal));
   const meeting m = meet(meets->gap, meets->approach, pull);
   if (e > 0 ? !(m.speed > meets->slow) : !(meets->approach > allowed + meets->slow)) return 0;
-  /* a rebound shorter than a step would be none */
+  /* a rebound that comes back within the step is none */
   const int rebounds = e * m.speed > 0.5 * pull * h;
   if (rebounds && is_too_early(c, e, meets->gap, pull, m, h)) return 0;
   return fmax(0.0, rebounds ? meets->approach * (1.0 + e) : meets->approach - allowed);
 }
 
-/* What comes to a pad that holds a wire already only trembles. */
+/* 1 for a touch on a pad that already holds a wire: it only trembles and strikes nothing. */
 static int trembles(const sw_contact *c, const sw_pressed *t) {
   return c->obstacles[t->obstacle].grips > 0 && c->pressing[t->obstacle];
 }
@@ -288,8 +293,8 @@ static int by_meeting(const void *left, const void *right) {
   return (p->touch > q->touch) - (p->touch < q->touch);
 }
 
-/* A wall that stands and gives nothing back is met as fast as the wire comes; by less than this
- * share of the slowest impact there is surely none, whatever rounding does [-]. */
+/* A standing wall without restitution is met at the wire's speed. Below this share of the slowest
+ * impact there is surely no impact, whatever rounding does [-]. */
 static const double SURELY = 1.0 - 1e-6;
 
 static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t) {
@@ -297,7 +302,7 @@ static int is_slow(const sw_contact *c, const sw_system *s, const sw_pressed *t)
   return -sw_dot(sw_mean_of(s->v, 0, &t->spot), t->normal) <= SURELY * SW_SLOWEST_IMPACT;
 }
 
-/* Is it one whose impact is not dealt with yet? Then how it meets its obstacle. */
+/* 1 if the touch's impact is not dealt with yet. Then *e is how it meets its obstacle. */
 static int may_strike(const sw_contact *c, sw_system *s, const sw_pressed *t, encounter *e) {
   if (trembles(c, t) || dealt_with(c, t, &s->counters.looks)) return 0;
   const sw_levers levers = levers_of(s, t);
@@ -305,7 +310,7 @@ static int may_strike(const sw_contact *c, sw_system *s, const sw_pressed *t, en
   return 1;
 }
 
-/* Does any touch strike, with velocities as they are? */
+/* 1 if any touch strikes with the present velocities. */
 static int any_strikes(sw_contact *c, sw_system *s, double h) {
   const double soonest = c->soonest;
   for (size_t i = 0; i < c->pressed_count; i++) {
@@ -313,7 +318,7 @@ static int any_strikes(sw_contact *c, sw_system *s, double h) {
     encounter e;
     if (is_slow(c, s, t) || !may_strike(c, s, t, &e)) continue;
     if (!(velocity_lost(c, s, t, &e, h) > 0)) continue;
-    c->soonest = soonest; /* all are asked again, one after the other */
+    c->soonest = soonest; /* strike_all judges all touches again, one after another */
     return 1;
   }
   return 0;
@@ -332,7 +337,7 @@ int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size
   return 0;
 }
 
-/* Those that may strike, also once others have: number of them. */
+/* Lists the touches that may strike, also after others have struck. Returns their number. */
 static size_t find_turns(sw_contact *c, sw_system *s) {
   size_t count = 0;
   for (size_t i = 0; i < c->pressed_count; i++) {
@@ -348,7 +353,8 @@ static size_t find_turns(sw_contact *c, sw_system *s) {
   return count;
 }
 
-/* In a step that does not bounce only what rebounds strikes: the rest comes to rest by itself. */
+/* In a step that does not bounce, keeps only touches that rebound; the others come to rest by
+ * themselves. */
 static void leave_dull(sw_contact *c) {
   size_t kept = 0;
   for (size_t i = 0; i < c->pressed_count; i++)
@@ -356,8 +362,9 @@ static void leave_dull(sw_contact *c) {
   c->pressed_count = kept;
 }
 
-/* What meets its obstacle first strikes first, and what does so at once, the fastest first,
- * whichever end the wire's nodes are counted from: places of neighbouring segments share nodes. */
+/* The touch that meets its obstacle first strikes first; of simultaneous ones the fastest does. The
+ * order matters because places of neighbouring segments share nodes, and it must not depend on the
+ * end from which nodes are counted. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull) {
   int changed = 0;
   if (dull) leave_dull(c);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds leave of depth that no force takes away. */
+/* Depth that holds impose and no force can take away. */
 #include <math.h>
 
 #include "contact/round.h"
 #include "contact/touch.h"
 
-/* A wire on something round touches by its edges' middles, and its nodes are h^2/(8 R) further out.
- * One that is held on the surface is not: it is to bend on from there as it does further on, not
- * half as much again beside it [m]. */
+/* Height of a node over a round surface that the wire touches with its edges' middles: h^2/(8 R)
+ * [m]. A node held on the surface itself lacks this height. Unless the height is allowed for, the
+ * wire bends half as much again beside the held node as it does further on. */
 static double bulge(const sw_contact *c, const sw_candidate *k, sw_vec held, sw_vec other) {
   const sw_vec edge = sw_sub(other, held);
   const double radius = c->round[k->obstacle] + k->skin, length = sw_norm(edge);

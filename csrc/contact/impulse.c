@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What obstacles get in a step: the impulse that changed the wires' momentum. A method's stages
- * make it up from forces in the way they make up the velocity; impacts that change velocities at
- * the step's start add theirs. */
+/* Loads of obstacles in a step: the impulse that changed the wires' momentum. A method's stages
+ * build it from forces as they build the velocity; impacts that change velocities at the step's
+ * start add theirs. */
 #include <math.h>
 
 #include "contact/jolt.h"
@@ -11,16 +11,16 @@ static sw_contact_load sum(sw_contact_load a, double share, sw_contact_load b) {
   return (sw_contact_load){sw_madd(a.force, b.force, share), sw_madd(a.moment, b.moment, share)};
 }
 
-/* On the wire, as it moved the wire; at an equilibrium as the law has it. */
+/* Force on the wire: in implicit steps the force that moved the wire, else the force by the law. */
 static sw_vec force_on(const sw_contact *c, const sw_touch *t) {
   const sw_press *p = &t->press;
   if (c->regime == SW_CONTACT_IMPLICIT) return sw_press_borne(p, t->friction);
   return p->normal_force > 0 ? sw_madd(p->tangential, p->normal, p->normal_force) : sw_v(0, 0, 0);
 }
 
-/* Add share times the forces of the touches, with moments about the obstacles' pivots now: those
- * of fingers about one point, or what they press with would turn the tool as they turn in a step.
- */
+/* Adds share times the forces of the touches, with moments about the obstacles' present pivots. The
+ * fingers of a tool share one pivot; otherwise their pressing forces would turn the tool while it
+ * turns in a step. */
 static void add_now(const sw_contact *c, double share, sw_contact_load *(*at)(sw_contact_loads *)) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_touch *t = &c->touches[i];
@@ -110,7 +110,7 @@ double sw_contact_usual_force(const sw_system *s, const sw_plan *p) {
   return weight > 0 ? weight : p->beam.EI / (p->length * p->length);
 }
 
-/* Of usual forces [-]. */
+/* Squeezing force over the usual force [-]. */
 static const double FAR_ABOVE = 100.0;
 
 double sw_contact_squeezing_force(const sw_system *s, const sw_plan *p) {
@@ -124,8 +124,8 @@ double sw_contact_edge_stiffness(const sw_system *s, size_t body, size_t node) {
   return b->EA / b->plan->rest[e < edges ? e : edges - 1];
 }
 
-/* A force at a step's end that differs from its mean by this share of it, and by this of what is
- * usual, is that of a shock [-]. */
+/* A force at a step's end comes from a shock if it differs from the mean by more than SHOCK times
+ * the larger of both, and by more than SHARP times the usual force [-]. */
 static const double SHOCK = 0.3, SHARP = 0.5;
 
 static int is_shock(double usual, sw_vec end, sw_vec mean) {
@@ -133,11 +133,11 @@ static int is_shock(double usual, sw_vec end, sw_vec mean) {
   return off > SHOCK * most && off > SHARP * usual;
 }
 
-/* Is a force off by off too much for one of the wires that touch obstacle o? */
+/* 1 if a difference of forces is too much for one of the wires that touch obstacle o. */
 static int shakes(const sw_contact *c, const sw_system *s, int o, double off) {
   for (size_t i = 0; i < c->touch_count; i++) {
     const sw_plan *p = s->bodies[c->touches[i].body].plan;
-    if (c->touches[i].obstacle != o || p->web) continue; /* these would hop: see bounces */
+    if (c->touches[i].obstacle != o || p->web) continue; /* meshes would hop, see bounces */
     if (off > SHARP * sw_contact_usual_force(s, p)) return 1;
   }
   return 0;
@@ -153,19 +153,20 @@ int sw_contact_shaken(const sw_contact *c, const sw_system *s) {
   return 0;
 }
 
-/* A blow whose mean over the step is less than so many usual forces is none [-]. */
+/* A new blow is harder than this multiple of the usual force, as a mean over the step [-]. */
 static const double LIGHT = 1.1;
-/* Of one obstacle only those are followed that are so many times as hard as any before [-]. */
+/* A new blow on an obstacle is this many times as hard as the hardest one before [-]. */
 static const double HARDER = 1.5;
-/* One that is followed goes on while such forces come and go that are so many times as hard [-]. */
-static const double GOES_ON = 0.5, HARD = 5.0; /* and this hard, of usual forces */
+/* A followed blow goes on while forces come and go that are harder than GOES_ON times the hardest
+ * one and than HARD times the usual force [-]. */
+static const double GOES_ON = 0.5, HARD = 5.0; /* the latter: of usual forces [-] */
 
 double sw_contact_least_blow(double usual, double hardest, int followed) {
   return followed ? fmax(HARD * usual, GOES_ON * hardest) : fmax(LIGHT * usual, HARDER * hardest);
 }
 
-/* A blow is followed in parts of this length at most, for which jolts are squares of their number,
- * see step/blow.c: the sections of a soft mesh throw it back within a millisecond, and the end of a
+/* Longest part (substep) in which a blow is followed. The number of parts is the jolt's square, see
+ * step/blow.c. Sections of a soft mesh throw a blow back within a millisecond, and the end of a
  * stiff wire that falls on a peg bounces as fast [s]. */
 static const double LONGEST_PART = 3e-4;
 
@@ -178,7 +179,7 @@ double sw_contact_jolt_of(double size, double usual, double h) {
   return fmax(size / usual, sqrt(h / LONGEST_PART));
 }
 
-/* A gripper's pads close on a wire: they have ways of their own to do so slowly. */
+/* Pads of a gripper are left out; a gripper has other means to close slowly on a wire. */
 double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
   const sw_contact_load none = {.force = {.x = 0}};
   double hardest = 0;
@@ -193,8 +194,8 @@ double sw_contact_jolt(sw_contact *c, const sw_system *s, int followed) {
     const double size = sw_norm(mean), usual = sw_contact_usual_force(s, p);
     const double least = sw_contact_least_blow(usual, l->past.hardest, followed);
     if (c->obstacles[t->obstacle].grips > 0 || !(size > least)) continue;
-    if (size > p->beam.EA) continue;     /* driven into it by a hold: no blow of a wire has that */
-    if (!followed && t->known) continue; /* what slips or sticks here strikes nothing */
+    if (size > p->beam.EA) continue;     /* a hold drives it in: a wire's blow is weaker */
+    if (!followed && t->known) continue; /* it only slips or sticks here */
     if (!sw_contact_comes_and_goes(usual, l->past.end.force, mean, l->trial.force)) continue;
     if (!followed) l->past.hardest = size;
     hardest = fmax(hardest, sw_contact_jolt_of(size, usual, c->h));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the touches of an iterate do: their forces by the common law, whether a matrix made with
- * them serves again, and whether they agree with the solve. */
+/* Touches of an iterate: their forces by the common law, whether a matrix made with them serves
+ * again, and whether they agree with the solve. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -18,7 +18,7 @@ static void apply(sw_contact *c, sw_system *s, sw_touch *t, unsigned want) {
   if (s->rolls) sw_levers_push(s, t, K, want);
 }
 
-/* What friction lets slide has a stiffness of its own at every place. */
+/* 1 if the touch slides with friction. Its stiffness then differs from place to place. */
 static int slides(const sw_touch *t) {
   return t->press.sliding && t->friction > 0 && t->press.lag > 0;
 }
@@ -36,8 +36,8 @@ static void mark(sw_contact *c) {
   }
 }
 
-/* A touch is that of the matrix while it moved by less than this share of its segment, its normal
- * turned by less than this angle, and its stiffness changed by no more than this share [-], [rad],
+/* A touch still fits the matrix if it moved by less than MOVED of its segment [-], its normal
+ * turned by less than TURNED [rad], and its stiffness changed by no more than the share STIFFENED
  * [-]. */
 static const double MOVED = 1e-3, TURNED = 0.01, STIFFENED = 0.01;
 
@@ -47,22 +47,22 @@ static int is_marked(const sw_touch *t, const sw_mark *m) {
          sw_norm2(sw_sub(m->normal, t->press.normal)) < TURNED * TURNED;
 }
 
-/* Where a wire bends round a pad by the least bit, its node and both segments beside touch it at
- * one place, where before it was the node alone. Touches whose stiffness is given would press three
- * times as hard, and the pads would hop. So a segment's touch within this share of its end leaves
- * its stiffness to the node, all of it at the end; further off the node has none. Half and twice as
- * much hold the same grips [-]. */
+/* Share of a segment, from its end, in which its touch hands its stiffness to the node. Where a
+ * wire bends round a pad even slightly, its node and both segments beside touch the pad at one
+ * place, where before only the node did. Touches of given stiffness would press three times as
+ * hard, and the pads would hop. So at the segment's end the node has all the stiffness, and at this
+ * share from it the segment has all. Half and twice this value hold the same grips [-]. */
 static const double SHARED = 0.25;
-static const double LEAST_SHARE = 1e-3; /* of its stiffness that a touch keeps [-] */
+static const double LEAST_SHARE = 1e-3; /* least share of its stiffness that a touch keeps [-] */
 
-/* How near a segment's touch is to the node: 1 at it, 0 from there on [-]. */
+/* Nearness of a segment's touch to the node: 1 at the node, 0 from SHARED on [-]. */
 static double nearness(const sw_touch *segment, size_t node) {
   const double away = segment->node == node ? segment->at : 1.0 - segment->at;
   return fmax(0.0, 1.0 - away / SHARED);
 }
 
-/* The nearest touch of a segment to this touch of its node, or of its nodes to this of a segment;
- * 0: there is none beside [-]. */
+/* Returns the nearness of the nearest touch beside t: of a segment to a node's touch t, or of a
+ * node to a segment's touch t. *any = 0: there is none beside [-]. */
 static double nearest_beside(const sw_contact *c, const sw_touch *t, int *any) {
   double nearest = 0;
   *any = 0;
@@ -88,7 +88,7 @@ static void share(const sw_contact *c, const sw_system *s, sw_touch *t) {
   t->press.k = t->share * (c->softer ? sw_contact_softer(c, s, k, t->stiffer) : t->stiffer);
 }
 
-/* Find the touches of an iterate; want: and add their forces, unless it is 0. */
+/* Finds the touches of an iterate, and adds their forces unless want is 0. */
 static sw_status look(sw_contact *c, sw_system *s, const double *y, unsigned want, sw_error *err) {
   sw_glance at;
   sw_status status = sw_contact_turn_over(c, &at);
@@ -119,10 +119,12 @@ sw_status sw_contact_keeps(void *contact, sw_system *s, const double *y, int *ou
   return SW_OK;
 }
 
-/* What a step leaves so near to what it would rebound from does so with its neighbours [m]. */
+/* A touch left this near to an obstacle with restitution strikes together with its neighbours
+ * [m]. */
 static const double NEXT_TO = 1e-6;
 
-/* What presses may have struck. With no room for it, an impact is dealt with in the next step. */
+/* Notes a touch that presses and so may have struck. Without memory its impact is dealt with in the
+ * next step. */
 static void note_pressed(sw_contact *c, const sw_touch *t) {
   const double open = c->obstacles[t->obstacle].restitution > 0 ? NEXT_TO : 0.0;
   if (t->held || !(t->press.normal_force > 0 || t->press.gap_after < open)) return;
@@ -150,34 +152,35 @@ sw_status sw_contact_eval(void *contact, sw_system *s, double time, double hbar,
   return SW_OK;
 }
 
-/* A touch's shift by the solved update, with that of the surface. */
+/* A touch's shift by the solved update, with that of the rolling surface. */
 static sw_vec surface_shift(const sw_system *s, const sw_touch *t, sw_vec shift) {
   const sw_levers levers = sw_touch_levers(s, t);
   if (!levers.count) return shift;
   return sw_add(shift, sw_levers_shift(&levers, s->bodies[t->body].spin_delta + 3, 4));
 }
 
-/* The first update of a stage starts from a prediction, where the normals of what is round are a
- * little off. Accepted, that shakes ropes which slide round a cylinder: their force then swings by
- * 12 % instead of 1 %. A mesh that rocks on a peg gains energy by it. Pads of a gripper are pressed
- * on meshes to a force, which is found within fewer trials as it is. */
+/* 1 if this is a stage's first update, on an obstacle that is not flat. It starts from a
+ * prediction, where the normals of round obstacles are a little off, and is not accepted unchecked:
+ * ropes that slide round a cylinder would shake (their force would swing by 12 % instead of 1 %),
+ * and a mesh that rocks on a peg would gain energy. Meshes in a gripper's pads are excepted: the
+ * gripper then finds its force in fewer trials. */
 static int is_first(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   if (c->obstacles[t->obstacle].grips > 0 && s->bodies[t->body].plan->web) return 0;
   return c->updates == 1 && c->regime == SW_CONTACT_IMPLICIT && !c->flat[t->obstacle] &&
          t->press.active;
 }
 
-/* On what is not flat the touch may have got another place and another normal. */
+/* 1 if the touch may have got another place and normal, on an obstacle that is not flat. */
 static int may_change(const sw_contact *c, const sw_touch *t, double shift) {
   const double radius = c->candidates[t->candidate].radius;
   return !c->flat[t->obstacle] && t->press.gap_after < radius &&
          !(shift <= SW_SMALL_SHIFT * radius);
 }
 
-/* Bring a touch's forces up to the solved update; 1 = it agrees with what the solve assumed.
- * Friction of a loose object's many touches may never agree with itself all over: in the end it no
- * longer keeps iterations going where it shifts a touch by less than a small share of the radius,
- * and is then off by less than its own size for that step. */
+/* Sets a touch's forces after the solved update; 1 = it agrees with what the solve assumed.
+ * Friction of a loose object's many touches may never agree everywhere. After many updates it no
+ * longer keeps iterations going if it shifts a touch by less than a small share of the radius; for
+ * that step friction is then off by less than its own size. */
 static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *y,
                   const double *delta, double scale) {
   const sw_vec shift = sw_mean_of(delta, 0, &t->spot);
@@ -198,8 +201,8 @@ static int update(sw_contact *c, const sw_system *s, sw_touch *t, const double *
   return !(changes || first) || sw_contact_stays(c, s, t, y, way, scale);
 }
 
-/* Touches that sink in too deep are made stiffer. Stiffness of one from the next iterate on, in
- * full [N/m]. */
+/* Returns the full stiffness of a touch from the next iterate on; touches that sink in too deep are
+ * made stiffer [N/m]. */
 static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t) {
   const int still = c->regime == SW_CONTACT_STATIC, squeezed = t->squeezed && !still;
   const int small = sw_press_is_short(still, c->h, c->asked);
@@ -213,7 +216,7 @@ static double stiffer(const sw_contact *c, const sw_system *s, const sw_touch *t
   return k > t->press.k ? k / t->share : t->stiffer;
 }
 
-/* 1 = there were some. */
+/* Stiffens touches that are too deep; 1 = there were some. */
 static int stiffen(sw_contact *c, const sw_system *s) {
   int any = 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++) {
@@ -224,8 +227,8 @@ static int stiffen(sw_contact *c, const sw_system *s) {
   return any;
 }
 
-/* Bring all touches up to the update. If they agree: those that press are noted, and changes tells
- * whether stiffnesses are to. */
+/* Sets the forces of all touches after the update; 1 if they agree. Then pressing touches are
+ * noted, and *changes tells whether stiffnesses should change. */
 static int update_all(sw_contact *c, const sw_system *s, const double *y, const double *delta,
                       int *changes) {
   const int may = c->regime != SW_CONTACT_EXPLICIT && !s->rough;
@@ -244,8 +247,8 @@ static int update_all(sw_contact *c, const sw_system *s, const double *y, const 
   return fine;
 }
 
-/* So few touches do not lie but stand, on a bent wire that may be about to slip: what they do then
- * is up to how it bends [-]. */
+/* A wire stands, rather than lies, on up to this many rubbing touches. It may be bent and about to
+ * slip, and its touches then depend on how it bends [-]. */
 enum { SINGLE = 4 };
 
 static int stands(const sw_contact *c) {
@@ -255,8 +258,9 @@ static int stands(const sw_contact *c) {
   return rubs > 0 && rubs <= SINGLE;
 }
 
-/* Is friction all that may be nonlinear about touches? Where they slide is found before the update
- * is made, or it leads astray; places on edges and round sides are found by updates. */
+/* 1 if friction is the only nonlinearity of the touches, because all are on flat obstacles. Where
+ * they slide is found before the update is made, or the update would lead astray. Places on edges
+ * and round sides are found by updates. */
 static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
   int rubs = 0;
   if (s->rolls) return 0;
@@ -269,11 +273,12 @@ static int rubs_on_flat(const sw_contact *c, const sw_system *s) {
   return rubs;
 }
 
-/* Touches that find no agreement in so many solves at one place search for it; nor do they go on
- * like that when positions took so many updates, or some with few of them wrong [-]. */
+/* Touches that do not agree after EASY_PASSES solves at one place search for agreement. No update
+ * is made before they agree once positions took EASY_UPDATES updates, or SOME_UPDATES if at most
+ * FEW_WRONG touches are wrong [-]. */
 enum { EASY_PASSES = 8, EASY_UPDATES = 14, SOME_UPDATES = 8, FEW_WRONG = 4 };
 
-/* An update need not be made: is it better to have touches agree first? */
+/* 1 if the touches should agree before an update, which may be made, is made. */
 static int rather_waits(const sw_contact *c, const sw_system *s) {
   if (stands(c)) return 0;
   if (c->softer || rubs_on_flat(c, s) || c->made >= EASY_UPDATES) return 1;
@@ -285,8 +290,8 @@ static int searches(sw_contact *c, const sw_system *s) {
   return ++c->passes > EASY_PASSES || s->rough == SW_MAY_BE_MADE || !sw_contact_wrong(c);
 }
 
-/* A trial that finds something to strike is redone with other speeds: of wires that are solved by
- * themselves, those that strike in it need not agree on their friction. */
+/* 1 if the current part of bodies strikes something, so that its friction need not agree: the trial
+ * is redone with other speeds. */
 static int is_hasty(sw_contact *c, sw_system *s) {
   if (!c->parts.on || c->careful || s->rough || c->regime != SW_CONTACT_IMPLICIT) return 0;
   for (size_t i = c->parts.touch; i < c->touch_count; i++)

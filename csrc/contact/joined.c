@@ -15,7 +15,7 @@ static size_t put(couple *out, size_t n, uint32_t a, uint32_t b) {
   return n + 2;
 }
 
-/* All joined pairs, both ways round, into out (may be NULL); how many. */
+/* Lists all joined pairs, in both orders, in out (may be NULL). Returns their number. */
 static size_t list(const sw_web *w, couple *out) {
   size_t n = 0;
   for (size_t e = 0; e < w->links; e++) n = put(out, n, w->link[e].a, w->link[e].b);

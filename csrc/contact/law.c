@@ -3,50 +3,52 @@
 
 #include <math.h>
 
-/* Depths below this are no more than rounding of what a script says [m]. */
+/* Depths up to this are rounding of a script's numbers [m]. */
 static const double PLACED = 2e-8;
-/* A gap below this does not keep an iteration going: far below the depth of what lies, in steps of
- * any size, or a wire is held back by what it leaves [m]. */
+/* A gap below this lets an iteration end. It is far below the depth of a resting wire, in steps of
+ * any size; otherwise the touches that a wire leaves would hold it back [m]. */
 static const double GAP_TOLERANCE = 1e-13;
-/* Errors of a friction spring's length below this do not keep an iteration going: far
- * below its length at the onset of sliding, however stiff it is [m]. */
+/* Errors of a friction spring's length below this let an iteration end. They are far below its
+ * length at the onset of sliding, however stiff it is [m]. */
 static const double SPRING_TOLERANCE = 1e-14;
-/* Nor turns of the sliding direction with a cosine above this [-]. */
+/* Turns of the sliding direction with a cosine above this let an iteration end [-]. */
 static const double TURN_TOLERANCE = 0.98;
-/* Nor does the linearisation of the direction, by this share of the force [-]. */
+/* So do errors by the direction's linearisation, up to this share of the force [-]. */
 static const double DIRECTION_TOLERANCE = 0.02;
-/* Nor do changes of a sliding touch's normal force below this share of it, or
- * below this share of the scene's forces [-]. */
+/* So do changes of a sliding touch's normal force up to FORCE_TOLERANCE of it plus WEIGHT_TOLERANCE
+ * of the scene's forces [-]. */
 static const double FORCE_TOLERANCE = 0.01;
 static const double WEIGHT_TOLERANCE = 1e-3;
 
-/* Friction that was so many times the scene's forces at an iterate's first solve leaves its
+/* Friction that was this many times the scene's forces in an iterate's first solve leaves its
  * rounding in the solution [-]. */
 static const double DROWNED = 100.0;
 
-/* A spring stretched this many times over what friction can hold does not stick,
- * whatever the prediction is worth [-]. */
+/* A spring stretched by this many times what friction can hold surely slides, even in a poor
+ * prediction [-]. */
 static const double SURELY_SLIDING = 20.0;
-/* Unless the slide has turned round so often, of those that go by their place: friction then pushes
- * it back by more than that stretch each time, and it is held [-]. */
+/* Unless the slide of a touch with by_place has reversed this often: friction then pushes it back
+ * by more than that stretch each time, so it sticks [-]. */
 enum { REVERSALS = 3 };
 
-/* Wires that are deeper inside than their force explains are let out at this speed; meshes, whose
- * sections may stand off the line that they come from, so slowly that they are not thrown [m/s]. */
+/* Wires that are deeper inside than their force explains are let out at RECOVERY_SPEED. Meshes,
+ * whose sections may stand off the line that they come from, are let out at SLOW_RECOVERY, so that
+ * they are not thrown [m/s]. */
 static const double RECOVERY_SPEED = 0.2, SLOW_RECOVERY = 0.005;
 
-/* A touch that sinks in deeper is made stiffer until it does not [m]. */
+/* Allowed depth: a deeper touch is made stiffer until it is not deeper [m]. */
 static const double DEEPEST = 50e-6;
-static const double MOST_BOOST = 1e5;    /* of that stiffness [-] */
-static const double LARGEST_STEP = 10.0; /* of it at once [-] */
-static const double DEEPER = 5e-6;       /* than before, in short steps [m] */
-/* A load that grows slowly leaves 18 um for each ten times of it: half or twice as much at half or
- * twice of this, and as few steps are refused (spec/contact/taut_spec). */
-static const double EARLY = 0.4;    /* of the allowed depth [-] */
-static const double AT_ONCE = 2.0;  /* of the allowed depth, by a load that grows fast [-] */
-static const double NEEDLESS = 0.1; /* of the allowed depth [-] */
-static const double EASING = 0.8;   /* per step [-] */
-static const double SHORT = 0.25;   /* step, of the nominal one [-] */
+static const double MOST_BOOST = 1e5;    /* largest stiffening, of a new touch's stiffness [-] */
+static const double LARGEST_STEP = 10.0; /* largest stiffening at once [-] */
+static const double DEEPER = 5e-6;       /* allowed increase of depth in short steps [m] */
+/* A squeezed touch is hardened above this share of the allowed depth. A slowly growing load leaves
+ * 18 um for each factor of ten in force; half or twice this value leaves half or twice as much,
+ * with as few refused steps (spec/contact/taut_spec). */
+static const double EARLY = 0.4;    /* hardens above this share [-] */
+static const double AT_ONCE = 2.0;  /* the same at once, for a load that grows fast [-] */
+static const double NEEDLESS = 0.1; /* below this share, stiffness is needless [-] */
+static const double EASING = 0.8;   /* factor on needless stiffness per step [-] */
+static const double SHORT = 0.25;   /* largest share of the nominal step that is a short step [-] */
 
 void sw_press_activate(sw_press *p, const sw_press *last) {
   p->active = p->gap < 0 || (last && last->active && last->normal_force > 0);
@@ -61,8 +63,8 @@ void sw_press_activate(sw_press *p, const sw_press *last) {
   p->spare--;
 }
 
-/* After this many alternations friction's normal force is taken by secant: most die out by
- * themselves, and among many touches the slope of one says little of the others [-]. */
+/* After this many alternations friction's normal force is taken by a secant. Most alternations die
+ * out by themselves, and among many touches the slope of one says little about the others [-]. */
 enum { ALTERNATIONS = 4 };
 
 static void take_lag(sw_press *p, const sw_press *last) {
@@ -86,7 +88,7 @@ void sw_press_resume(sw_press *p, const sw_kept *kept, const sw_press *last, int
     p->sliding = kept->sliding;
 }
 
-/* What a vector has across a normal. */
+/* Part of a vector perpendicular to a normal. */
 static sw_vec across(sw_vec v, sw_vec n) { return sw_madd(v, n, -sw_dot(v, n)); }
 
 void sw_press_aim(sw_press *p, sw_vec u, const sw_press *last, int same, double first) {
@@ -106,7 +108,7 @@ void sw_press_begin(sw_press *p, double friction, int known, double felt) {
   if (surely && p->reversals < REVERSALS) p->sliding = 1;
 }
 
-/* Which way a touch slides, and how long its spring is. None that is known: zero. */
+/* Returns the direction in which a touch slides, zero if unknown, and the length of its spring. */
 static sw_vec direction(const sw_press *p, double *length) {
   const sw_vec u = sw_add(p->trial, p->ahead);
   *length = sw_norm(u);
@@ -124,7 +126,7 @@ static void stiffness_matrix(double kn, double kt, double ks, sw_vec n, sw_vec d
           (kn - kt) * v[i] * v[j] + (i == j ? kt : 0.0) - 0.5 * ks * (u[i] * q[j] + q[i] * u[j]);
 }
 
-/* The same stiffness of a sliding touch, times a shift along the surface: how friction turns. */
+/* Stiffness of a sliding touch times a shift along the surface: how its friction turns. */
 static sw_vec turned(const sw_press *p, sw_vec d, sw_vec along) {
   const double by = -0.5 * sw_dot(d, along), more = -0.5 * sw_dot(p->pulls, along);
   return sw_scale(sw_madd(sw_madd(along, p->pulls, by), d, more), p->turning);
@@ -153,8 +155,7 @@ sw_vec sw_press_eval(sw_press *p, double friction, int lagged, double K[6]) {
   return sw_madd(p->tangential, p->normal, p->normal_force);
 }
 
-/* Is the normal force that friction took as given off by less than what keeps an iteration going?
- */
+/* 1 if the normal force that friction took as given is off by no more than the tolerance. */
 static int lag_agrees(const sw_press *p, double force, double force_scale) {
   return fabs(force - p->lag) <= FORCE_TOLERANCE * force + WEIGHT_TOLERANCE * force_scale;
 }
@@ -218,7 +219,7 @@ int sw_press_opens(const sw_press *p, sw_vec shift, double force_scale) {
   return sw_norm(turn) <= WEIGHT_TOLERANCE * force_scale;
 }
 
-/* Friction that the last solve reckoned with. */
+/* Friction as assumed by the last solve. */
 static sw_vec rubbed(const sw_press *p, double friction) {
   const sw_vec along = across(p->shift, p->normal);
   double length;
@@ -227,12 +228,12 @@ static sw_vec rubbed(const sw_press *p, double friction) {
   return sw_sub(sw_scale(d, -friction * p->lag), turned(p, d, sw_sub(along, p->ahead)));
 }
 
-/* Friction that the linearised law gives at displacement u, over what it can be and against it.
- * Sums of many directions u/|u| mislead an iteration that takes each one's curvature from its place
- * alone, for along u there is none: touches that are to stick are thrown past their place and back,
- * hundreds at once. With this beside the place as an unknown of its own, |w| <= 1, |u| w = u is
- * what is linearised, and the curvature goes only where friction is at its limit (Chan, Golub and
- * Mulet 1999, for sums of norms in images). */
+/* Friction by the linearised law at displacement u, reversed, over its limit. If each touch's
+ * curvature comes from its place alone, an iteration on sums of many directions u/|u| is misled,
+ * because along u there is no curvature: touches that should stick are thrown past their place and
+ * back, hundreds at once. So the direction w, |w| <= 1, is an unknown beside the place, and the
+ * equation |u| w = u is linearised; curvature then acts only where friction is at its limit (Chan,
+ * Golub and Mulet 1999, for sums of norms in images). */
 static sw_vec pulled(const sw_press *p, sw_vec u, sw_vec along, double most) {
   double length;
   const sw_vec d = direction(p, &length);
@@ -251,7 +252,7 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   const sw_vec from = sw_add(p->trial, p->ahead);
   const double along = sw_dot(u, from);
   const int beyond = grip * length > most;
-  /* what goes by its place turns round in an iterate where it is to stick */
+  /* with by_place, a slide that reverses in an iterate should stick */
   const int reversed = p->by_place && p->sliding && along < 0;
   p->next_sliding = beyond && !reversed;
   p->reversals += reversed;
@@ -259,12 +260,12 @@ static int update_friction(sw_press *p, double friction, sw_vec shift, double fo
   p->tangential = sw_scale(u, -(beyond && length > 0 ? most / length : grip));
   p->slip = sw_add(p->carried, sw_madd(u, p->tangential, 1.0 / grip));
   p->off = sw_norm(sw_sub(rubbed(p, friction), p->tangential));
-  /* friction that stretches its spring by rounding only: it has no direction, nor need have one */
+  /* friction that stretches its spring by rounding only has no direction and needs none */
   const int idle = fmax(most, friction * p->lag) <= small;
-  /* one that turned round in the iterate: its friction, which came from lag, must not matter */
+  /* a slide that reversed in the iterate: its friction, which came from lag, must not matter */
   if (p->sliding && along < 0) return idle;
   if (p->sliding && beyond && !idle && along < TURN_TOLERANCE * length * sw_norm(from)) return 0;
-  /* a change of state matters when the force does */
+  /* a change of state matters if the force does */
   const double share = p->sliding && beyond ? DIRECTION_TOLERANCE : FORCE_TOLERANCE;
   if (p->off > small + share * most + WEIGHT_TOLERANCE * force_scale) return 0;
   if (!p->sliding || !beyond || idle) return 1;
@@ -277,7 +278,7 @@ int sw_press_update(sw_press *p, double friction, sw_vec shift, double force_sca
   p->shift = shift;
   p->gap_after = p->gap + sw_dot(p->normal, shift);
   p->normal_force = active ? fmax(0.0, -p->k * p->gap_after) : 0.0;
-  p->next_sliding = 1; /* what does not touch moves freely */
+  p->next_sliding = 1; /* without touch it moves freely */
   p->slip = sw_v(0, 0, 0);
   p->off = 0;
   const int agrees = active && friction > 0 ? update_friction(p, friction, shift, force_scale) : 1;
@@ -293,7 +294,7 @@ int sw_press_enough(const sw_rubbing *sum) { return sum->off <= FORCE_TOLERANCE 
 
 sw_vec sw_press_borne(const sw_press *p, double friction) {
   if (!p->active && !p->opened) return sw_v(0, 0, 0);
-  /* of an opened one, what rounding leaves */
+  /* for an opened touch, only rounding is left */
   const sw_vec f = sw_scale(p->normal, p->lift - p->k * p->gap_after);
   return friction > 0 ? sw_add(f, rubbed(p, friction)) : f;
 }
@@ -328,7 +329,7 @@ double sw_press_stiffer(const sw_press *p, double usual, double axial, double fo
   const double over = p->gap_after / -DEEPEST;
   if (over <= 1.0 || p->k >= fmax(MOST_BOOST * usual, axial)) return p->k;
   if (before < 0) return p->k * fmin(LARGEST_STEP, 2.0 * over);
-  /* what strikes in a short step gets there fast */
+  /* a strike in a short step gets deep fast */
   return forgiven - p->gap_after < before + DEEPER ? p->k : p->k * LARGEST_STEP;
 }
 

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of an iterate: where wires are near obstacles. */
+/* Finds the touches of an iterate: where wires are near obstacles. */
 #include <math.h>
 
 #include "base/interrupt.h"
 #include "contact/curve.h"
 #include "contact/same.h"
 
-/* When the wire's axis is inside the obstacle the nearest face may be the wrong
- * one: stay with the side that is remembered from the last accepted step.
- * Without a memory the axis got there unseen within this step; the swept test
- * will tell from which side, so the touch is left out: 0. A wire that starts
- * inside (nothing accepted yet) is pushed out the nearest way. */
+/* Keeps the side of a place. If the wire's axis is inside the obstacle, the nearest face may be the
+ * wrong one, so the side remembered from the last accepted step is used. Without a memory the axis
+ * got there within this step; the swept test will tell from which side, so the touch is left out:
+ * returns 0. A wire that starts inside (nothing accepted yet) is pushed out the nearest way. */
 static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, sw_closest *near) {
   if (near->gap >= 0 || c->flat[k->obstacle]) return 1; /* a half space has one side */
   const sw_memory *m = sw_contact_remembered(c, k, near->at);
@@ -24,8 +23,8 @@ static int keep_side(const sw_contact *c, const sw_candidate *k, sw_vec local, s
   return 1;
 }
 
-/* The place kept on its side by a barrier of this step, if the candidate has
- * one: 1 and the touch, else 0. */
+/* Fills the place that a barrier of this step keeps on its side. Returns 1 if the candidate has a
+ * barrier, else 0. */
 static int behind_barrier(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const double *y, sw_place *place) {
   const sw_barrier *b = sw_contact_barrier(c, k->obstacle, k->node, k->segment);
@@ -48,9 +47,9 @@ static sw_status add_near(sw_contact *c, const sw_system *s, const sw_candidate 
                                                     : SW_OK;
 }
 
-/* The nearest place of a segment that lies along an obstacle comes and goes with the last
- * nanometre. One that pushed in the iterate before stays where it was. first: of the touches
- * found in this iterate. */
+/* Keeps touches that pushed in the previous iterate where they were. The nearest place of a segment
+ * that lies along an obstacle comes and goes with the last nanometre. first: the first touch found
+ * in this iterate. */
 static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candidate *k,
                               const double *y, size_t first) {
   const int chords = k->segment && !k->samples && (!k->smooth || k->round);
@@ -71,8 +70,8 @@ static sw_status keep_pushing(sw_contact *c, const sw_system *s, const sw_candid
   return SW_OK;
 }
 
-/* Touches of one obstacle nearer to each other than this share of the radius, on edges or corners,
- * are one. On a round side each has its share [-]. */
+/* Touches of one obstacle on edges or corners that are nearer to each other than this share of the
+ * radius are one. On a round side every touch counts, with its share of the stiffness [-]. */
 static const double ONE_POINT = 0.02;
 
 static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *place) {
@@ -88,7 +87,7 @@ static int is_known(const sw_contact *c, const sw_candidate *k, const sw_place *
   return 0;
 }
 
-/* The same obstacle's candidate of the segment before (by -1) or after (by 1), or NULL. */
+/* Returns the same obstacle's candidate of the segment before (by -1) or after (by 1), or NULL. */
 static const sw_candidate *beside(const sw_contact *c, const sw_candidate *k, int by) {
   const size_t node = k->node + (size_t)by, from = (size_t)(k - c->candidates);
   for (size_t i = from + (size_t)by; i < c->candidate_count; i += (size_t)by) {
@@ -99,8 +98,8 @@ static const sw_candidate *beside(const sw_contact *c, const sw_candidate *k, in
   return NULL;
 }
 
-/* A place is the segment's that it lies in, whichever one beside has found it: what it remembers
- * and what struck it must not depend on the end that nodes are counted from. */
+/* Returns the candidate of the segment that the place lies in, even if a segment beside found the
+ * place. Its memory and impacts must not depend on the end from which nodes are counted. */
 static const sw_candidate *owner(const sw_contact *c, const sw_candidate *k, sw_place *place) {
   const int by = place->near.at < 0 ? -1 : place->near.at > 1 ? 1 : 0;
   const sw_candidate *own = by ? beside(c, k, by) : NULL;
@@ -120,7 +119,7 @@ static sw_status add_sharp(sw_contact *c, const sw_system *s, const sw_candidate
 }
 
 static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k, const double *y) {
-  const double reach = 2.0 * k->radius; /* keeps what may begin to touch in the list */
+  const double reach = 2.0 * k->radius; /* keeps places that may begin to touch in the list */
   size_t first = c->touch_count;
   sw_places list;
   if (c->barrier_count && behind_barrier(c, s, k, y, list.place))
@@ -134,11 +133,12 @@ static sw_status query(sw_contact *c, const sw_system *s, const sw_candidate *k,
   return keep_pushing(c, s, k, y, first);
 }
 
-/* So many candidates at once: the touches that they find are still at hand when their forces are
- * added [-]. */
+/* Candidates looked at in one go. Their touches are still in the cache when their forces are added
+ * [-]. */
 enum { SOME = 64 };
 
-/* What a later candidate finds may belong to the segment before it. */
+/* Number of touches whose position in the list is final: a later candidate may find a touch that
+ * belongs to the segment before it. */
 static size_t found_for_good(const sw_contact *c, const sw_glance *at) {
   size_t i = c->touch_count;
   if (at->next == at->end) return i;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch of two bodies: its memory, and whether it agrees with a solve. */
+/* A touch of two bodies: how it begins from its memory, and whether it agrees with a solve. */
 #include "contact/meet.h"
 
 #include <math.h>
@@ -11,13 +11,13 @@
 
 /* --- one touch ------------------------------------------------------------------- */
 
-/* A tangential vector at normal from, carried to normal to. */
+/* Carries a tangential vector at normal `from` to normal `to`. */
 static sw_vec carry(sw_vec v, sw_vec from, sw_vec to) {
   const double share = sw_dot(to, v) / fmax(1.0 + sw_dot(from, to), 1e-12);
   return sw_madd(v, sw_add(from, to), -share);
 }
 
-/* Share of a place that moves with free nodes; *held: the place of its held part [-], [m]. */
+/* Share of a place that moves with free nodes [-]; *held: position of its held part [m]. */
 static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec *held) {
   const sw_body *b = &s->bodies[t->of.body[side]];
   const uint32_t node = t->of.node[side], other = t->of.end[side];
@@ -29,15 +29,16 @@ static double free_share(const sw_system *s, const sw_meet *t, int side, sw_vec 
   return (one ? 0.0 : 1.0 - at) + (two ? 0.0 : at);
 }
 
-/* Depth that holds impose: no force can part wires that are held closer than their radii [m]. */
+/* Depth that holds impose: no force can part wires that are held closer together than their radii
+ * [m]. */
 static double imposed(const sw_system *s, const sw_meet *t) {
   sw_vec a, b;
   const double one = free_share(s, t, 0, &a), share = fmax(one, free_share(s, t, 1, &b));
   return share < 1.0 ? (1.0 - share) * fmax(0.0, t->reach - sw_dist(a, b)) : 0.0;
 }
 
-/* Wires that were placed in each other come out slowly: within one step the depth would turn into
- * speed. */
+/* Sets how much depth a touch leaves alone. Wires that were placed in each other come out slowly:
+ * within one step the depth would turn into speed. */
 static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, sw_meet *t) {
   if (m->regime == SW_CONTACT_EXPLICIT || t->press.gap >= 0) return;
   const double always = imposed(s, t);
@@ -50,7 +51,7 @@ static void forgive(const sw_mutual *m, const sw_system *s, const sw_met *met, s
   if (t->emerges) t->let_out = left.let_out;
 }
 
-/* Wherever it has slid to. */
+/* Stiffness of a touch, wherever it has slid to [N/m]. */
 static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *met,
                            const sw_meet *last) {
   if (m->regime == SW_CONTACT_EXPLICIT) return t->usual;
@@ -59,16 +60,17 @@ static double stiffness_of(const sw_mutual *m, const sw_meet *t, const sw_met *m
 }
 
 /* Wires along each other that pressed at the step's start press in the first iterate too, unless
- * the prediction opens them by more than this. The depth is far below their motion in a step, so a
- * prediction cannot tell whether they part. Crossings of a tight knot slide along both segments and
- * would not settle. Of the sum of radii [-]. */
+ * the prediction opens them by more than this share of the sum of radii [-]. Their depth is far
+ * below their motion in a step, so a prediction cannot tell whether they part. Crossings are
+ * excepted: in a tight knot they slide along both segments and would not settle. */
 static const double STILL_NEAR = 0.02;
 
 /* A force that turns with its normal has negative stiffness. At a predicted place, as deep as a
- * wire has flown in the step, it would be thousands of weights. So it is left out until the last
- * update shifted all touches that press by at most this share of the radii: one that flies throws
- * its neighbours too. A touch that it shifted by more than the second share does not end the
- * iteration [-]. Depth by placing or by holds is real; crossings of a knot slide. */
+ * wire flew in the step, this would be thousands of weights. So it is left out until the last
+ * update shifted all pressing touches by at most CALM_SHIFT of the radii; a wire that flies throws
+ * its neighbours too. A touch shifted by more than NEAR_SHIFT keeps the iteration going [-]. Both
+ * apply only to depth that may be predicted: not to depth by placing or by holds, which is real,
+ * and not to crossings, which slide in knots. */
 static const double CALM_SHIFT = 0.01, NEAR_SHIFT = 0.02;
 
 static int may_fly(const sw_mutual *m, const sw_meet *t) {
@@ -81,9 +83,9 @@ static int is_far(const sw_mutual *m, const sw_meet *t, const sw_meet *last, int
   return last->stage == m->stage && sw_norm(last->press.shift) > NEAR_SHIFT * t->reach;
 }
 
-/* Normal force of a touch without a past: from its depth, but zero for a predicted depth, which
- * would give thousands of weights. Friction then starts at zero. Enough friction to stop the
- * lighter wire would push wires of a bundle about that only fall on each other [N]. */
+/* Normal force of a touch without a past: from its depth, but zero if the depth may be predicted,
+ * because that would give thousands of weights. Friction then starts at zero. Enough friction to
+ * stop the lighter wire would push the wires of a bundle about that only fall on each other [N]. */
 static double first_force(const sw_meet *t) {
   return t->flies ? 0.0 : fmax(0.0, -t->press.gap) * t->press.k;
 }
@@ -131,8 +133,9 @@ void sw_meet_add(sw_mutual *m, const sw_system *s, const double *y, sw_meet *t, 
   m->touch_count++;
 }
 
-/* Axes further apart than this did not pass each other in this iteration; in a knot normals turn by
- * more than a right angle within two segments. Of the sum of radii [-]. */
+/* Axes further apart than this share of the sum of radii did not pass each other in this iteration.
+ * The limit is needed because in a knot normals turn by more than a right angle within two segments
+ * [-]. */
 static const double PASSED = 0.5;
 
 void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *distance) {
@@ -142,15 +145,15 @@ void sw_meet_side(const sw_met *met, double reach, sw_vec *normal, double *dista
 
 /* --- before a solve ---------------------------------------------------------------- */
 
-/* Where wires have flown into each other in the prediction, all that overlaps would first be held
- * at its surface, and touches beside each other push and pull with many times what they bear: half
- * of the states that come of it are wrong. So the first solves are with softer springs, this many
- * times each [-]; bundles of 16 and 20 wires that fall need a half to a third of the solves. With
- * one or three of them, or 3 or 100 times as soft, 1.1 to 1.7 times as many
- * (spec/contact/bundle_spec). */
+/* Number of first solves with softer springs. Where wires flew into each other in the prediction,
+ * every overlap would first be held at its surface, and touches beside each other would push and
+ * pull with many times their real force; half of the resulting states are wrong. Springs are SOFTER
+ * times as stiff for each soft solve that is left, this one included [-]. Falling bundles of 16 and
+ * 20 wires then need a half to a third of the solves; with one or three soft solves, or 3 or 100
+ * times as soft, 1.1 to 1.7 times as many (spec/contact/bundle_spec). */
 enum { SOFT_SOLVES = 2 };
 static const double SOFTER = 0.1;
-/* Overlaps from this share of the radii on are of wires that have flown [-]. */
+/* Overlaps above this share of the radii are of wires that flew in the prediction [-]. */
 static const double FLOWN = 0.02;
 
 static int have_flown(const sw_mutual *m) {
@@ -170,7 +173,7 @@ void sw_mutual_soften(sw_mutual *m) {
 
 /* --- after a solve ---------------------------------------------------------------- */
 
-/* Stiffen touches that are too deep; 1 = some were. */
+/* Stiffens touches that are too deep; 1 = there were some. */
 static int stiffen(sw_mutual *m, const sw_system *s) {
   const int small = sw_press_is_short(m->regime == SW_CONTACT_STATIC, m->h, m->nominal);
   int any = 0;
@@ -186,8 +189,8 @@ static int stiffen(sw_mutual *m, const sw_system *s) {
   return any;
 }
 
-/* Force scales. For a body, forces far below its largest touch do not matter; for two bodies, the
- * smaller scale counts. */
+/* Finds force scales. For a body, forces far below its largest touch do not matter; for two bodies,
+ * the smaller scale counts. */
 static void find_scales(sw_mutual *m) {
   for (size_t b = 0; b < m->bodies; b++) m->largest[b] = 0;
   for (size_t i = 0; i < m->touch_count; i++)
@@ -215,7 +218,7 @@ static verdict update(const sw_mutual *m, sw_meet *t, const double *delta, doubl
   return agrees ? AGREES : sw_press_apart(&t->press) ? ALL_BUT_FRICTION : GOES_ON;
 }
 
-/* Is the total error of friction small for each body? */
+/* 1 if the total error of friction is small for each body. */
 static int rubs_enough(const sw_mutual *m) {
   if (m->regime != SW_CONTACT_IMPLICIT || m->updates <= SW_PATIENCE) return 0;
   for (size_t b = 0; b < m->bodies; b++)
@@ -239,12 +242,12 @@ static int update_all(sw_mutual *m, const double *delta) {
   return all == AGREES || (all == ALL_BUT_FRICTION && rubs_enough(m));
 }
 
-/* Touches agree within so many solves, or they are about to go round in circles: from then on an
- * update is made as far as energy falls, if at its end energy rises by more than this share of what
- * it fell by at its beginning, and less from solve to solve. Two touches that alternate need the
- * last bit of that. 20 wires whose nodes do not lie beside each other, in steps of 2.5 ms: without
- * this most steps are halved, some for ever; with half, twice as many solves before, or a share
- * that falls half or twice as fast, 1.2 times the solves at most (spec/contact/bundle_spec). */
+/* Touches agree within this many solves, or they are about to cycle. Later updates are shortened to
+ * the energy's minimum if the energy's slope at the end is more than RISES times its initial fall.
+ * This limit falls by FALLS from solve to solve; two touches that alternate need a very small one.
+ * For 20 wires whose nodes do not lie beside each other, in steps of 2.5 ms: without shortening
+ * most steps are halved, some for ever; with half of RISES, twice of FREE_SOLVES, or a limit that
+ * falls half or twice as fast, at most 1.2 times the solves (spec/contact/bundle_spec). */
 enum { FREE_SOLVES = 12 };
 static const double RISES = 0.5, FALLS = 0.8; /* [-] */
 
@@ -284,7 +287,7 @@ int sw_mutual_settled(sw_mutual *m, sw_system *s, const double *delta) {
     const sw_meet *t = &m->touches[i];
     if (!(t->press.normal_force > 0 || t->press.gap_after < 0)) continue;
     if (sw_grow((void **)&m->hits, &m->hit_capacity, m->hit_count + 1, sizeof *m->hits) != SW_OK)
-      break; /* an impact is then dealt with in the next step */
+      break; /* the impact is then dealt with in the next step */
     m->hits[m->hit_count++] =
         (sw_hit){.bow = {t->bow[0], t->bow[1]}, .normal = t->press.normal, .reach = t->reach};
   }

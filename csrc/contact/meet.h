@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of bodies with each other, inside: a touch, its memory, and the functions of a finder of
- * touches. */
+/* Internal types and functions of contact of bodies with each other: a touch, its memory, and the
+ * functions of a finder of touches. */
 #ifndef SW_CONTACT_MEET_H
 #define SW_CONTACT_MEET_H
 
@@ -13,42 +13,43 @@
 #include "contact/way.h"
 
 /* Two things that may touch. Each is a segment or edge from node to end, or a point with end =
- * node. In the system's arrays. */
+ * node. Numbers are those of the system's arrays. */
 typedef struct sw_ends {
   uint32_t node[2], end[2], body[2];
 } sw_ends;
 
-/* Crossing wires touch at their nearest places, and so do particles. Wires along each other touch
- * at the nodes of both, at the places nearest to these. */
+/* Where two things touch. Crossing wires touch at their nearest places, and so do particles. Wires
+ * along each other touch at the nodes of both: each node against the nearest place of the other
+ * wire. */
 typedef enum sw_meet_kind { SW_CROSSING, SW_NODE_OF_ONE, SW_NODE_OF_TWO } sw_meet_kind;
 
 typedef struct sw_meet {
   sw_ends of;
-  uint32_t pair; /* number in the finder's list of those that may touch in the step */
+  uint32_t pair; /* number in the finder's list of pairs that may touch in the step */
   sw_meet_kind kind;
-  size_t stage;    /* in which it was found */
-  double at[2];    /* along both, from node to end [-] */
-  sw_bow bow[2];   /* as places that depend on nodes */
-  int slides[2];   /* 1: the place there follows the nearest points */
-  double firm[2];  /* how firmly it then keeps to the middle of each segment [-] */
-  int flies;       /* 1: what overlaps here may have flown into each other in the prediction */
-  int turns;       /* 1: its force turns with its normal in the linearisation */
-  int far;         /* 1: too far from its last place for a known force */
-  int barred;      /* kept on its side by a barrier */
-  int emerges;     /* 1: placed in each other, and still coming out */
-  int known;       /* 1: it pressed at the step's start */
-  double reach;    /* sum of the radii [m] */
-  double usual;    /* stiffness of a new touch [N/m] */
-  double stiffer;  /* its stiffness from the next iterate on [N/m] */
-  double aslant;   /* distance lost by the fixed normal of a barrier [m] */
+  size_t stage;   /* stage in which the touch was found */
+  double at[2];   /* places along both, from node to end [-] */
+  sw_bow bow[2];  /* the same places as means of nodes */
+  int slides[2];  /* 1: the place follows the nearest points */
+  double firm[2]; /* how firmly a sliding place keeps to the middle of each segment [-] */
+  int flies;    /* 1: an overlap here may be of wires that flew into each other in the prediction */
+  int turns;    /* 1: the linearisation includes the turn of its normal */
+  int far;      /* 1: too far from its last place for its force to be known */
+  int barred;   /* 1: kept on its side by a barrier */
+  int emerges;  /* 1: the wires were placed in each other and still come out */
+  int known;    /* 1: it pressed at the step's start */
+  double reach; /* sum of the radii [m] */
+  double usual; /* stiffness of a new touch [N/m] */
+  double stiffer;  /* stiffness from the next iterate on [N/m] */
+  double aslant;   /* true distance minus the distance along the fixed normal of a barrier [m] */
   double forgiven; /* part of the true depth that this step leaves alone [m] */
-  double let_out;  /* unexplained part of the true depth that this step ends [m] */
+  double let_out;  /* unexplained part of the true depth that this step removes [m] */
   double steady;   /* steady normal force at the step's start [N] */
-  sw_vec square;   /* its normal, were it not leaning [-] */
-  sw_press press;  /* its normal is towards the first */
+  sw_vec square;   /* its normal without the lean [-] */
+  sw_press press;  /* its normal points towards the first thing */
 } sw_meet;
 
-/* Kept between steps. */
+/* Memory of a touch between steps. */
 typedef struct sw_met {
   sw_ends of;
   sw_meet_kind kind;
@@ -66,26 +67,26 @@ typedef struct sw_hit {
   double reach; /* [m] */
 } sw_hit;
 
-/* What finds the places where things touch. */
+/* A finder of the places where things touch. */
 typedef struct sw_finder {
-  const char *name, *too_many; /* of messages */
+  const char *name, *too_many; /* for messages */
   sw_status (*make)(const sw_system *system, const sw_pair_rule *rules, sw_mutual **out);
-  void (*free)(sw_mutual *mutual); /* what is its own */
-  /* The last search is not valid any more: positions changed by hand. NULL: searches are
+  void (*free)(sw_mutual *mutual); /* frees the finder's own data */
+  /* Makes the last search invalid, because positions were changed by hand. NULL: searches are
    * independent. */
   void (*forget)(sw_mutual *mutual);
-  /* Choose those that may touch in the step. */
+  /* Chooses the pairs that may touch in the step. */
   sw_status (*choose)(sw_mutual *mutual, sw_system *system);
-  /* Find this iterate's touches at positions y. */
+  /* Finds this iterate's touches at positions y. */
   sw_status (*find)(sw_mutual *mutual, const sw_system *system, const double *y);
-  /* Choose more pairs if a step to x1 met others: 1 = redo the step, -1 = out of memory. */
+  /* Chooses more pairs if a step to x1 met others: 1 = redo the step, -1 = out of memory. */
   int (*widen)(sw_mutual *mutual, sw_system *system, const double *x1, double h);
   /* 1 = some would pass each other; barriers keep them on their sides from now on. -1 = some pass
-   * in spite of barriers: take a smaller step. NULL: touches prevent that. */
+   * in spite of barriers: take a smaller step. NULL: touches prevent passing. */
   int (*cross)(sw_mutual *mutual, const sw_system *system, const double *x1);
   /* 1 = a step to x1 makes some deeper than allowed. */
   int (*cuts)(const sw_mutual *mutual, const sw_system *system, const double *x1);
-  /* Before touches of a step are remembered. NULL: there is nothing to do. */
+  /* Adds to the memory of a touch at a step's end. NULL: there is nothing to add. */
   void (*note)(const sw_mutual *mutual, const sw_system *system, const sw_meet *touch, sw_met *out);
 } sw_finder;
 
@@ -94,81 +95,82 @@ struct sw_mutual {
   sw_pair_rule *rules; /* (bodies x bodies) */
   size_t bodies;
   sw_contact_regime regime;
-  double h, nominal;       /* [s] */
-  size_t stage;            /* number of the stage, counted all along */
-  double first;            /* share of the step's first stage in what this one begins from [-] */
-  int updates, solves;     /* of the stage so far; solves whose update is not made count too [-] */
-  int soft;                /* the touches' springs are softer in this solve, by so many powers */
-  int calm;                /* 1: the last update moved no touch far that presses */
-  double *base;            /* (bodies) stiffness for the forces of each [N/m] */
-  double *largest;         /* (bodies) largest normal force that friction uses [N] */
-  sw_rubbing *rubbing;     /* (bodies) of each one's touches, after an update */
+  double h, nominal; /* [s] */
+  size_t stage;      /* number of the stage; it grows from step to step */
+  double first; /* share of the step's first stage in the state that this stage begins from [-] */
+  int updates, solves; /* of the stage so far; solves whose update is not made count too [-] */
+  int soft;        /* the touches' springs are softer in this solve, by this power of SOFTER [-] */
+  int calm;        /* 1: the last update moved no pressing touch far */
+  double *base;    /* (bodies) stiffness for each body's forces [N/m] */
+  double *largest; /* (bodies) largest normal force that friction uses [N] */
+  sw_rubbing *rubbing;     /* (bodies) friction of each body's touches, after an update */
   double rate2;            /* stiffness per mass [1/s2] */
-  double fall;             /* fall by gravity in the step, with reserve [m] */
+  double fall;             /* fall by gravity in the step, with a reserve [m] */
   double least_reserve;    /* gap up to which all pairs are chosen in this step [m] */
-  size_t pair_count;       /* of those chosen */
-  size_t barrier_count;    /* barriers, for the rest of the step */
-  sw_meet *touches, *last; /* of this iterate and of the one before, in the order of pairs */
+  size_t pair_count;       /* pairs that were chosen */
+  size_t barrier_count;    /* barriers for the rest of the step */
+  sw_meet *touches, *last; /* of this iterate and of the previous one, in the order of pairs */
   size_t touch_count, touch_capacity, last_count, last_capacity;
-  void *grid; /* work of the search for what is near */
+  void *grid; /* memory for the search for near things */
   size_t grid_capacity;
-  sw_spots spots; /* work of the refinement */
-  sw_ways ways;   /* the same */
-  sw_hit *hits;   /* at the end of stages of this trial */
+  sw_spots spots; /* memory for the refinement */
+  sw_ways ways;   /* memory for the refinement */
+  sw_hit *hits;   /* possible strikes at the ends of this trial's stages */
   size_t hit_count, hit_capacity;
-  size_t struck;                /* places that struck in this step */
+  size_t struck;                /* places that struck in this step [-] */
   sw_met *memory, *next_memory; /* in the order of sw_ends_order */
   size_t memory_count, memory_capacity, next_count, next_capacity;
 };
 
-/* Begin an empty one with the bodies' rules; SW_ENOMEM leaves it to be freed. */
+/* Begins an empty contact with the bodies' rules. On SW_ENOMEM the caller must still free it. */
 sw_status sw_mutual_start(sw_mutual *mutual, const sw_finder *finder, const sw_pair_rule *rules,
                           size_t bodies);
-/* 1: by some rule the body touches anything. */
+/* 1: some rule lets the body touch something. */
 int sw_mutual_takes_part(const sw_mutual *mutual, size_t body);
 static inline const sw_pair_rule *sw_mutual_rule(const sw_mutual *m, const uint32_t body[2]) {
   return &m->rules[m->bodies * body[0] + body[1]];
 }
-/* Choose anew what may touch in the step. */
+/* Chooses again which pairs may touch in the step. */
 sw_status sw_mutual_choose(sw_mutual *mutual, sw_system *system);
 
-/* Order of pairs: below 0 if p comes first. */
+/* Order of pairs: negative if p comes first. */
 int sw_ends_order(const sw_ends *p, const sw_ends *q);
 /* 1: all nodes are held. */
 int sw_ends_held(const sw_system *system, const sw_ends *e);
-/* The largest relative speed of nodes of both [m/s]. */
+/* Largest relative speed between nodes of both things [m/s]. */
 double sw_ends_speed(const sw_system *system, const sw_ends *e);
 
-/* A new touch, all zero, not in the list yet; NULL: out of memory. */
+/* Returns a new touch, all zero, not in the list yet; NULL: out of memory. */
 sw_meet *sw_meet_new(sw_mutual *mutual);
-/* Put it into the list, with everything that follows from its place; gap and normal at positions y.
- * met: memory of the last step, last: the iterate before, or NULL. */
+/* Puts the touch into the list and sets everything that follows from its place. gap and normal are
+ * those at positions y. met: memory of the last step, last: the touch in the previous iterate, or
+ * NULL. */
 void sw_meet_add(sw_mutual *mutual, const sw_system *system, const double *y, sw_meet *t,
                  double gap, sw_vec normal, const sw_met *met, const sw_meet *last);
-/* The touches of an iterate are found: the first solves may be with softer springs. */
+/* Softens springs in the first solves of a stage, when the touches of an iterate are found. */
 void sw_mutual_soften(sw_mutual *mutual);
-/* If axes passed each other within the iteration, the remembered normal tells: it turns the normal
- * and the sign of the distance. */
+/* Corrects the side: if axes passed each other within the iteration, as the remembered normal
+ * tells, reverses the normal and the sign of the distance. */
 void sw_meet_side(const sw_met *m, double reach, sw_vec *normal, double *distance);
 /* Places with a gap below this share of the sum of radii are listed, so that a new touch finds its
- * state of the iterate before [-]. */
+ * state of the previous iterate [-]. */
 #define SW_LISTED_GAP 0.25
 
-/* Add a touch's force to the first body and its opposite to the second one, at positions y; K
+/* Adds a touch's force to the first body and its opposite to the second one, at positions y. K
  * (upper half): stiffness, NULL = not wanted. */
 sw_status sw_meet_push(sw_system *system, const sw_meet *touch, const double *y, sw_vec force,
                        const double *K);
-/* The same of a force on one body at a place. */
+/* The same for a force on one body at a place. */
 void sw_meet_push_one(sw_body *body, const sw_mean *at, sw_vec force, const double *K);
 
-/* Nearest points of two segments: places along them, distance returned [m]. */
+/* Finds the nearest points of two segments as places along them. Returns their distance [m]. */
 double sw_segments_nearest(sw_vec a0, sw_vec a1, sw_vec b0, sw_vec b1, double at[2]);
 
-/* Closing speed of a place in a step of h, beyond the speed that just reaches contact [m/s]. */
+/* Closing speed of a place in a step of h, minus the speed that just reaches contact [m/s]. */
 double sw_meet_excess(const sw_system *system, const sw_bow bow[2], double reach, sw_vec normal,
                       double h);
-/* The second derivative of half the squared distance by the place along a wire [m2]: from its slope
- * squared [m2], its bend along the distance [m2] and its firmness [-]. */
+/* Second derivative of half the squared distance by the place along a wire [m2], from the square of
+ * its slope [m2], its bend along the distance [m2] and its firmness [-]. */
 double sw_meet_rise(double along2, double bends, double firm);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A touch's force and stiffness among the nodes of its places: one of a particle, two of a segment
- * or three of a curve. Besides the law's own stiffness K at the touch there is that of the turning
- * normal: with the nearest points free to slide, the distance d has the second derivative (1/d) [
+/* Spreads a touch's force and stiffness over the nodes of its places: one node of a particle, two
+ * of a segment or three of a curve. The turning normal adds stiffness to the law's own K at the
+ * touch: with the nearest points free to slide, the distance d has the second derivative (1/d) [
  * w_i w_j (I - n n') - g_i' Q^-1 g_j ] between nodes i and j, where w are the weights of the touch
  * (negative on the second segment), Q the second derivatives of |r|^2/2 with respect to the places
  * along the wires, and g its mixed ones. The normal force N adds -N times that. */
@@ -13,12 +13,12 @@ static const size_t UPPER[6] = {0, 1, 2, 4, 5, 8};
 
 enum { MOST = 2 * SW_MEAN_MOST };
 
-/* Stiffness between the nodes of a touch: those of thing one, then those of thing two; its upper
- * half. */
+/* Stiffness between the nodes of a touch, upper half: the nodes of thing one, then those of thing
+ * two. */
 typedef struct blocks {
   int n, from[2], count[2];
   double w[MOST];     /* shares of the distance: negative on wire two [-] */
-  double slope[MOST]; /* of these, by the place along their own wire [-] */
+  double slope[MOST]; /* derivatives of these by the place along their own wire [-] */
   double k[MOST * MOST][9];
 } blocks;
 
@@ -44,7 +44,7 @@ static void add_outer(double out[9], sw_vec a, sw_vec b, double f) {
     for (int j = 0; j < 3; j++) out[3 * i + j] += x[i] * y[j];
 }
 
-/* A touch at a node has no effect on the other node of the segment. */
+/* 0 for the other node of a segment that is touched at one node: the touch has no effect on it. */
 static int takes_part(const blocks *b, const int slides[2], int i) {
   return b->w[i] != 0 || slides[side_of(b, i)];
 }
@@ -57,16 +57,15 @@ static void take_law(blocks *b, const double K[6]) {
       for (int m = 0; m < 9; m++) block(b, i, j)[m] = b->w[i] * b->w[j] * full[m];
 }
 
-/* How places along the wires follow the nearest ones: second derivatives of half the squared
+/* How the places along the wires follow the nearest ones: second derivatives of half the squared
  * distance. */
 typedef struct places {
-  sw_vec along[2];   /* derivative of the distance by the place [m] */
+  sw_vec along[2];   /* derivative of the distance vector by each place [m] */
   double aa, bb, ab; /* [m2] */
   const int *slides;
 } places;
 
-/* Inverse of these for the places that may slide; others' rows are zero. 0 = none or nearly
- * parallel. */
+/* Inverts these for the places that may slide; the others' rows are zero. 0: nearly parallel. */
 static int invert_places(const places *p, double Q[3]) {
   const double aa = p->aa, bb = p->bb, ab = p->ab;
   Q[0] = Q[1] = Q[2] = 0;
@@ -82,7 +81,7 @@ static int invert_places(const places *p, double Q[3]) {
   return 1;
 }
 
-/* -N times the second derivative of the distance; f = -N/d. */
+/* Adds -N times the second derivative of the distance; f = -N/d. */
 static void add_turning(blocks *out, const places *at, sw_vec n, double d, double f) {
   const double P[6] = {1 - n.x * n.x, -n.x * n.y, -n.x * n.z,
                        1 - n.y * n.y, -n.y * n.z, 1 - n.z * n.z};
@@ -106,7 +105,7 @@ static void add_turning(blocks *out, const places *at, sw_vec n, double d, doubl
     }
 }
 
-/* Between nodes i < j of one body. */
+/* Adds stiffness between nodes i < j of one body. */
 static void couple(sw_body *body, uint32_t i, uint32_t j, const double K[9]) {
   const size_t from = i - body->first_node, to = j - body->first_node;
   double *row = body->field.rows + SW_ROW_SIZE * from;
@@ -143,10 +142,10 @@ static sw_status link_nodes(sw_system *s, const sw_bow bow[2], const int slides[
   return SW_OK;
 }
 
-/* Where axes are nearer than this share of the radii's sum, normals mean little [-]. */
+/* If axes are nearer than this share of the sum of radii, normals mean little [-]. */
 static const double WELL_APART = 0.5;
 
-/* Firmness added; the curve never bends so much that a place is none of the nearest. */
+/* The lower limit holds because the curve never bends so much that a place is not a nearest one. */
 double sw_meet_rise(double along2, double bends, double firm) {
   return fmax(along2 * (1.0 + firm) + bends, 0.3 * along2);
 }

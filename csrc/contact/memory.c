@@ -8,9 +8,10 @@
 #include "base/alloc.h"
 #include "contact/curve.h"
 
-/* Chords round a peg press more and less from step to step, so friction uses a mean over some
- * steps. With half as many, a wire's swing through a ring (spec/shape/torus_spec) is three times as
- * sensitive to rounding, with one four times; twice as many are no better [-]. */
+/* Friction uses the normal force as a mean over this many steps, because chords round a peg press
+ * more and less from step to step. With half as many a wire's swing through a ring
+ * (spec/shape/torus_spec) is three times as sensitive to rounding, with one step four times; with
+ * twice as many it is no better [-]. */
 static const double MEAN_STEPS = 8.0;
 
 static double steady_force(const sw_contact *c, const sw_system *s, const sw_touch *t) {
@@ -49,7 +50,7 @@ void sw_contact_commit(sw_contact *c, sw_system *s) {
   (void)sw_grow_empty((void **)&c->next_memory, &c->next_capacity, c->touch_count,
                       sizeof *c->next_memory);
   for (size_t i = 0; i < c->touch_count; i++)
-    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor only starts anew */
+    if (remember(c, s, &c->touches[i]) != SW_OK) break; /* a lost anchor just begins again */
   SW_SWAP(c->memory, c->next_memory);
   SW_SWAP(c->memory_capacity, c->next_capacity);
   c->memory_count = c->next_count;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of contact between bodies: steps, memory, read-outs. */
+/* Making and freeing contact between bodies; its steps, memory and read-outs. */
 #include "contact/mutual.h"
 
 #include <math.h>
@@ -79,7 +79,7 @@ double sw_ends_speed(const sw_system *s, const sw_ends *e) {
 
 /* --- steps ----------------------------------------------------------------------- */
 
-/* Scale of the forces that a body may press with: its weight; for a wire also its bending force and
+/* Scale of a body's pressing forces: its weight; for a wire also its bending force and its
  * tension. */
 static double force_of(const sw_system *s, const sw_body *b) {
   const sw_plan *p = b->plan;
@@ -154,9 +154,9 @@ sw_status sw_mutual_eval(sw_mutual *m, sw_system *s, const double *y, unsigned w
 
 /* --- review ------------------------------------------------------------------------- */
 
-/* A step with new touches is redone by implicit Euler. The bodies reach each other within it and go
- * on together at any stiffness; the integrator sees no shock, and nothing rebounds. Counts the
- * striking places, once in a step: the redone step deals with all of them. */
+/* Counts the striking places of a step, once: a step that strikes is redone by implicit Euler,
+ * which deals with all places. The bodies reach each other within it and go on together at any
+ * stiffness; the integrator sees no shock, and nothing rebounds. */
 static size_t strikes(const sw_mutual *m, const sw_system *s, double h) {
   size_t count = 0;
   for (size_t i = 0; i < m->hit_count && !m->struck; i++) {
@@ -206,7 +206,7 @@ void sw_mutual_commit(sw_mutual *m, sw_system *s) {
     const sw_meet *t = &m->touches[i];
     if (sw_grow((void **)&m->next_memory, &m->next_capacity, m->next_count + 1,
                 sizeof *m->next_memory) != SW_OK)
-      break; /* a lost anchor only starts anew */
+      break; /* a lost anchor just begins again */
     sw_met *out = &m->next_memory[m->next_count++];
     *out = (sw_met){.of = t->of,
                     .kind = t->kind,
@@ -313,7 +313,7 @@ static int in_order(const void *p, const void *q) {
   return one->at[0] < two->at[0] ? -1 : 1;
 }
 
-/* Numbers of two things now; 0: they are gone. */
+/* Replaces the old numbers of two things by new ones; 0: one of them is gone. */
 static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) {
   for (int k = 0; k < 2; k++) {
     const size_t node = new_node[e->node[k]], end = new_node[e->end[k]];
@@ -324,7 +324,7 @@ static int renumber(sw_ends *e, const size_t *new_node, const size_t *new_body) 
   return 1;
 }
 
-/* For read-outs the memory stands for the touches until a step looks. */
+/* Adds a touch made from memory, which stands for it in read-outs until a step finds touches. */
 static sw_status show(sw_mutual *m, const sw_met *met) {
   sw_meet *t = sw_meet_new(m);
   if (!t) return SW_ENOMEM;

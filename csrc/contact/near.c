@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Places of a candidate near its obstacle: of its node, samples, chord or smooth curve. */
+/* Finds the places of a candidate near its obstacle: of its node, samples, chord or smooth
+ * curve. */
 #include "contact/round.h"
 
-/* Append the place after the last, whose `near` is filled; wire: where the wire is. */
+/* Appends the place after the last one. Its `near` is already filled; wire: the wire's position. */
 static void take(sw_places *list, sw_vec wire) {
   sw_place *place = &list->place[list->count++];
   place->sharp = SW_SHARP_NOT;
   place->edge = sw_v(0, 0, 0), place->wire = wire, place->faint = 0;
 }
 
-/* The nearest place to a point of the candidate's segment, `at` along it. */
+/* Adds the obstacle's nearest place to a point of the candidate's segment, `at` along it. */
 static void near_point(const sw_shape *shape, sw_vec wire, double at, double reach,
                        sw_places *list) {
   sw_closest *near = &list->place[list->count].near;

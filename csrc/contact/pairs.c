@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wires as what touches each other. */
+/* Contact between wires: making, freeing, and what their touches remember. */
 #include <math.h>
 
 #include "base/alloc.h"
 #include "contact/lean.h"
 #include "contact/pair.h"
 
-/* By the slower of both wires. */
+/* Adds the steady force, by the slower of both wires. */
 static void note(const sw_mutual *m, const sw_system *s, const sw_meet *t, sw_met *out) {
   const sw_pair *k = &((const sw_pairs *)(const void *)m)->pairs[t->pair];
   const sw_body *one = &s->bodies[k->body[0]], *two = &s->bodies[k->body[1]];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two wires cross. Their smooth curves x(u) and y(v), u and v along their segments, touch where
- * they are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one is as
- * near everywhere: as on pegs (contact/round.c) it keeps to the middle of its edge, the more firmly
- * the more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and so for y. Wires along each other
- * meet by chords. */
+/* Two wires cross. Their smooth curves x(u) and y(v), with u and v along their segments, touch
+ * where they are nearest: x'.(x - y) = 0 and y'.(y - x) = 0. A wire that goes round the other one
+ * is equally near everywhere. So, as on pegs (contact/round.c), its place keeps to the middle of
+ * its edge, more firmly the more it is bent: x'.(x - y) + firm |x'|^2 (u - 1/2) = 0, and likewise
+ * for y. Wires along each other meet by chords. */
 #include "contact/pairs_curve.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@
 #include "contact/lean.h"
 #include "contact/same.h"
 
-/* Wires meet by curves if the sum of their radii is below this share of their longest edge, as on
+/* Wires meet by curves if the sum of their radii is below this share of the longest edge, as on
  * pegs [-]. */
 static const double ROUND = 0.9;
-/* Wires begin to cross where the sine of the angle between them is above the second one, and go on
- * until it is below the first: strands of a twisted pair lie along each other [-]. */
+/* Wires begin to cross where the sine of the angle between them is above ACROSS, and go on until it
+ * is below STILL_ACROSS: strands of a twisted pair lie along each other [-]. */
 static const double STILL_ACROSS = 0.35, ACROSS = 0.5;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
-/* Do the wires meet by chords everywhere? One answer for all their segments. */
+/* 1 if the wires meet by chords everywhere. The answer is the same for all their segments. */
 static int are_fine(const sw_pairs *p, const sw_system *s, const sw_near *n) {
-  if (n->body[0] == n->body[1]) return 1; /* where it coils up it lies along itself at any angle */
+  if (n->body[0] == n->body[1]) return 1; /* a coiled wire lies along itself at any angle */
   const double one = s->bodies[n->body[0]].plan->beam.radius;
   const double two = s->bodies[n->body[1]].plan->beam.radius;
   return !(one + two < ROUND * fmax(p->edge[n->body[0]], p->edge[n->body[1]]));
@@ -47,8 +47,8 @@ double sw_pair_bulge(const sw_pairs *p, const sw_system *s, const sw_near *n) {
 
 /* --- places ----------------------------------------------------------------------------------- */
 
-/* The curve goes on beside its segment, by half an edge. Its first and last halves of one are
- * straight. */
+/* Returns a place on the curve, which continues half an edge beyond its segment. The first and last
+ * half edge of a wire are straight. */
 sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
   const sw_body *b = &s->bodies[k->body[side]];
   const uint32_t node = side ? k->two : k->one;
@@ -58,10 +58,10 @@ sw_bow sw_pair_bow(const sw_system *s, const sw_pair *k, int side, double at) {
   return sw_bow_around(node + late - 1, late ? at - 0.5 : at + 0.5);
 }
 
-/* Both places, and how far they may go. */
+/* State of the search: both places and their limits. */
 typedef struct search {
   double at[2], low[2], high[2];
-  double ahead[2]; /* the last step of the search */
+  double ahead[2]; /* last step of the search */
 } search;
 
 static search begin(const sw_system *s, const sw_pair *k, const double at[2]) {
@@ -75,11 +75,12 @@ static search begin(const sw_system *s, const sw_pair *k, const double at[2]) {
   return f;
 }
 
-/* Wires along each other have no place; the search shall end all the same [-]. */
+/* Least determinant, relative: wires along each other have no crossing, but the search must end
+ * [-]. */
 static const double NEARLY = 1e-3;
 
-/* Newton's step; rest: of the two equations; rise, both: their derivatives. One that is at its end
- * stays there. */
+/* Makes a Newton step. rest: residuals of the two equations; rise, both: their derivatives. A place
+ * at its limit stays there. */
 static void step(search *f, const double rest[2], const double rise[2], double both) {
   const double least = NEARLY * rise[0] * rise[1];
   const double det = fmax(rise[0] * rise[1] - both * both, least);
@@ -98,8 +99,8 @@ static void step(search *f, const double rest[2], const double rise[2], double b
   }
 }
 
-enum { MOST_TURNS = 40 };            /* of the search [-] */
-static const double SHARP = 1e-13;   /* of an edge [-] */
+enum { MOST_TURNS = 40 };            /* most steps of the search [-] */
+static const double SHARP = 1e-13;   /* tolerance, of an edge [-] */
 static const double ROUNDING = 1e-9; /* of an edge: a place at a joint is on both segments [-] */
 
 static search find(const sw_system *s, const sw_pair *k, const double *y, const double at[2]) {
@@ -130,7 +131,8 @@ int sw_pair_crossing(const sw_system *s, const sw_pair *k, const double *y, doub
   return 1;
 }
 
-/* Segments that are short, or nearly parallel, are looked at by their chords first [-]. */
+/* A pair counts as parallel if its segments diverge little, so short segments do at any angle.
+ * Parallel ones meet by chords, without a search, if the sine of their angle is below this [-]. */
 static const double ALONG = 0.2;
 
 static int runs_along(const double *x, const sw_pair *k) {
@@ -138,7 +140,8 @@ static int runs_along(const double *x, const sw_pair *k) {
   return sw_norm2(sw_cross(u, v)) < ALONG * ALONG * sw_norm2(u) * sw_norm2(v);
 }
 
-/* Segments beside each other find one place and so say the same of it. */
+/* 1 if the curves cross at an angle whose sine is above this. Neighbouring segments find the same
+ * place and so agree. */
 static int crosses(const sw_system *s, const sw_pair *k, double sine) {
   const double middle[2] = {0.5, 0.5};
   const search f = find(s, k, s->x, middle);
@@ -152,7 +155,7 @@ void sw_pair_find_curves(const sw_pairs *p, const sw_system *s, sw_pair *k) {
   const double middle[2] = {0.5, 0.5};
   if (are_fine(p, s, &n) || (k->parallel && runs_along(s->x, k))) return;
   const sw_met *m = sw_pair_recall(p, k, middle, SW_CROSSING);
-  k->smooth = 1; /* to find the curves' place */
+  k->smooth = 1; /* needed to find the curves' place */
   k->smooth = crosses(s, k, m && m->smooth ? STILL_ACROSS : ACROSS);
   k->parallel &= !k->smooth;
   for (int side = 0; side < 2 && k->smooth; side++) {

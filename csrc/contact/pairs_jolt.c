@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blows of wires on each other, to be followed in parts of a step. */
+/* Blows of wires on each other, which are followed in parts (substeps) of a step. */
 #include <math.h>
 
 #include "contact/jolt.h"
 #include "contact/meet.h"
 
-/* What two bodies push each other with: at the step's start, and in the trial [N]. */
+/* Forces of two bodies on each other: at the step's start, and in the trial [N]. */
 typedef struct push {
   sw_vec start, end;
-  int fresh; /* 1: by touches too that did not press before */
+  int fresh; /* 1: some of their touches did not press before */
 } push;
 
 static int are_bodies(const sw_ends *e, const uint32_t body[2]) {
@@ -35,11 +35,12 @@ static int is_first(const sw_mutual *m, size_t touch) {
   return 1;
 }
 
-/* A force that stretches a wire by so much is no blow of it: holds drive it into the other one, and
- * parts of any size would be as rough [-]. */
+/* A force that stretches a wire by more than this is not its blow: holds drive it into the other
+ * wire, and parts of any size would be as rough [-]. */
 static const double DRIVEN = 0.1;
 
-/* The jolt of two bodies, harder than `hardest`, or 0 [-]; its force [N]. */
+/* Returns the jolt of two bodies if its force is harder than `hardest` allows, else 0 [-]; *size:
+ * the force [N]. */
 static double jolt_of(const sw_mutual *m, const sw_system *s, const uint32_t body[2], int dull,
                       int followed, double hardest, double *size) {
   const sw_plan *one = s->bodies[body[0]].plan, *two = s->bodies[body[1]].plan;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Segments near each other. The list holds all pairs within a generous reach; it is valid until a
- * node has moved by half of the spare reach. A grid of cells finds it. */
+/* Finds segments near each other. The list holds all pairs within a generous reach. It is valid
+ * until a node has moved by half of the spare reach. A grid of cells finds it. */
 #include <math.h>
 #include <string.h>
 
@@ -39,8 +39,8 @@ static double widest_radius(const sw_pairs *p, const sw_system *s) {
   return widest;
 }
 
-/* Bent as tightly as its radius allows, a wire meets itself after pi radii of length; nearer pairs
- * and neighbours are skipped. */
+/* 1 unless both segments are of one wire and too near along it: bent as tightly as its radius
+ * allows, a wire meets itself after pi radii of length. Nearer pairs and neighbours are skipped. */
 static int apart_along(const sw_system *s, const sw_near *n) {
   if (n->body[0] != n->body[1]) return 1;
   const sw_body *b = &s->bodies[n->body[0]];
@@ -52,16 +52,16 @@ double sw_pair_radii(const sw_system *s, const uint32_t body[2]) {
   return s->bodies[body[0]].plan->beam.radius + s->bodies[body[1]].plan->beam.radius;
 }
 
-/* More pairs than this: segments are much shorter than the wire is thick [-]. */
+/* More near pairs than this mean that segments are much shorter than the wire is thick [-]. */
 static const size_t MOST_NEAR = 30000000;
 
-/* A search for those near each other. */
+/* A search for near segments. */
 typedef struct search {
   sw_pairs *p;
   const sw_system *s;
 } search;
 
-/* Of two segments the first one looks. */
+/* Adds a pair to the list if it is near. Of two segments the first one looks. */
 static sw_status look_at(void *user, const sw_thing *t, const sw_thing *u) {
   const search *all = user;
   const sw_system *s = all->s;
@@ -113,7 +113,7 @@ static sw_status list_anew(sw_pairs *p, const sw_system *s, double reach) {
   return SW_OK;
 }
 
-/* The square of the largest distance between two sets of positions. */
+/* Square of the largest distance of a node between two sets of positions. */
 SW_HOT
 static double largest_distance2(size_t n, const double *restrict a, const double *restrict b) {
   double most = 0;
@@ -129,7 +129,7 @@ double sw_pairs_largest_move(const double *x0, const double *x1, size_t nodes) {
   return sqrt(largest_distance2(nodes, x0, x1));
 }
 
-/* Lengths of the nodes' ways, straight from step to step. */
+/* Adds the lengths of the nodes' ways since the last step, taken as straight. */
 SW_HOT
 static void add_travel(size_t n, const double *restrict x, double *restrict before,
                        double *restrict travel) {
@@ -141,8 +141,9 @@ static void add_travel(size_t n, const double *restrict x, double *restrict befo
   for (size_t i = 0; i < 3 * n; i++) before[i] = x[i];
 }
 
-/* The list reaches this much further than asked for, to be of use for longer. */
-static const double GENEROSITY = 2.0;  /* [-] */
+/* The list's reach is GENEROSITY times the reach asked for, plus LEAST_SPARE of the largest radius,
+ * so that it serves longer. */
+static const double GENEROSITY = 2.0;  /* factor [-] */
 static const double LEAST_SPARE = 2.0; /* of the largest radius [-] */
 
 sw_status sw_pairs_list(sw_pairs *p, const sw_system *s, double reach) {
@@ -162,8 +163,8 @@ static double longest_edge(const sw_plan *p) {
   return longest;
 }
 
-/* Segments that part by less than this along the shorter of them touch along their length,
- * not in a point; of the radii's sum [-]. */
+/* Segments that diverge by less than this along the shorter of them touch along their length, not
+ * at a point; share of the sum of radii [-]. */
 static const double PARALLEL_SPREAD = 0.25;
 
 static int is_parallel(const double *x, const sw_near *n, double reach) {
@@ -181,8 +182,8 @@ static double lighter_mass(const sw_system *s, const sw_near *n) {
               segment_mass(&s->bodies[n->body[1]], n->two));
 }
 
-/* Gap up to which a pair is chosen: a share of its radii, plus what gravity and its speed, or a
- * larger one, close in the step. */
+/* Gap up to which a pair is chosen: a share of its radii, plus the way that gravity and its speed
+ * (or an upper bound of it) close in the step. */
 static double reserve_of(const sw_pairs *p, double reach, double fast) {
   const double reserve = SW_LISTED_GAP * reach + p->m.fall + SW_RESERVE * p->m.h * fast;
   return reserve > p->m.least_reserve ? reserve : p->m.least_reserve;
@@ -203,12 +204,13 @@ static double fastest(const sw_system *s) {
   return sqrt(most);
 }
 
-/* Pairs with a wider gap than their approach in the step and this are not in the matrix until they
- * touch: the zeros of a bundle's second neighbours made the factor twice as long. Of the sum of
- * radii [-]. */
+/* A pair whose gap is wider than its approach in the step plus this is not in the matrix until it
+ * touches. The zeros of a bundle's second neighbours would make the factor twice as long. Share of
+ * the sum of radii [-]. */
 static const double TO_BRIDGE = .03;
 
-/* Of curves, those of the place at the step's start. */
+/* Plans the pair's bridges in the matrix; for curves those of their crossing at the step's
+ * start. */
 static sw_status plan_bridges(sw_system *s, const sw_pair *k) {
   sw_bow bow[2] = {sw_bow_chord(k->one, 0), sw_bow_chord(k->two, 0)};
   double at[2] = {0.5, 0.5};
@@ -237,7 +239,7 @@ static sw_status add_pair(sw_pairs *p, sw_system *s, const sw_near *n, double su
   return SW_OK;
 }
 
-/* Which of them cross; with that, the matrix' pattern. */
+/* Finds which pairs cross by curves, and then the matrix' pattern. */
 static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
   for (size_t i = 0; i < p->m.pair_count; i++) {
     sw_pair *k = &p->pairs[i];
@@ -247,13 +249,14 @@ static sw_status look_at_curves(sw_pairs *p, sw_system *s) {
   return SW_OK;
 }
 
-/* How near it may be told to be: 1, it is chosen. */
+/* 1 if a pair may touch in the step and is chosen. The distance is measured only if its lower bound
+ * is small enough. */
 static int may_touch(sw_pairs *p, const sw_system *s, sw_near *n, double fast) {
   const sw_ends ends = sw_segments(n->one, n->two, n->body);
   const int still = p->m.regime == SW_CONTACT_STATIC;
   const double sum = sw_pair_radii(s, n->body);
   double at[2];
-  n->distance = n->known - (travel_of(p, n) - n->travel); /* at least */
+  n->distance = n->known - (travel_of(p, n) - n->travel); /* lower bound */
   if (n->distance - sum >= reserve_of(p, sum, fast)) return 0;
   n->distance = sw_segments_nearest(sw_vec_at(s->x, n->one), sw_vec_at(s->x, n->one + 1u),
                                     sw_vec_at(s->x, n->two), sw_vec_at(s->x, n->two + 1u), at);

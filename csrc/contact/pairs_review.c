@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Crossings of wires. Segments whose axes come much nearer than their radii allow are kept on their
- * sides of each other. */
+/* Crossings of wires: segments whose axes come much nearer than their radii allow are kept on their
+ * sides of each other. Also reviews a step: missed pairs and depths. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -24,7 +24,8 @@ static int raise_barrier(sw_pairs *p, const sw_pair *k, const double at[2], sw_v
   return 1;
 }
 
-/* Ends of segments along each other may be nearest aslant, where they do not touch. */
+/* Removes the part of a distance along the segments if they are parallel. Ends of parallel segments
+ * may be nearest at a slant, where they do not touch. */
 static sw_vec square_to(const sw_system *s, const sw_pair *k, sw_vec apart) {
   const sw_vec u = sw_edge_at(s->x, k->one);
   return k->parallel ? sw_madd(apart, u, -sw_dot(apart, u) / fmax(sw_norm2(u), 1e-300)) : apart;
@@ -60,8 +61,8 @@ int sw_pairs_cross(sw_mutual *m, const sw_system *s, const double *x1) {
   return changed;
 }
 
-/* Did segments that were not chosen touch or pass each other? Their largest gap at the
- * step's start, or -1 when none did [m]. */
+/* Returns the largest gap at the step's start of segments that were not chosen but touched or
+ * passed each other; -1 if none did [m]. */
 static double missed_gap(const sw_pairs *p, const sw_system *s, const double *x1) {
   const double farthest = 2.0 * sw_pairs_largest_move(s->x, x1, s->nodes);
   double gap = -1;

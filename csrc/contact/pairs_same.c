@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which touch of the last iterate or step goes on in one of this iterate. Nodes of parallel wires
- * often lie beside nodes, and rounding decides which of two segments has the nearest place: a
- * node's touch on either is the same one. */
+/* Finds which touch of the last iterate or step continues in a touch of this iterate. Nodes of
+ * parallel wires often lie beside nodes, and rounding decides which of two segments has the nearest
+ * place. A node's touch on either segment is the same touch. */
 #include <math.h>
 
 #include "contact/pair.h"
@@ -9,8 +9,8 @@
 
 /* --- of the step before ------------------------------------------------------------ */
 
-/* Memory is in the order of the segments: the first of these from number i on, or what comes after.
- */
+/* Returns the first memory, from number i on, of these segments or later ones. Memory is in the
+ * order of the segments. */
 static uint32_t first_memory(const sw_pairs *p, uint32_t i, uint32_t one, uint32_t two) {
   const sw_met *m = p->m.memory;
   while (i < p->m.memory_count &&
@@ -43,13 +43,13 @@ const sw_met *sw_pair_recall(const sw_pairs *p, const sw_pair *k, const double a
   const sw_met *best = NULL;
   const double one = k->one + at[0], two = k->two + at[1];
   double nearest = HUGE_VAL;
-  for (uint32_t row = 0; row < 3; row++) /* and segments beside */
+  for (uint32_t row = 0; row < 3; row++) /* segments one - 1, one, one + 1 */
     for (size_t j = k->memory[row]; j < p->m.memory_count; j++) {
       const sw_met *m = &p->m.memory[j];
       const uint32_t *node = m->of.node;
       if (node[0] + 1 != k->one + row || node[1] > k->two + 1) break;
       const double d = fmax(fabs(node[0] + m->at[0] - one), fabs(node[1] + m->at[1] - two));
-      const double worse = d + (m->kind != kind); /* what was another one serves as well */
+      const double worse = d + (m->kind != kind); /* another kind is second choice */
       if (d < 1.0 && worse < nearest) best = m, nearest = worse;
     }
   return best;
@@ -68,7 +68,7 @@ int sw_pair_is_same(const sw_pair *k, const double at[2], const sw_pair *other,
   return sw_pair_between(k, at, other, there) < SW_SAME_TOUCH;
 }
 
-/* A search for it. */
+/* A search for the touch of the previous iterate. */
 typedef struct search {
   const sw_pairs *p;
   const sw_pair *k;
@@ -86,7 +86,8 @@ static void look_in(search *f, const sw_pair *in) {
   }
 }
 
-/* In pairs of the same segment one with the segments beside two: neighbours in the list. */
+/* Looks in the pairs of the same segment one with the segments beside two, which are neighbours in
+ * the list. */
 static void look_beside(search *f, const sw_pair *in) {
   const sw_pair *first = f->p->pairs, *end = first + f->p->m.pair_count;
   if (in > first && in[-1].one == in->one && in[-1].two + 1 == in->two) look_in(f, in - 1);
@@ -104,7 +105,7 @@ const sw_meet *sw_pair_last(const sw_pairs *p, const sw_pair *k, const double at
   for (int i = 0; i < 2; i++) {
     if (rows[i] == SW_NO_PAIR) continue;
     look_in(&f, &p->pairs[rows[i]]);
-    if (k->smooth) look_beside(&f, &p->pairs[rows[i]]); /* places on curves go on to the next one */
+    if (k->smooth) look_beside(&f, &p->pairs[rows[i]]); /* curves continue on the next segment */
   }
   return f.best;
 }

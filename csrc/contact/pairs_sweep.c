@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Segments are straight. A smooth curve is taken in parts that are as good as straight. */
+/* The swept test of two segments. Segments are straight; a smooth curve is split into pieces that
+ * are nearly straight. */
 #include "contact/pairs_sweep.h"
 
 #include <math.h>
 
 #include "contact/pairs_curve.h"
 
-/* Axes nearer than this share of the radii's sum are about to pass through each other;
- * contact alone never lets them [-]. */
+/* Axes nearer than this share of the sum of radii are about to pass through each other. Contact
+ * alone never lets them come so near [-]. */
 static const double TOO_NEAR = 0.25;
 enum { MOST_ADVANCES = 200 };
 
@@ -16,12 +17,12 @@ static sw_vec end_of(const sw_system *s, const sw_pair *k, int side, double at, 
   return sw_mean_of(x, 0, &bow.spot);
 }
 
-/* A half edge is split so that no part stands off its curve by more than this share of the sum of
- * radii, into at most this many parts [-]. */
+/* A half edge is split so that no piece is further from its curve than this share of the sum of
+ * radii, into at most MOST_PARTS pieces [-]. */
 static const double STRAIGHT = 0.1;
 enum { MOST_PARTS = 8 };
 
-/* Of an edge, for positions from x0 to x1. */
+/* Number of pieces of an edge, for positions from x0 to x1. */
 static int parts_of(const sw_system *s, const sw_pair *k, int side, const double *x0,
                     const double *x1) {
   if (!k->smooth) return 1;
@@ -37,7 +38,7 @@ static inline sw_rods chords_of(const sw_pair *k, const double *x) {
                    {sw_vec_at(x, k->two), sw_vec_at(x, k->two + 1u)}};
 }
 
-/* Part i of n of segment one, part j of m of segment two. */
+/* Returns the rods of piece part[0] of segment one and piece part[1] of segment two. */
 static sw_rods rods_of(const sw_system *s, const sw_pair *k, const int part[2], const int of[2],
                        const double *x) {
   if (!k->smooth) return chords_of(k, x);
@@ -89,11 +90,11 @@ int sw_rods_sweep(const sw_rods *from, const sw_rods *to, double reach, double a
   const double near = TOO_NEAR * reach;
   const double speed = approach(from, to);
   double t = 0;
-  if (speed < near) return 0; /* those that start too near are not looked for */
+  if (speed < near) return 0; /* to pass, they must start too near */
   for (int i = 0; i < MOST_ADVANCES; i++) {
     const sw_rods r = part_way(from, to, t);
     const double d = sw_segments_nearest(r.a[0], r.a[1], r.b[0], r.b[1], at);
-    if (i == 0 && d <= near) return 0; /* they start like that */
+    if (i == 0 && d <= near) return 0; /* they are too near at the start */
     if (d <= 1.01 * near) {
       const sw_vec apart = sw_sub(sw_lerp(r.a[0], r.a[1], at[0]), sw_lerp(r.b[0], r.b[1], at[1]));
       *normal = sw_unit_or(apart, sw_v(0, 0, 1)), *when = t;

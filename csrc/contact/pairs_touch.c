@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of wires in an iterate: where they are. */
+/* Finds the touches of wires in an iterate. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "contact/lean.h"
 #include "contact/pairs_curve.h"
 
-/* A new touch of a pair at these places of its segments, or NULL. */
+/* Returns a new touch of a pair at these places of its segments, or NULL. */
 static sw_meet *new_touch(sw_pairs *p, const sw_pair *k, sw_meet_kind kind, const double at[2],
                           const sw_bow bow[2], const int slides[2]) {
   sw_meet *t = sw_meet_new(&p->m);
@@ -21,7 +21,7 @@ static sw_meet *new_touch(sw_pairs *p, const sw_pair *k, sw_meet_kind kind, cons
   return t;
 }
 
-/* The touch at given places, unless the wires are apart there. */
+/* Adds the touch at given places, unless the wires are apart there. */
 static sw_status touch_at(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                           sw_meet_kind kind, const double at[2], int slides_one, int slides_two) {
   const sw_bow bow[2] = {sw_bow_chord(k->one, at[0]), sw_bow_chord(k->two, at[1])};
@@ -56,7 +56,8 @@ static sw_status behind_barrier(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
-/* A place at a joint is on two segments: the earlier one has it. Of an edge [-]. */
+/* A place at a joint is on two segments and belongs to the earlier one. Places nearer than this
+ * share of an edge are the same [-]. */
 static const double ONE_PLACE = 1e-6;
 
 static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
@@ -68,7 +69,7 @@ static int is_had(const sw_pairs *p, const sw_pair *k, const double at[2]) {
   return 0;
 }
 
-/* The touch of two smooth curves. */
+/* Adds the touch of two smooth curves. */
 static sw_status touch_curves(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                               const double at[2], const int slides[2]) {
   const sw_bow bow[2] = {sw_pair_bow(s, k, 0, at[0]), sw_pair_bow(s, k, 1, at[1])};
@@ -92,9 +93,9 @@ static int is_last(const sw_system *s, uint32_t body, uint32_t e) {
   return e + 2 == s->bodies[body].first_node + s->bodies[body].plan->nodes;
 }
 
-/* A nearest point at a segment's end counts once: for the segment that starts there, and
- * only when the one before it does not come nearer still. away: from the other wire to
- * here, along the outward normal. */
+/* 1 if the segment owns a nearest point at its end. The point counts once: for the segment that
+ * starts there, and only if the segment before does not come nearer still. away: from the other
+ * wire to here, along the outward normal. */
 static const double ROUNDING = 1e-9; /* [-] */
 
 static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw_vec away,
@@ -102,7 +103,7 @@ static int owns_end(const sw_system *s, uint32_t body, uint32_t e, double at, sw
   if (at >= 1.0) return is_last(s, body, e);
   if (at > 0.0 || e == s->bodies[body].first_node) return 1;
   const sw_vec before =
-      sw_edge_at(y, e - 1); /* rounding must not make both leave it to the other */
+      sw_edge_at(y, e - 1); /* rounding must not make both segments leave it to the other */
   return sw_dot(away, before) <= ROUNDING * sw_norm(away) * sw_norm(before);
 }
 
@@ -129,13 +130,14 @@ static double along(const double *y, uint32_t e, sw_vec q) {
   return sw_dot(u, sw_sub(q, sw_vec_at(y, e))) / fmax(sw_norm2(u), 1e-300);
 }
 
-/* Beside a bend there are two places, one on each segment. So near the joint [-] they are one, and
- * that of the first segment; further off, as where the point is the middle of a circle that the
- * wire goes round, they are not. */
+/* Beside a bend there are two nearest places, one on each segment. Within this distance of the
+ * joint [-] they are one, and belong to the first segment. Further off they are two, as where the
+ * point is the middle of a circle that the wire goes round. */
 static const double AT_JOINT = 0.25;
 
-/* The place along segment e of a wire that is nearest to point q, when it is this segment's: beside
- * it, or at its first node where the one before does not reach, or beyond the wire's end. */
+/* Finds the place along segment e of a wire nearest to point q. Returns 1 if it belongs to this
+ * segment: beside it, at its first node if the segment before does not reach it, or beyond the
+ * wire's end. */
 static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y, sw_vec q,
                   double *at) {
   const double here = along(y, e, q);
@@ -146,7 +148,8 @@ static int beside(const sw_system *s, uint32_t body, uint32_t e, const double *y
   return before >= 1 || (here > 0 && before < 1 - AT_JOINT);
 }
 
-/* Each segment's first node against the other; at a wire's end its last node too. */
+/* Adds the touches of parallel segments: each segment's first node against the other one, and at a
+ * wire's end its last node too. */
 static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *k,
                                 const double *y) {
   const uint32_t ends[2] = {1u + (uint32_t)is_last(s, k->body[0], k->one),
@@ -165,9 +168,9 @@ static sw_status touch_parallel(sw_pairs *p, const sw_system *s, const sw_pair *
   return SW_OK;
 }
 
-/* Nearest places come and go where wires lie along each other, or are handed on from one
- * segment to the next. One that pushed in the iterate before stays where it was. first: of the
- * touches found in this iterate. */
+/* Keeps touches that pushed in the previous iterate where they were. Nearest places come and go
+ * where wires lie along each other, or pass from one segment to the next. first: the first touch
+ * found in this iterate. */
 static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k, const double *y,
                               size_t first) {
   for (size_t i = k->last; i < k->last_end; i++) {
@@ -181,7 +184,7 @@ static sw_status keep_pushing(sw_pairs *p, const sw_system *s, const sw_pair *k,
   return SW_OK;
 }
 
-/* Touches of the iterate before and pairs are in the same order. */
+/* Gives each pair its touches of the previous iterate. Both are in the same order. */
 static void match_last(sw_pairs *p) {
   size_t i = 0;
   for (size_t k = 0; k < p->m.pair_count; k++) {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of an iterate and of the one before it, of all bodies or of those that are solved now. In
- * a stage that is solved by parts, touches of parts that are done stay in the list, those of the
- * part at hand are its tail; the list of the ones before begins with those of the stage before. */
+/* Lists of touches of an iterate and of the previous one, of all bodies or of the part (group of
+ * bodies) that is solved now. In a stage that is solved by parts, touches of finished parts stay in
+ * the list and those of the current part are its tail; the previous list begins with the touches of
+ * the previous stage. */
 #include <string.h>
 
 #include "base/alloc.h"
 #include "contact/touch.h"
 
-/* A candidate finds its touches of the iterate before, from number i on: both are in the same
- * order. Returns the number of the first one that is left. */
+/* Matches a candidate with its touches of the previous iterate, from number i on; both are in the
+ * same order. Returns the first touch that is left. */
 static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
   k->last = i;
   while (i < c->last_count && c->last[i].node == k->node && c->last[i].obstacle == k->obstacle &&
@@ -17,7 +18,7 @@ static size_t match_one(const sw_contact *c, sw_candidate *k, size_t i) {
   return k->last_end = i;
 }
 
-/* The same of candidates from first to end. */
+/* The same for candidates from first to end. */
 static size_t match(sw_contact *c, size_t first, size_t end, size_t i) {
   for (size_t n = first; n < end; n++) i = match_one(c, &c->candidates[n], i);
   return i;
@@ -58,7 +59,7 @@ void sw_contact_part(void *contact, sw_system *s) {
   c->updates = c->looked = 0;
 }
 
-/* The touches of the part at hand become those of the iterate before. */
+/* The touches of the current part become those of the previous iterate. */
 static sw_status turn_tail_over(sw_contact *c) {
   const size_t count = c->touch_count - c->parts.touch, at = c->parts.before;
   SW_TRY(sw_grow((void **)&c->last, &c->last_capacity, at + count, sizeof *c->last));

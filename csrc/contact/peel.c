@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a wire lifts off. If the last touches of a row should be free, a solve shows a pull at the
- * end and a push beside it: the couple of a clamp. Releasing the pull moves the end by one touch,
- * so a fine mesh would need one solve per node. But the wire is free up to where its bending moment
- * vanishes, and this solve tells that moment from the forces beyond. */
+/* Finds where a wire lifts off, in statics. If the last touches of a row should be free, a solve
+ * shows a pull at the end and a push beside it: the couple of a clamp. Releasing the pull moves the
+ * end by one touch, so a fine mesh would need one solve per node. But the wire is free up to where
+ * its bending moment vanishes, and the forces of this solve give that moment. */
 #include <math.h>
 #include <stdint.h>
 
 #include "contact/touch.h"
 
-/* After this many updates of a stage an end moves by half its last way, as it may alternate; after
- * this many more each touch decides for itself [-]. */
+/* After EASY_UPDATES updates of a stage an end moves by half its last way each time, because it may
+ * alternate. After MOST_UPDATES each touch decides for itself [-]. */
 enum { EASY_UPDATES = 10, MOST_UPDATES = 40 };
 
-/* Share of a length that lies inside of the obstacle: a third if rigid, more if soft [-]. */
+/* Share of a length inside the obstacle on which the wire lies: a third if rigid, more if soft
+ * [-]. */
 static const double LAID = 0.4;
 
 enum { ANY, PRESSING };
 
 static double place(const sw_touch *t) { return (double)t->node + t->at; }
 
-/* The next touch along the wire in direction dir, at most one segment away; SIZE_MAX: the row ends.
- */
+/* Returns the next touch along the wire in direction dir, at most one segment away; SIZE_MAX: the
+ * row ends. */
 static size_t neighbour(const sw_contact *c, size_t i, int dir, int which) {
   const sw_touch *t = &c->touches[i];
   for (size_t j = i + (size_t)dir; j < c->touch_count; j += (size_t)dir) {
@@ -32,10 +33,10 @@ static size_t neighbour(const sw_contact *c, size_t i, int dir, int which) {
   return SIZE_MAX;
 }
 
-/* Positive where it pushes, also below zero [N]. */
+/* Force of the touch's spring, negative if it pulls [N]. */
 static double borne(const sw_touch *t) { return -t->press.k * t->press.gap_after; }
 
-/* Arc length, up to a constant [m]. */
+/* Arc length of a touch, up to a constant [m]. */
 static double arc(const sw_system *s, const sw_touch *t) {
   const sw_body *b = &s->bodies[t->body];
   const double *along = b->plan->s;
@@ -59,7 +60,7 @@ static double free_length(const sw_contact *c, const sw_system *s, size_t i, int
   return fabs(p->s[node] - arc(s, t));
 }
 
-/* From the end i of a row inwards, by no more than the free length. */
+/* Releases touches from the end i of a row inwards, over at most the free length. */
 static void peel(sw_contact *c, const sw_system *s, size_t i, int inwards) {
   const double share = pow(0.5, fmax(0.0, c->updates - EASY_UPDATES));
   double force = 0, moment = 0, left = share * free_length(c, s, i, -inwards);
@@ -75,8 +76,9 @@ static void peel(sw_contact *c, const sw_system *s, size_t i, int inwards) {
   }
 }
 
-/* Beyond the row's end i the wire is pressed in by the couple of a clamp. Without it the wire would
- * lie down there, over a share of the length inside of the obstacle. */
+/* Takes on touches beyond the row's end i, where the couple of a clamp presses the wire in. Without
+ * the couple the wire would lie there over the share LAID of the length inside the obstacle, so the
+ * touches beyond that stay released. */
 static void lay(sw_contact *c, const sw_system *s, size_t i, int outwards) {
   const size_t first = neighbour(c, i, outwards, ANY);
   size_t at = first, end = i;
@@ -85,10 +87,10 @@ static void lay(sw_contact *c, const sw_system *s, size_t i, int outwards) {
     if (c->touches[at].press.active) return;
     end = at;
   }
-  if (at == SIZE_MAX) return; /* up to the wire's end */
+  if (at == SIZE_MAX) return; /* pressed in up to the wire's end */
   size_t k = neighbour(c, i, -outwards, PRESSING);
   for (int n = 0; k != SIZE_MAX && n < 2; n++, k = neighbour(c, k, -outwards, PRESSING))
-    c->touches[k].press.spare = 1; /* its pull is that couple's */
+    c->touches[k].press.spare = 1; /* its pull belongs to that couple */
   const double from = arc(s, &c->touches[i]), inside = fabs(arc(s, &c->touches[end]) - from);
   for (at = first; at != end;) {
     at = neighbour(c, at, outwards, ANY);
@@ -105,7 +107,7 @@ static void end_of_row(sw_contact *c, const sw_system *s, size_t i, int outwards
   if (next != SIZE_MAX && !sw_press_apart(&c->touches[next].press)) lay(c, s, i, outwards);
 }
 
-/* If the update is not made, its gaps tell which touches press. */
+/* Sets which touches press next from the update's gaps, for an update that is not made. */
 static void take_on(sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++) {
     sw_press *p = &c->touches[i].press;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Is a wire pinched between two obstacles? Nothing gives way there but the touches: made stiffer,
- * they press more, and the wire is as deep as before. */
+/* Finds whether a wire is pinched between two obstacles. There only the touches give way: made
+ * stiffer, they press more, and the wire stays as deep as before. */
 #include "contact/touch.h"
 
-/* A place on the next node may press against this one. */
+/* 1 if the other touch is at the same node or a neighbouring one, and may press against this
+ * one. */
 static int is_near(const sw_touch *t, const sw_touch *other) {
   return other->body == t->body && other->node <= t->node + 1 && t->node <= other->node + 1;
 }

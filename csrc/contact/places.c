@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Places of a wire's smooth curve near edges and corners. The curve may come no nearer to any of
- * them than the wire's radius, so each counts, and none comes and goes as the wire tilts. A curve
- * that passes one on the wrong side cuts in: then places are the ways out of straight pieces that
- * touch the curve, moved to the curve's own feet. */
+/* Finds the places of a wire's smooth curve near edges and corners. The curve must stay at least
+ * the wire's radius away from each of them, so each counts, and none comes and goes as the wire
+ * tilts. A curve that passes one on the wrong side cuts in. Then the places are the ways out of
+ * straight pieces that touch the curve, moved to the curve's own feet. */
 #include <math.h>
 
 #include "contact/round.h"
 
-/* Chords find a wire that stands off them by less than this share of its radius [-]. */
+/* A curve that stands off its chord by less than this share of the radius is searched by its chord
+ * [-]. */
 static const double STRAIGHT = 0.02;
-/* Pieces are this share of an edge longer at both ends, so that no place is missed between two [-].
- */
+/* Straight pieces are longer by this share of an edge at both ends, so that no place between two of
+ * them is missed [-]. */
 static const double OVERLAP = 0.08;
 static const double QUARTER = 0.25;
 /* A normal may lean inward by this share of the angle between the faces at an edge [-]. */
@@ -18,7 +19,7 @@ static const double LEAN = 0.3;
 /* A foot belongs to a segment up to this far beyond its ends [-]. */
 static const double BESIDE = 0.02;
 
-/* A known place is this one if both points of the obstacle are nearer than this share of the radius
+/* Two places are the same if their points on the obstacle are nearer than this share of the radius
  * [-]. */
 static const double SAME_POINT = 0.01;
 
@@ -32,8 +33,9 @@ static sw_place *same(sw_places *list, const sw_candidate *k, const sw_place *pl
   return NULL;
 }
 
-/* Close to a corner its edges touch at the same place: of those the nearest is taken, whatever
- * comes first. 1: the place is a new one. */
+/* Adds a place to the list. Close to a corner its edges touch at the same place; the nearest of
+ * these is taken, whatever comes first. A full list keeps the nearest places. 1: the place is a new
+ * one. */
 static int take(sw_places *list, const sw_candidate *k, const sw_place *place) {
   sw_place *known = same(list, k, place);
   const int is_new = !known;
@@ -47,15 +49,16 @@ static int take(sw_places *list, const sw_candidate *k, const sw_place *place) {
   return is_new;
 }
 
-/* A place found along a line is looked for again along the curve's tangent there, if the two differ
- * by more than this: the tilt decides which of two near edges touches [-]. */
+/* A place found along a line is searched again along the curve's tangent there if the two
+ * directions differ by more than this, because the tilt decides which of two near edges touches
+ * [-]. */
 static const double TURNED = 0.01;
 
 static void along_tangent(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
                           double reach, double u, double back, double ahead, sw_places *list,
                           int again);
 
-/* Places of a straight piece from u[0] to u[1]. */
+/* Adds the places of a straight piece from u[0] to u[1]. */
 static void along_piece(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
                         double reach, const sw_vec end[2], const double u[2], sw_places *list,
                         int again) {
@@ -78,7 +81,7 @@ static void along_piece(const sw_piece *c, const sw_shape *shape, const sw_candi
   }
 }
 
-/* Along the tangent at u, so far to both sides. */
+/* Adds the places along the tangent at u, by `back` and `ahead` to both sides. */
 static void along_tangent(const sw_piece *c, const sw_shape *shape, const sw_candidate *k,
                           double reach, double u, double back, double ahead, sw_places *list,
                           int again) {
@@ -110,11 +113,11 @@ typedef struct search {
   const sw_candidate *k;
   double reach;
   sw_places *list;
-  int doubt; /* 1: the curve passes an edge or corner on the wrong side */
+  int doubt; /* 1: the curve may pass an edge or corner on the wrong side */
 } search;
 
-/* The nearest place of the chord to a line, or to a point if along is zero. 0: the curve stays too
- * far off. */
+/* Finds the chord's nearest place to a line, or to a point if along is zero. 0: the curve stays too
+ * far away. */
 static int begin_at(const search *q, const sw_ridge *r, double *u) {
   const sw_vec *p = q->piece->p, d = sw_sub(p[2], p[1]), w = sw_sub(p[1], r->from);
   const sw_vec across = sw_madd(d, r->along, -sw_dot(r->along, d));
@@ -141,7 +144,7 @@ static void try_ridge(void *user, const sw_ridge *r) {
     take(q->list, q->k, &place);
 }
 
-/* The nearest first: of those that are one touch it is the touch. */
+/* Sorts the nearest first: of places that are one touch, the first one is used. */
 static void put_in_order(sw_places *list) {
   for (size_t i = 1; i < list->count; i++) {
     const sw_place place = list->place[i];

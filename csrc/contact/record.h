@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Records of contact: candidates, touches, and their memory between iterates and between steps. Of
- * this room only. */
+/* Records of contact with obstacles: candidates, touches, and their memory between iterates and
+ * between steps. Only for the files of this folder. */
 #ifndef SW_CONTACT_RECORD_H
 #define SW_CONTACT_RECORD_H
 
@@ -10,31 +10,32 @@
 #include "contact/law.h"
 #include "contact/mean.h"
 
-/* A node, or the inside of a segment that starts there, and an obstacle that
- * it may touch in this step. */
+/* A candidate: a node, or the inside of a segment that starts there, and an obstacle that it may
+ * touch in this step. */
 typedef struct sw_candidate {
   int obstacle;
-  int segment;        /* number of the segment among those of its node; 0: the node itself */
-  size_t node, other; /* in the system's arrays; its other end, or the node again */
+  int segment;        /* number of the segment at its node, from 1; 0: the node itself */
+  size_t node, other; /* node in the system's arrays; the segment's other end, or the node again */
   size_t body;
   double radius;             /* of the wire there [m] */
-  double skin;               /* of the surface from the node [m] */
+  double skin;               /* distance of the surface from the node [m] */
   double mass;               /* [kg] */
-  size_t memory, memory_end; /* matching range of the memory */
-  size_t last, last_end;     /* matching range of the last iterate's touches */
+  size_t memory, memory_end; /* its range of the memory */
+  size_t last, last_end;     /* its range of the previous iterate's touches */
   double usual;              /* stiffness of a new touch [N/m] */
-  int given;                 /* 1: it keeps that, however deep it gets */
-  int smooth;                /* 1: the wire is its smooth curve there, not its chords */
-  int round;                 /* 1: its curve at a thin round obstacle, chords elsewhere */
-  double squeezing;          /* force from which on its touch cannot come out; 0: none [N] */
-  double firm;               /* then: firmness of the touch in the middle of its edge [-] */
-  double firm_beside[2];     /* the same on the edges before and after it [-] */
-  double lone;               /* and share of it in one place, 0 to 1 [-] */
-  int samples; /* number of touches, spread evenly along the segment; 0: at the nearest places */
+  int given;                 /* 1: it keeps this stiffness, however deep it gets */
+  int smooth;                /* 1: the wire touches by its smooth curve there, not by its chords */
+  int round;                 /* 1: by its curve at a thin round obstacle, elsewhere by chords */
+  double squeezing; /* from this force on, its touch cannot come out; 0: no such force [N] */
+  double firm; /* at a round obstacle: how firmly a touch keeps to the middle of its edge [-] */
+  double firm_beside[2]; /* firmness on the edges before and after it [-] */
+  double lone; /* share of the lean that a touch gets, from 0 (goes round) to 1 (straight) [-] */
+  int samples; /* number of touches, spread evenly along the segment; 0: touches at the nearest
+                  places */
 } sw_candidate;
 
-/* Features that are no part of a shape: a touch kept by a barrier, and one of a wire's curve with a
- * round obstacle [-]. */
+/* Values of `feature` that are no part of a shape: a touch kept by a barrier, and a touch of a
+ * wire's curve with a round obstacle [-]. */
 enum { SW_BEHIND_BARRIER = -1, SW_ON_CURVE = -2 };
 
 /* One place where a wire's surface is near an obstacle. */
@@ -42,38 +43,38 @@ typedef struct sw_touch {
   int obstacle, segment;
   size_t node, other, body;
   int feature;
-  double at;        /* along the segment, of a smooth one perhaps half an edge beyond it [-] */
-  sw_mean spot;     /* the same as a mean of nodes */
-  sw_sharp sharp;   /* of a smooth one: what it touches */
-  sw_vec edge;      /* then: along an edge, in the obstacle's coordinates [-] */
-  double steady;    /* steady normal force [N] */
-  sw_vec point;     /* on the obstacle, world [m] */
-  sw_vec local;     /* the same in the obstacle's coordinates [m] */
-  double forgiven;  /* part of the true depth that this step leaves alone [m] */
-  double left;      /* and always did, since it was made stiffer [m] */
-  double let_out;   /* unexplained part of the true depth that this step ends [m] */
-  double hardened;  /* energy that comes by a higher stiffness [J] */
-  double usual;     /* of a new touch here [N/m] */
-  double stiffer;   /* its stiffness from the next iterate on, in full [N/m] */
-  double share;     /* of that stiffness, near a place of the edge beside [-] */
-  int known;        /* it pressed at the step's start */
-  int held;         /* both ends are held: no force */
-  int squeezed;     /* a line that bore far more than its weight at the step's start */
-  double friction;  /* coefficient in this step: kinetic if it slid before [-] */
-  double slid;      /* sliding way until the step's start, since it began to press [m] */
-  sw_vec seen;      /* where the wire was at this evaluation, in the obstacle's coordinates [m] */
-  size_t candidate; /* index of what it was made from */
-  size_t stage;     /* in which it was found */
-  sw_press press;   /* its normal is the obstacle's, outward, in the world */
+  double at;       /* place along the segment; on a smooth curve up to half an edge beyond it [-] */
+  sw_mean spot;    /* the same as a mean of nodes */
+  sw_sharp sharp;  /* on a smooth curve: what it touches */
+  sw_vec edge;     /* direction of the edge touched, in the obstacle's coordinates [-] */
+  double steady;   /* steady normal force [N] */
+  sw_vec point;    /* on the obstacle, world [m] */
+  sw_vec local;    /* the same in the obstacle's coordinates [m] */
+  double forgiven; /* part of the true depth that this step leaves alone [m] */
+  double left;     /* part of forgiven that is left since the touch was made stiffer [m] */
+  double let_out;  /* unexplained part of the true depth that this step removes [m] */
+  double hardened; /* energy gained by a higher stiffness [J] */
+  double usual;    /* stiffness of a new touch here [N/m] */
+  double stiffer;  /* full stiffness from the next iterate on [N/m] */
+  double share;    /* its share of that stiffness, below 1 near a place of the edge beside [-] */
+  int known;       /* 1: it pressed at the step's start */
+  int held;        /* 1: both ends are held, so there is no force */
+  int squeezed;    /* 1: a line that bore far more than its weight at the step's start */
+  double friction; /* coefficient in this step: kinetic if it slid before [-] */
+  double slid;     /* sliding way up to the step's start, since the touch began to press [m] */
+  sw_vec seen;     /* the wire's position at this evaluation, in the obstacle's coordinates [m] */
+  size_t candidate; /* index of its candidate */
+  size_t stage;     /* stage in which it was found */
+  sw_press press;   /* its normal is the obstacle's outward normal in world coordinates */
 } sw_touch;
 
-/* Is it softer in this iterate than it is to be in the next? */
+/* 1 if the touch is softer in this iterate than it will be in the next. */
 static inline int sw_touch_is_softer(const sw_touch *t) {
   return t->press.k < t->share * t->stiffer;
 }
 
-/* A touch that pressed at the end of a stage and may have struck, as far as impacts need it. A
- * touch itself is large, and many nodes may land in one step. */
+/* A touch that pressed at the end of a stage and may have struck: only what impacts need. A
+ * sw_touch is large, and many nodes may land in one step. */
 typedef struct sw_pressed {
   uint32_t node, other, body;
   int obstacle, segment;
@@ -84,26 +85,26 @@ typedef struct sw_pressed {
   double let_out;
 } sw_pressed;
 
-/* What is kept of a touch between steps; in the obstacle's coordinates. */
+/* Memory of a touch between steps, in the obstacle's coordinates. */
 typedef struct sw_memory {
-  int obstacle, segment; /* obstacle: the owner's id */
+  int obstacle, segment; /* obstacle: the owner's number */
   size_t node;
   int feature;
   double at;
-  sw_vec normal, point; /* the side: local [-], [m] */
-  sw_kept kept;         /* vectors as above */
-  sw_vec seen;          /* place of the wire then, local [m] */
-  double slid;          /* sliding way since it began to press [m] */
+  sw_vec normal, point; /* the side that the wire is on: local [-], [m] */
+  sw_kept kept;         /* its vectors are local too */
+  sw_vec seen;          /* the wire's position then, local [m] */
+  double slid;          /* sliding way since the touch began to press [m] */
 } sw_memory;
 
-/* A crossing found by the swept test: the place is kept on its side of a plane
- * for the rest of the step. */
+/* A crossing found by the swept test. The place is kept on its side of a plane for the rest of the
+ * step. */
 typedef struct sw_barrier {
   int obstacle, segment;
   size_t node, other;
   double at;
   sw_vec normal, point; /* local [-], [m] */
-  uint32_t before;      /* the one before at its node: number + 1, or 0 */
+  uint32_t before;      /* the previous barrier at its node: number + 1, or 0 */
 } sw_barrier;
 
 /* A touch whose impact was dealt with in this step. */
@@ -111,15 +112,15 @@ typedef struct sw_impact {
   int obstacle, segment;
   size_t node;
   double at;
-  uint32_t before; /* as a barrier's */
+  uint32_t before; /* the previous impact at its node: number + 1, or 0 */
 } sw_impact;
 
 /* When a touch would strike. */
 typedef struct sw_turn {
-  double meets, closes; /* after the step's start [s]; closing speed of its gap there [m/s] */
+  double meets, closes; /* time after the step's start [s]; closing speed of the gap [m/s] */
   size_t node;
   int obstacle;
-  uint32_t touch; /* of those that pressed */
+  uint32_t touch; /* number in the list `pressed` */
 } sw_turn;
 
 /* A touch that was part of the last matrix. */
@@ -129,28 +130,28 @@ typedef struct sw_mark {
   sw_vec normal; /* [-] */
 } sw_mark;
 
-/* Statics: where the search for the touches' states goes on from. */
+/* Statics: where the search for the touches' states continues. */
 typedef struct sw_ahead {
-  sw_vec shift; /* of the touch, from where the wires are [m] */
-  sw_vec force; /* force on the wire there that the solves have used [N] */
+  sw_vec shift; /* shift of the touch from the wires' positions [m] */
+  sw_vec force; /* force on the wire there as used by the solves [N] */
 } sw_ahead;
 
-/* What an obstacle gets in a step. */
+/* Loads of an obstacle in a step. */
 typedef struct sw_contact_loads {
   sw_contact_past past;
   sw_contact_load stage[SW_BOOK_STAGES]; /* impulse from the step's start, without blows [N s] */
   sw_contact_load blows; /* impulse of impacts that changed the starting velocities [N s] */
-  sw_contact_load trial; /* at the end of a trial [N] */
-  int busy;              /* 1: in the list of loaded obstacles */
+  sw_contact_load trial; /* load at the end of a trial [N] */
+  int busy;              /* 1: in the list `busy` of loaded obstacles */
 } sw_contact_loads;
 
-/* A stage that is solved by parts: the part at hand. */
+/* Data of a stage that is solved by parts, here groups of bodies: the current part. */
 typedef struct sw_contact_parts {
-  int on, begun;     /* 1: there are parts; this one has been looked at */
-  size_t first, end; /* its candidates */
+  int on, begun;     /* on = 1: there are parts; begun = 1: the current part has been looked at */
+  size_t first, end; /* range of its candidates */
   size_t touch;      /* its first touch */
-  size_t before;     /* touches of the stage before, of all parts */
-  size_t matched;    /* of those, up to this part's last */
+  size_t before;     /* number of touches of the previous stage, of all parts */
+  size_t matched;    /* how many of those are matched, up to the end of this part */
 } sw_contact_parts;
 
 #endif

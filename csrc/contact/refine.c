@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes the touches of one wire agree with an iterate's solution, by more solves with the same
- * factor: friction follows the normal force, touches that pull open, touches that the wire passes
- * close. The next iterate does the rest. */
+ * factor: friction follows the normal force, touches that pull open, and touches that the wire
+ * passes close. The next iterate does the rest. */
 #include <math.h>
 #include <string.h>
 
@@ -12,16 +12,17 @@
 #include "contact/way.h"
 #include "solve/dense.h"
 
-/* Most touches opened and closed in an iterate: beyond them the next iterate is cheaper. Passes
- * over them: after the quick ones touches change one by one, as together they may alternate. Solves
- * for friction: the second one is right to a percent [-]. */
+/* MOST_CHANGED: most touches opened and closed in an iterate; with more, the next iterate is
+ * cheaper. MOST_PASSES: passes over them; after QUICK_PASSES touches change one by one, because
+ * together they may alternate. MOST_FOLLOW: solves for friction; the second one is right to a
+ * percent [-]. */
 enum { MOST_CHANGED = 12, QUICK_PASSES = 4, MOST_PASSES = 20, MOST_FOLLOW = 2 };
 
-/* A touch that is opened or closed: the normal force that cancels its pull or is its push, and the
- * shift by 1 N of it. */
+/* A touch that is opened or closed: the normal force that cancels its pull, or is its push, and the
+ * shift by 1 N of that force. */
 typedef struct changed {
   size_t touch;
-  int closes, on; /* on 0: it has been put back */
+  int closes, on; /* on = 0: the change was undone */
   double force;   /* [N] */
   double *shift;  /* (nodes x 3) [m/N] */
 } changed;
@@ -30,9 +31,9 @@ typedef struct refined {
   sw_contact *c;
   sw_system *s;
   sw_body *body;
-  size_t first, end; /* its touches */
+  size_t first, end; /* range of the body's touches */
   double scale;      /* [N] */
-  double *delta;     /* (nodes x 3) its solution [m] */
+  double *delta;     /* (nodes x 3) the body's solution [m] */
   double *more;      /* (nodes x 3) [N], [m] */
   changed list[MOST_CHANGED];
   size_t count;
@@ -54,7 +55,8 @@ static sw_vec place(const refined *r, const sw_touch *t, const double *x) {
   return sw_mean_of(x, r->body->first_node, &t->spot);
 }
 
-/* Spread a force at a touch over its nodes: to free nodes here, to the holds of held ones. */
+/* Spreads a force at a touch over its nodes: shares of free nodes are added to `free` (NULL: not),
+ * shares of held nodes go to their holds if `held` is 1. */
 static void push(const refined *r, const sw_touch *t, sw_vec f, double *free, int held) {
   const size_t from = r->body->first_node;
   for (size_t e = 0; e < t->spot.count; e++) {
@@ -83,7 +85,7 @@ static int lags(const refined *r) {
   return 0;
 }
 
-/* Total difference between normal forces and those that friction used [N]. */
+/* Total difference between the normal forces and the forces that friction used [N]. */
 static double off(const refined *r) {
   double sum = 0;
   for (size_t i = r->first; i < r->end; i++) {
@@ -93,7 +95,7 @@ static double off(const refined *r) {
   return sum;
 }
 
-/* Friction follows the normal forces; back: as in the iterate's first solve. */
+/* Makes friction follow the normal forces; back = 1: sets it back to the iterate's first solve. */
 static void follow(refined *r, int back) {
   memset(r->more, 0, values(r) * sizeof *r->more);
   for (size_t i = r->first; i < r->end; i++) {
@@ -115,20 +117,21 @@ static changed *listed(refined *r, size_t touch) {
   return NULL;
 }
 
-/* Does the solution contradict the touch's state? */
+/* 1 if the solution contradicts the touch's state. */
 static int is_wrong(const refined *r, const sw_touch *t, const changed *one) {
   const sw_vec shift = place(r, t, r->delta);
   if (one && one->on && !one->closes) return sw_press_sinks(&t->press, shift);
   return sw_press_pulls(&t->press, shift) || (!t->held && sw_press_closes(&t->press, shift));
 }
 
-/* May its state change here? Not without friction, and not in wires with frames, whose equations
- * are not solved again: the next iterate changes these. */
+/* 1 if the touch's state may change here: only with friction, and if it slides or is inactive.
+ * Wires with frames, whose equations are not solved again, get no change here at all; the next
+ * iterate changes the others. */
 static int may_change(const sw_touch *t) {
   return t->friction > 0 && (!t->press.active || t->press.sliding);
 }
 
-/* List a touch that changes, with the shift by a force of 1 N there. */
+/* Lists a touch that changes, with the shift by a force of 1 N there. */
 static void add_change(refined *r, size_t touch) {
   double *shift = r->more + (1 + r->count) * values(r);
   const sw_touch *t = &r->c->touches[touch];
@@ -138,7 +141,7 @@ static void add_change(refined *r, size_t touch) {
   r->list[r->count++] = (changed){touch, !t->press.active, 0, 0, shift};
 }
 
-/* Undo a change but for its friction, which is put into r->more: then 1. */
+/* Undoes a change except for its friction, which is added to r->more; then returns 1. */
 static int put_back(refined *r, changed *one) {
   sw_touch *t = &r->c->touches[one->touch];
   if (!one->on) return 0;
@@ -151,15 +154,15 @@ static int put_back(refined *r, changed *one) {
   return sw_norm2(f) > 0;
 }
 
-/* Solve for the friction in r->more, if there is any. */
+/* Solves for the friction in r->more, if there is any. */
 static void rub_back(refined *r, int rubbed) {
   if (!rubbed) return;
   sw_body_solve_again(r->body, r->more);
   add(values(r), 1.0, r->more, r->delta);
 }
 
-/* Change the first touches whose state is wrong, most of them at once. Returns how many are wrong;
- * -1: too many, or one sticks. */
+/* Changes the first touches whose state is wrong, at most `most` of them. Returns how many are
+ * wrong; -1: too many, or one may not change. */
 static int change_wrong(refined *r, int most) {
   size_t wrong[MOST_CHANGED];
   size_t all = r->count;
@@ -187,7 +190,8 @@ static int change_wrong(refined *r, int most) {
   return count;
 }
 
-/* Forces of changed touches: an opened one's spring is cancelled, a closed one gets a spring. */
+/* Balances the forces of changed touches: an opened one's spring is cancelled, a closed one gets a
+ * spring. 0: there is no solution. */
 static int balance(refined *r) {
   double S[MOST_CHANGED * MOST_CHANGED], z[MOST_CHANGED];
   changed *on[MOST_CHANGED];
@@ -210,7 +214,8 @@ static int balance(refined *r) {
   return 1;
 }
 
-/* Open touches that pull and close those that the wire passes, until none is left. */
+/* Opens touches that pull and closes touches that the wire passes, until none is left. 0: not
+ * found. */
 static int change_all(refined *r) {
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     const int more = change_wrong(r, pass < QUICK_PASSES ? MOST_CHANGED : 1);
@@ -220,7 +225,7 @@ static int change_all(refined *r) {
   return 0;
 }
 
-/* As if nothing had been opened or closed. */
+/* Undoes all opening and closing. */
 static void forget_changes(refined *r) {
   int rubbed = 0;
   memset(r->more, 0, values(r) * sizeof *r->more);
@@ -229,7 +234,7 @@ static void forget_changes(refined *r) {
   rub_back(r, rubbed);
 }
 
-/* Do all stay as they have been changed? */
+/* 1 if all touches stay as they were changed. */
 static int stay(const refined *r) {
   for (size_t k = 0; k < r->count; k++) {
     const sw_touch *t = &r->c->touches[r->list[k].touch];
@@ -253,8 +258,8 @@ static void take_changes(const refined *r) {
   }
 }
 
-/* With a longer shift a touch is at another place in the next iterate, and may not pull there,
- * except on a plane; of the radius [-]. */
+/* A touch with a longer shift than this is at another place in the next iterate, and may not pull
+ * there, except on a plane. Share of the radius [-]. */
 static const double FAR = 0.1;
 
 static int goes_far(const refined *r) {
@@ -267,11 +272,11 @@ static int goes_far(const refined *r) {
   return 0;
 }
 
-/* Friction that presses its own touch may alternate with growing size: the iterates' secants are
- * better there. So solves end when one leaves more than this share of the error [-]. */
+/* Solves for friction end if one leaves more than this share of the error. Friction that presses
+ * its own touch may alternate with growing size; the iterates' secants are better there [-]. */
 static const double ENOUGH = 0.5;
 
-/* 1: friction fits, or nearly so. */
+/* Lets friction follow; 1: it fits, or nearly so. */
 static int follow_all(refined *r, int *changes) {
   double before = off(r);
   for (int k = 0; k < MOST_FOLLOW && lags(r); k++) {
@@ -287,7 +292,7 @@ static int follow_all(refined *r, int *changes) {
   return 1;
 }
 
-/* Does the solution fit as it is? */
+/* 1 if the solution fits as it is. */
 static int fits(const refined *r) {
   for (size_t i = r->first; i < r->end; i++) {
     const sw_touch *t = &r->c->touches[i];
@@ -326,7 +331,7 @@ void sw_contact_refine(void *contact, sw_system *s) {
     const size_t n = 3 * b->plan->nodes;
     if (sw_grow((void **)&c->room, &c->room_capacity, (1 + MOST_CHANGED) * n, sizeof *c->room) !=
         SW_OK)
-      return; /* the next iterate does without */
+      return; /* without memory, nothing is refined */
     refined r = {.c = c,
                  .s = s,
                  .body = b,

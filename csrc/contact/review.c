@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a trial step did to the contact with obstacles: is it taken, done again, or made smaller? */
+/* Reviews a trial step against obstacles: it is accepted, redone, or made smaller. */
 #include <math.h>
 
 #include "contact/curve.h"
 #include "contact/same.h"
 
-/* Did every node stay within the reach that its candidates were chosen for? */
+/* 1 if a node left the reach that its candidates were chosen for. Then the reserve is widened. */
 static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
   double wider = 1.0;
   for (size_t i = 0; i < s->nodes; i++) {
@@ -20,13 +20,13 @@ static int went_too_far(sw_contact *c, const sw_system *s, const double *x1) {
   return 1;
 }
 
-/* A step may leave a touch this much deeper than it found it; the law's own
- * depth is below half of that [m]. */
+/* A step may leave a touch this much deeper than it found it. The law's own depth is below half of
+ * that [m]. */
 static const double DEEPER = 1e-4;
-/* What has the softness of a section is meant to give way; of the radius [-]. */
+/* The same where a touch is as soft as a section and should give way; share of the radius [-]. */
 static const double SQUEEZED = 0.2;
 
-/* How deep a place of the candidate's wire is [m]. */
+/* Depth of a place of the candidate's wire [m]. */
 static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_contact_at *at,
                        const sw_place *place) {
   const sw_vec normal = sw_rotate(at[k->obstacle].pose.q, place->near.normal);
@@ -34,7 +34,7 @@ static double depth_of(const sw_contact *c, const sw_candidate *k, const sw_cont
   return k->skin - place->near.gap - (place->sharp ? 0.0 : aslant);
 }
 
-/* Where the candidate's wire is deepest with positions x. 0: it is not in the obstacle. */
+/* Finds where the candidate's wire is deepest with positions x. 0: it is not in the obstacle. */
 static int find_deepest(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                         const sw_contact_at *at, const double *x, sw_place *out, double *depth) {
   sw_places list;
@@ -47,8 +47,9 @@ static int find_deepest(const sw_contact *c, const sw_system *s, const sw_candid
   return *depth > 0;
 }
 
-/* How deep the candidate's wire was at the step's start: anywhere, or at this place. The nearest
- * place of a chord may have been its end, which is its node's and no place of its own [m]. */
+/* Depth of the candidate's wire at the step's start: the largest anywhere or at this place. The
+ * latter is needed because the nearest place of a chord may have been its end, which belongs to its
+ * node [m]. */
 static double depth_before(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                            const sw_place *place) {
   sw_place before = *place;
@@ -65,9 +66,9 @@ static double depth_before(const sw_contact *c, const sw_system *s, const sw_can
   return fmax(deepest, depth_of(c, k, c->start, &before));
 }
 
-/* Did the wire come far enough in the step to be deeper by so much? If not, a node has come from an
- * edge, over which the smooth curve counts, to a face, where it is the node: no smaller step would
- * help. */
+/* 1 if the wire moved far enough in the step to be deeper by this much. If not, a node has come
+ * from an edge, over which the smooth curve counts, to a face, where the node counts: no smaller
+ * step would help. */
 static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                     const double *x1, double more) {
   if (!k->smooth || c->broad.moves[k->obstacle]) return 1;
@@ -78,7 +79,7 @@ static int may_sink(const sw_contact *c, const sw_system *s, const sw_candidate 
   return 0;
 }
 
-/* The law works with places and normals of the last iterate; on edges and
+/* 1 if the step cuts too deep. The law uses places and normals of the last iterate; on edges and
  * corners these may be stale at the step's end. */
 static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, double h) {
   if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
@@ -95,11 +96,11 @@ static int cuts_deep(const sw_contact *c, const sw_system *s, const double *x1, 
   return 0;
 }
 
-/* An impulse at the step's start knows nothing of what forces drive into an obstacle within the
- * step. The integrator makes such a touch bounce: of an obstacle that moves, which does work in
- * that, step after step; and of a mesh, which would hop by g h^2 for ever, the restart at each
- * landing giving it back what damping takes. A plastic step does not bounce. 1 = one is needed,
- * once in a step. */
+/* 1 if the step must be redone without rebound, at most once in a step. An impulse at the step's
+ * start does not include forces within the step that drive a wire into an obstacle. The integrator
+ * makes such a touch bounce: off a moving obstacle, which does work in each bounce, step after
+ * step; or of a mesh, which would hop by g h^2 for ever, because the restart at each landing gives
+ * back what damping takes. */
 static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   if (c->plastic || c->regime == SW_CONTACT_EXPLICIT) return 0;
   for (size_t i = 0; i < c->touch_count; i++) {
@@ -115,9 +116,9 @@ static int bounces(sw_contact *c, const sw_system *s, const double *v1) {
   return 0;
 }
 
-/* A barrier holds a place as by an endless face, where the obstacle may end just above it. Bearing
- * more than so many weights of its wire, or of the force that bends it, it is in the way of a wire
- * that would pass over; a smaller step knows [-]. */
+/* A barrier holds a place like an endless face, even if the obstacle ends just above it. If it
+ * bears more than this many weights of its wire (or bending forces), it is in the way of a wire
+ * that would pass over; a smaller step decides that [-]. */
 static const double MOST_BORNE = 10.0;
 
 static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
@@ -131,14 +132,15 @@ static int bars_too_hard(const sw_contact *c, const sw_system *s, double h) {
   return 0;
 }
 
-/* A wire that pads or friction hold may not leave them sideways in one step, further than this
- * share of its radius: a step begins with free flight, by which a wire may have fallen out from
- * between pads before any touch is found. A fourth to twice as much ends the same grips [-]. */
+/* A wire held by pads or friction may not leave them sideways in one step by more than this share
+ * of its radius. A step begins with free flight, in which a wire may fall out from between pads
+ * before any touch is found. A fourth to twice this value ends the same grips [-]. */
 static const double AT_ONCE = 0.5;
-/* What it weighs by itself may leave so: held is a touch that presses harder than this many times
- * its node's share of that. Half and twice as much hold the same grips [-]. */
+/* A touch holds the wire if it presses harder than this many times its node's share of the wire's
+ * weight. Half and twice this value hold the same grips [-]. */
 static const double HELD = 2.0;
-/* A wire that is lifted off goes along the normal; sideways it goes this many times as far [-]. */
+/* A wire that slips off goes sideways at least this many times as far as along the normal; a wire
+ * that is lifted off goes along the normal [-]. */
 static const double ASLANT = 10.0;
 
 static int is_pressed_still(const sw_contact *c, const sw_memory *m) {
@@ -151,7 +153,7 @@ static int is_pressed_still(const sw_contact *c, const sw_memory *m) {
   return 0;
 }
 
-/* Direction of the wire at its node, in the axes of the obstacle. */
+/* Direction of the wire at a node, in the obstacle's axes. */
 static sw_vec tangent_at(const sw_contact *c, const sw_body *b, size_t o, const double *x1,
                          size_t node) {
   const size_t first = node + 1 < b->first_node + b->plan->nodes ? node : node - 1;
@@ -159,7 +161,8 @@ static sw_vec tangent_at(const sw_contact *c, const sw_body *b, size_t o, const 
   return sw_unit_or(sw_rotate(sw_quat_conj(c->now[o].pose.q), t), sw_v(1, 0, 0));
 }
 
-/* What slides already may go on along itself. */
+/* 1 if a wire left a remembered touch sideways. A wire that already slides may go on along
+ * itself. */
 static int went_sideways(const sw_contact *c, const sw_body *b, const sw_memory *m,
                          const double *x1) {
   const size_t o = sw_contact_index(c, m->obstacle);
@@ -176,12 +179,12 @@ static int went_sideways(const sw_contact *c, const sw_body *b, const sw_memory 
   return aside > AT_ONCE * b->plan->beam.radius && aside > ASLANT * along;
 }
 
-/* Does a wire that was held get free in a way that only a long step has? */
+/* 1 if a wire that was held gets free in a way that only a long step allows. */
 static int slips_off(const sw_contact *c, const sw_system *s, const double *x1, double h) {
   const sw_body *b = s->bodies, *of = NULL;
-  double most = 0; /* that a node of the body bears without being held [N] */
+  double most = 0; /* force that a node of the body bears without being held [N] */
   if (h < SW_SMALLEST_CARE * c->nominal || c->regime == SW_CONTACT_EXPLICIT) return 0;
-  for (size_t i = 0; i < c->memory_count; i++) { /* in the order of nodes */
+  for (size_t i = 0; i < c->memory_count; i++) { /* memory is in the order of nodes */
     const sw_memory *m = &c->memory[i];
     while (m->node >= b->first_node + b->plan->nodes) b++;
     if (b->plan->web) continue;
@@ -201,7 +204,8 @@ sw_contact_verdict sw_contact_review(sw_contact *c, sw_system *s, const double *
     c->pressed_count = 0;
     return sw_contact_find_candidates(c, s, &err) == SW_OK ? SW_CONTACT_REDO : SW_CONTACT_SMALLER;
   }
-  /* impulses must not see what their neighbours did to the edges between them */
+  /* kicks are added at the end, so that no impulse sees its neighbours' effect on the edges
+   * between */
   double *kicks = s->delta + 3 * s->nodes, *rates = s->v + 3 * s->nodes;
   for (size_t e = 0; e < s->rolls; e++) kicks[e] = 0;
   c->soonest = HUGE_VAL;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A wire bent over a thin peg between two of its nodes. Its smooth curve touches at the nearest
- * place to the peg's middle line, and is pushed across itself there. A wire that goes round the peg
- * is equally near everywhere, and rounding would decide. So a touch keeps to the middle of its
- * edge, more firmly with more curvature: x'.(x - q) + firm |x'|^2 (u - 1/2) = 0, with the curve x,
- * the place u along the edge and the nearest place q on the middle line. The touch uses the
- * distance of the curve's tangent from the line, which differs from the curve's in second order. */
+ * place to the peg's middle line, and is pushed perpendicular to itself there. A wire that goes
+ * round the peg is equally near everywhere, and rounding would decide. So a touch keeps to the
+ * middle of its edge, more firmly with more curvature: x'.(x - q) + firm |x'|^2 (u - 1/2) = 0, with
+ * the curve x, the place u along the edge and the nearest place q on the middle line. The touch
+ * uses the distance of the curve's tangent from the line, which differs from the curve's distance
+ * in second order. */
 #include "contact/round.h"
 
 #include <math.h>
@@ -12,13 +13,13 @@
 #include "base/halving.h"
 #include "contact/same.h"
 
-/* A wire meets a round obstacle, whose radius includes the wire's, by its curve: always if that
- * radius is below so many edges; else if it does not go round, above SW_THICK if it does not even
- * begin to [-]. */
+/* A wire meets a round obstacle by its curve always if the obstacle's radius plus the wire's is
+ * below this many edges. Else it does so if it does not go round, and above SW_THICK only if it
+ * does not even begin to [-]. */
 static const double THIN = 0.9;
-/* It goes round if curvature times radius is above this. Then its chords meet the obstacle until
- * they do not press any more: a capstan needs them. Chords lie outside of the curve, so the change
- * releases the wire and makes no energy [-]. */
+/* A wire goes round if curvature times radius is above this. Then its chords meet the obstacle
+ * until they do not press any more; a capstan needs them. Chords lie outside the curve, so the
+ * change to the curve releases the wire and makes no energy [-]. */
 static const double WOUND = 0.9;
 /* Least firmness at a thin obstacle [-]. */
 static const double LOOSE = 0.1;
@@ -68,14 +69,14 @@ void sw_contact_find_wound(sw_contact *c, const sw_system *s, size_t body) {
   }
 }
 
-/* A wire is straight up to this far beyond its edges [-]. */
+/* A wire is taken as straight up to this far beyond its edges [-]. */
 static const double BESIDE = 1.0;
-/* Chords meet rims: this many radii and edges from the ends [-]. */
+/* Chords, not curves, meet rims, up to this many radii plus edges from the ends [-]. */
 static const double FROM_RIM = 1.0, EDGES_FROM_RIM = 2.0;
-/* And a wire along a thick obstacle: sine of their angle below this [-]. */
+/* Chords also meet a wire along a thick obstacle: sine of their angle below this [-]. */
 static const double ACROSS = 0.5;
 
-/* Does the wire, taken as straight, cross the middle line well between its ends? */
+/* 1 if the wire, taken as straight, crosses the middle line well between its ends. */
 static int passes_side(const sw_contact *c, const sw_system *s, const sw_candidate *k, size_t low,
                        size_t high) {
   const sw_shape *shape = c->obstacles[k->obstacle].shape;
@@ -97,13 +98,13 @@ static int passes_side(const sw_contact *c, const sw_system *s, const sw_candida
          sw_shape_middle(shape, sw_madd(x, e, -aside), &q, &e) > 0;
 }
 
-/* Edges looked at to each side: more than the radius has where a drum is told by fine edges; on
- * what is all but flat the look would cost more than the step [-]. */
+/* Most edges looked at to each side. This is more than a radius has if a drum is told by fine
+ * edges; on what is nearly flat, looking further would cost more than the step [-]. */
 enum { FARTHEST = 64 };
 
-/* Is a wire to be wound on something thick: does it begin to go round, or is it held there? As far
- * as the radius along it is looked at. Its chords meet it then, from the start: a curve that gives
- * way to chords lets the wire go, which strikes it again. */
+/* 1 if a wire begins to go round something thick, or is held there, judged along the wire as far as
+ * the radius. Its chords then meet the obstacle from the start: a curve that gives way to chords
+ * lets the wire go, and the wire strikes the obstacle again. */
 static int begins_round(const sw_system *s, const sw_body *b, double radius, size_t low,
                         size_t high) {
   const size_t far = (size_t)fmin(radius / b->plan->rest[low], FARTHEST);
@@ -138,7 +139,8 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
 
 /* --- places ----------------------------------------------------------------------------------- */
 
-/* Rises through 0 at the place of touch; NAN beyond the ends of the middle line [m2]. */
+/* Function that rises through 0 at the place of touch; NAN beyond the ends of the middle line
+ * [m2]. */
 static double rise_at(const sw_piece *c, double u) {
   sw_vec along, q, e;
   const sw_vec x = sw_contact_curve(c, u, &along);
@@ -146,10 +148,11 @@ static double rise_at(const sw_piece *c, double u) {
   return sw_dot(along, sw_sub(x, q)) + c->firm * sw_norm2(along) * (u - 0.5);
 }
 
-enum { PARTS = 4, MOST_TURNS = 40 };  /* of an edge that are looked at; of the search [-] */
+enum { PARTS = 4, MOST_TURNS = 40 };  /* pieces of an edge; most search steps [-] */
 static const double AS_SHARP = 1e-14; /* [-] */
 
-/* Its zero between two places, by secants; an end that stays counts half ("Illinois"). */
+/* Finds its zero between two places by secants; the value at an end that stays is halved
+ * ("Illinois"). */
 static double find_place(const sw_piece *c, double low, double high, double at_low,
                          double at_high) {
   double last = low;
@@ -169,12 +172,13 @@ static double find_place(const sw_piece *c, double low, double high, double at_l
   return last;
 }
 
-/* Nearer to the middle line than this share of its radius, a wire goes through it [-]. */
+/* A wire nearer to the middle line than this share of the radius goes through it [-]. */
 static const double THROUGH = 1e-9;
 
-/* Where a wire begins to go round, places on two edges come near each other at their joint. Were
- * one as stiff as the other from the beginning, the wire would meet twice the force at once, be
- * thrown back, and meet one again. So one takes over from the other as the zero moves on. */
+/* Share of the stiffness that a place has beside a joint to the next edge. Where a wire begins to
+ * go round, places on two edges come near each other at their joint. If both had full stiffness
+ * from the beginning, the wire would meet twice the force at once, be thrown back, and meet one
+ * again. So one place takes over from the other as the zero moves on. */
 static double share_beside(const sw_piece *c, double joint, double beside, double way) {
   sw_vec along, q, e;
   const sw_vec x = sw_contact_curve(c, joint, &along);
@@ -190,8 +194,8 @@ static double share_of(const sw_piece *c) {
   return before * after;
 }
 
-/* The place there; 0: the wire goes along the obstacle. If it goes through the middle line, the
- * normal is across both, as for chords. */
+/* Makes the place at u; 0: the wire goes along the obstacle. If the wire goes through the middle
+ * line, the normal is perpendicular to both, as for chords. */
 static int make_place(const sw_piece *c, double u, sw_place *place) {
   sw_vec tangent, q, e;
   const sw_vec x = sw_contact_curve(c, u, &tangent);
@@ -214,7 +218,7 @@ static int make_place(const sw_piece *c, double u, sw_place *place) {
   return 1;
 }
 
-/* A ring may have several places. */
+/* A ring may give several places. */
 void sw_contact_round_places(const sw_piece *c, double reach, sw_places *list) {
   double before = rise_at(c, 0.0);
   for (int i = 0; i < PARTS; i++) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statics: touches find their states while the wires stay, which move only when all agree. Each
- * solve goes on from the least energy between the last update and the new one (contact/way.h); all
- * but the touches' forces is linear, and in balance with the solve's forces. */
+/* Statics: touches find their states while the wires stay where they are; the wires move only when
+ * all touches agree. Each solve continues from the least energy between the last update and the new
+ * one (contact/way.h). Everything except the touches' forces is linear, and in balance with the
+ * solve's forces. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -15,7 +16,7 @@ size_t sw_contact_wrong(const sw_contact *c) {
   return count;
 }
 
-/* Does any of them rub? */
+/* 1 if any touch has friction. */
 static int rubs(const sw_contact *c) {
   for (size_t i = 0; i < c->touch_count; i++)
     if (c->touches[i].press.active && c->touches[i].friction > 0) return 1;
@@ -42,19 +43,19 @@ static double slope(const void *user, double share) {
   return sum;
 }
 
-/* The next solve is for the states there. */
+/* Sets the touch's states for the next solve to those at this shift. */
 static void go_on_from(sw_touch *t, sw_vec shift) {
   sw_press *p = &t->press;
   sw_press_go_on(p, t->friction, shift, !t->held);
   p->ahead = sw_madd(shift, p->normal, -sw_dot(p->normal, shift));
 }
 
-/* On stiff springs a wire bends within one edge where it lifts off, and each solve would release a
- * few nodes. On soft springs it bends over as many edges as the doublings, and lifts off in few
- * solves. Then springs become 16 times as stiff from solve to solve, which halves the uncertainty
- * of that place each time [-]. */
+/* DOUBLINGS: doublings of the bend's length on the softest springs. On stiff springs a wire bends
+ * within one edge where it lifts off, and each solve would release a few nodes. On soft springs it
+ * bends over many edges and lifts off in few solves. Then springs become 16 times as stiff from
+ * solve to solve, which halves the uncertainty of the lift-off place each time [-]. */
 enum { DOUBLINGS = 12 };
-static const double SOFTEST = 1e-9; /* of the touch's own stiffness [-] */
+static const double SOFTEST = 1e-9; /* least softened stiffness, of the touch's own [-] */
 
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness) {
@@ -64,8 +65,8 @@ double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candi
   return p->web ? stiffness : fmin(stiffness, fmax(SOFTEST * stiffness, soft));
 }
 
-/* Stages begin with bends of a share of the wire at most, and of so many edges for each touch that
- * is wrong [-]. */
+/* The first stage has bends of at most the share WIDEST of the wire, and of EACH edges for each
+ * wrong touch [-]. */
 static const double WIDEST = 0.25, EACH = 4.0;
 
 static int first_stage(const sw_contact *c, const sw_system *s) {
@@ -78,10 +79,10 @@ static int first_stage(const sw_contact *c, const sw_system *s) {
   return (int)fmax(1.0, DOUBLINGS + 1 - floor(log2(fmin(most, EACH * wrong))));
 }
 
-/* Fewer wrong touches than this are found one by one [-]. */
+/* Up to this many wrong touches are found one by one [-]. */
 enum { FEW = 4 };
 
-/* Stages go on until they change nothing any more. */
+/* Goes on to the next stage, until stages change nothing any more. */
 static void harden(sw_contact *c, const sw_system *s) {
   int any = 0;
   for (size_t i = 0; i < c->touch_count; i++) any |= sw_touch_is_softer(&c->touches[i]);

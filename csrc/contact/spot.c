@@ -6,10 +6,11 @@
 
 #include "base/alloc.h"
 
-/* Most solves for friction in an iterate; one costs a tenth of a factor. With 2 and 8 twenty wires
- * that fall need 1.1 to 1.2 times the factors [-]. */
+/* Most solves for friction in an iterate; one costs a tenth of a factor. With 2 and 8, twenty
+ * falling wires need 1.1 to 1.2 times the factors [-]. */
 enum { MOST_FOLLOW = 4 };
-/* A direction that keeps less than this of its length beside earlier ones is rounding [-]. */
+/* A direction of which less than this share is left after removing earlier directions is rounding
+ * [-]. */
 static const double NOTHING_NEW = 1e-6;
 
 void sw_spots_free(sw_spots *g) {
@@ -18,7 +19,7 @@ void sw_spots_free(sw_spots *g) {
   sw_free(g->mixed);
 }
 
-/* What nodes of a body have of it. */
+/* Adds a place's nodes with their shares. */
 static void add_place(sw_spot *spot, const sw_body *b, const sw_mean *at, double sign) {
   for (uint32_t i = 0; i < at->count; i++, spot->count++) {
     spot->node[spot->count] = at->node[i];
@@ -60,7 +61,7 @@ static void push(sw_system *s, const sw_spot *t, sw_vec f, double *more) {
   }
 }
 
-/* Change the normal forces that friction uses to `forces`, or back to those of the iterate's first
+/* Changes the normal forces that friction uses to `forces`, or back to those of the iterate's first
  * solve (NULL), and the solution with them. */
 static void assume(sw_spots *g, sw_system *s, const double *forces) {
   memset(g->more, 0, 3 * s->nodes * sizeof *g->more);
@@ -84,16 +85,16 @@ static void add(double *a, double share, const double *b, size_t n) {
   for (size_t i = 0; i < n; i++) a[i] += share * b[i];
 }
 
-/* Fixed point of the map from assumed normal forces to those of the solve, by Anderson's mixing
- * (1965; type II of Fang and Saad 2009). Where touches wedge each other the plain iteration
- * alternates for long, or for ever. All vectors have one number a touch [N]. */
+/* Finds the fixed point of the map from assumed normal forces to those of the solve, by Anderson's
+ * mixing (1965; type II of Fang and Saad 2009). Where touches wedge each other, the plain iteration
+ * alternates for long, or for ever. All vectors have one number for each touch [N]. */
 typedef struct mixing {
   size_t n, columns;
   double *found, *off,
-      *next; /* forces of the solve, less the assumed ones; the next assumed ones */
+      *next; /* forces of the solve; these minus the assumed ones; the next assumed ones */
   double *found_before, *off_before;
-  double *change[MOST_FOLLOW]; /* of off, orthonormal */
-  double *with[MOST_FOLLOW];   /* of found, when off changes so */
+  double *change[MOST_FOLLOW]; /* changes of off, orthonormal */
+  double *with[MOST_FOLLOW];   /* changes of found that go with these */
 } mixing;
 
 enum { VECTORS = 5 + 2 * MOST_FOLLOW };
@@ -114,7 +115,7 @@ static void look(mixing *m, const sw_spots *g, const double *delta) {
   }
 }
 
-/* One more direction, by the last change. */
+/* Adds one more direction from the last change. */
 static void learn(mixing *m) {
   const size_t n = m->n, k = m->columns;
   double *change = m->change[k], *with = m->with[k];
@@ -133,7 +134,7 @@ static void learn(mixing *m) {
   m->columns++;
 }
 
-/* Next forces: the error along known directions is removed. */
+/* Computes the next forces: removes the error along known directions. */
 static void mix(mixing *m) {
   const size_t n = m->n;
   memcpy(m->next, m->found, n * sizeof *m->next);

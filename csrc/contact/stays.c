@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Does a touch stay at its place of the iterate? Its equations have a fixed place and normal, and a
- * shift may change both unless the surface is flat. Looking there again is far cheaper than another
- * iterate. */
+/* Finds whether a touch stays at its place of the iterate. Its equations have a fixed place and
+ * normal, and a shift may change both unless the surface is flat. Looking there again is far
+ * cheaper than another iterate. */
 #include <math.h>
 
 #include "contact/curve.h"
 #include "contact/same.h"
 
-/* A touch has stayed if its normal turned by at most this, and at most this share of its force went
- * to the other end of its segment [-]. */
+/* A touch has stayed if its normal turned by at most TURNED, and its place moved by at most the
+ * share MOVED of its segment [-]. */
 static const double TURNED = 0.01, MOVED = 0.01;
-/* And if its gap's error changes its force, or the scene's, by less than this share [-]. */
+/* Its gap's error must also change its force by less than OFF of it plus LITTLE of the scene's
+ * [-]. */
 static const double OFF = 0.01, LITTLE = 1e-3;
 
-/* A wire that goes further may meet other things; of the radius [-]. */
+/* A wire that goes further than this may meet other things; share of the radius [-]. */
 static const double FAR = 0.5;
 
-/* Where the smooth curve is nearest now. */
+/* Finds where the smooth curve is nearest now; 0: nowhere. */
 static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch *t,
                          const double *y, sw_place *out) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -34,7 +35,7 @@ static int find_on_curve(const sw_contact *c, const sw_system *s, const sw_touch
   return nearest < SW_SAME_TOUCH;
 }
 
-/* Where the wire is nearest now; 0: nowhere. */
+/* Finds where the wire is nearest now; 0: nowhere. */
 static int find(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
                 sw_place *place) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -66,7 +67,7 @@ int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t,
   if (t->feature == SW_BEHIND_BARRIER) return 1;
   if (!find(c, s, t, y, &place)) return !p->active;
   const sw_closest near = place.near;
-  if (near.gap < 0) return 0; /* inside, the side is found anew */
+  if (near.gap < 0) return 0; /* inside, the side must be found again */
   const sw_vec normal = sw_contact_leaning(c, s, k, &place, t->steady);
   const double aslant = sw_contact_aslant(c, t->node, t->other, near.at, normal);
   const double gap = near.gap - k->skin + aslant + t->forgiven;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Particles of some meshes stand outside of the section that they stand for, so that its bending
- * stiffness is right. Contact must meet the section's surface, so it sees these particles further
- * in along the normal of their neighbours, as of the step's start. */
+/* Shifts particles of some meshes for contact. These stand outside the section that they represent,
+ * so that its bending stiffness is right. Contact must meet the section's surface, so it sees these
+ * particles further in, along the normal of their neighbours at the step's start. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -9,8 +9,8 @@
 
 static sw_vec particle(const double *x, size_t i) { return sw_load(x + 3 * i); }
 
-/* Outward direction at number k of a ring's outline. Particles of one number lie along the wire;
- * the outline goes anticlockwise round it. */
+/* Outward direction at particle k of a ring's outline. Particles of the same number lie along the
+ * wire; the outline goes anticlockwise round it. */
 static sw_vec outward(const sw_web *w, const double *x, size_t ring, size_t k) {
   const size_t n = w->around_count, own = w->around[k];
   const size_t before = ring > 0 && sw_web_is_ring(w, ring - 1) ? ring - 1 : ring;

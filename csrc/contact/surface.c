@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Touches of wires that roll: friction acts on the surface, which also moves with turns of edges
- * about themselves. A turn of edge e shifts the surface, at -r n from the axis, by r n x t. A
- * node's turn is the mean of its edges' turns. */
+/* Touches of wires that roll: friction acts on the surface, which also moves if edges turn about
+ * themselves. A turn of edge e shifts the surface point at -r n from the axis by r n x t. A node's
+ * turn is the weighted mean of its edges' turns. */
 #include <math.h>
 
 #include "contact/touch.h"
@@ -38,13 +38,13 @@ sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride) {
   return sum;
 }
 
-/* out = K v, K by its upper half. */
+/* Returns K v; K is given by its upper half. */
 static sw_vec times(const double K[6], sw_vec v) {
   return sw_v(K[0] * v.x + K[1] * v.y + K[2] * v.z, K[1] * v.x + K[3] * v.y + K[4] * v.z,
               K[2] * v.x + K[4] * v.y + K[5] * v.z);
 }
 
-/* Friction's effect on the turn of lever k, coupled to the touch's nodes. */
+/* Adds friction's stiffness on the turn of lever k, and its coupling to the touch's nodes. */
 static void add_lever(sw_body *b, const sw_touch *t, const sw_levers *l, size_t k,
                       const double K[6]) {
   const size_t i = t->node - b->first_node, e = l->edge + k;
@@ -69,7 +69,7 @@ void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned
   }
 }
 
-/* An impulse across the wire moves the surface by 1 + m r^2/I times as much as the axis. */
+/* An impulse across the wire moves the surface 1 + m r^2/I times as much as the axis. */
 sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most) {
   const sw_vec whole = sw_add(l->arm[0], l->arm[1]);
   sw_vec stop = slide;

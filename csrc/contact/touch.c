@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a touch remembers, of the steps before and of the iterate before. */
+/* Makes the touches of an iterate, with what they remember of earlier steps and of the previous
+ * iterate. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -8,22 +9,23 @@
 #include "contact/curve.h"
 #include "contact/same.h"
 
-/* A touch goes on in the next iterate up to this gap, of the radius, and if the cosine of its
- * normal's turn is above this [-]. */
+/* A touch continues in the next iterate if its gap is below STILL_NEAR of the radius and the cosine
+ * of its normal's turn is above SAME_SIDE [-]. */
 static const double STILL_NEAR = 0.5, SAME_SIDE = 0.7;
 
-/* On a mesh the first static solve with a pull does not release a touch. That solve may just have
- * met too many touches at once, and then nothing would hold the mesh. */
+/* Number of pulls that do not release a touch of a mesh in statics. The first solve with a pull may
+ * just have met too many touches at once, and then nothing would hold the mesh. */
 enum { SPARE_PULLS = 1 };
 
-/* Largest sine of a turn of chords that stand for an arc. A chord beside counts in full from
- * 1/BESIDE of the force on, gradually below: else the friction would jump with it [-]. */
+/* MOST_ARC: largest sine of a turn between chords that stand for an arc. A neighbouring chord
+ * counts in full from 1/BESIDE of the force on, and gradually below; otherwise friction would jump
+ * with it [-]. */
 static const double MOST_ARC = 0.8, BESIDE = 10.0;
 
-enum { LINE = 64 }; /* of the cache [B] */
+enum { LINE = 64 }; /* cache line [B] */
 
-/* A new touch, all zero, at the end of the list; NULL: out of memory. The next place is prefetched,
- * because long lists come from memory. */
+/* Returns a new touch, all zero, at the end of the list; NULL: out of memory. The next place is
+ * prefetched, because long lists are not in the cache. */
 static sw_touch *new_touch(sw_contact *c) {
   if (sw_grow((void **)&c->touches, &c->touch_capacity, c->touch_count + 1, sizeof *c->touches) !=
       SW_OK)
@@ -35,8 +37,8 @@ static sw_touch *new_touch(sw_contact *c) {
   return memset(t, 0, sizeof *t);
 }
 
-/* Put the new touch into the list, which is in the order of candidates: a segment may find a touch
- * of the segment beside. */
+/* Moves the new touch to its position in the list, which is in the order of candidates. A segment
+ * may find a touch of the segment beside. */
 static void take_in(sw_contact *c) {
   size_t i = c->touch_count++;
   const size_t candidate = c->touches[i].candidate;
@@ -47,8 +49,8 @@ static void take_in(sw_contact *c) {
   c->touches[i] = t;
 }
 
-/* Largest way along the segment of one and the same touch, at most the given share: a sample keeps
- * its place [-]. */
+/* Largest distance along the segment between places of one touch, at most the given share; a sample
+ * keeps its place [-]. */
 static double within(const sw_candidate *k, double share) {
   return k->samples ? fmin(share, 0.5 / k->samples) : share;
 }
@@ -63,13 +65,13 @@ const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *
   return best;
 }
 
-/* Way along the wire between a memory and a candidate's place, in edges [-]. */
+/* Distance along the wire between a memory and a candidate's place, in edges [-]. */
 static double away(const sw_memory *m, const sw_candidate *k, double at) {
   return fabs(((double)m->node - (double)k->node) + m->at - at);
 }
 
-/* A touch that slid off one segment onto its neighbour, or onto the node
- * between them, keeps its friction spring: look at the entries around. */
+/* Finds the memory of a touch that slid off one segment onto its neighbour, or onto the node
+ * between them: such a touch keeps its friction spring. */
 static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, double at) {
   const int id = c->obstacles[k->obstacle].id;
   const sw_memory *best = NULL;
@@ -87,7 +89,8 @@ static const sw_memory *inherited(const sw_contact *c, const sw_candidate *k, do
   return best;
 }
 
-/* The nearer one of best and an edge's touch of the last iterate with the same obstacle. */
+/* Returns the nearer one of best and a touch on an edge in the last iterate with the same
+ * obstacle. */
 static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, double at,
                               double *nearest, const sw_touch *best) {
   if (!last->sharp || last->obstacle != k->obstacle || last->body != k->body) return best;
@@ -97,8 +100,8 @@ static const sw_touch *nearer(const sw_touch *last, const sw_candidate *k, doubl
   return last;
 }
 
-/* The touch of the iterate before; on a smooth curve also from the segment beside. Within a stage
- * solved by parts the list also has touches of the stage before. */
+/* Returns the touch of the previous iterate; on a smooth curve also from the segment beside. Within
+ * a stage solved by parts the list also has touches of the previous stage. */
 static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, double at) {
   const sw_touch *best = NULL;
   double nearest = within(k, SW_SAME_TOUCH);
@@ -117,7 +120,7 @@ static const sw_touch *last_for(const sw_contact *c, const sw_candidate *k, doub
 }
 
 /* Displacement of the wire's material at the touch since the step's start, relative to the
- * obstacle's. For a wire that rolls: of its surface. */
+ * obstacle's. For a wire that rolls, that of its surface. */
 static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_touch *t,
                              const double *y) {
   const sw_vec from = sw_mean_place(c, s->x, &t->spot);
@@ -134,7 +137,7 @@ static sw_vec relative_shift(const sw_contact *c, const sw_system *s, const sw_t
   return sw_add(sw_add(sw_sub(to, carried), arm), rolled);
 }
 
-/* The same since the wire was last seen there. It includes the motion of an explicit method after
+/* The same since the wire was last seen there. This includes the motion of an explicit method after
  * its last evaluation in a step. */
 static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touch *t,
                           const double *y) {
@@ -146,7 +149,7 @@ static sw_vec shift_since(const sw_contact *c, const sw_system *s, const sw_touc
   return sw_sub(now, sw_pose_point(c->now[t->obstacle].pose, m->seen));
 }
 
-/* Memory of a pressing touch, on this or a neighbouring part of the wire. */
+/* Returns the memory of a pressing touch, on this or a neighbouring part of the wire, or NULL. */
 static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
                                        const sw_candidate *k, double at) {
   const sw_memory *own = sw_contact_remembered(c, k, at);
@@ -158,9 +161,9 @@ static const sw_memory *pressed_memory(const sw_contact *c, const sw_system *s,
   return other && other->segment && away(other, k, at) < away(own, k, at) ? other : own;
 }
 
-/* A prediction moves a sticking particle of a mesh far more than its touch's spring gives way,
- * though only the particle's inertia asks for that. So a predicted slide counts only if this
- * multiple of its inertia would slide [-]. */
+/* A predicted slide of a mesh's particle counts only if a spring of this multiple of its inertia
+ * would slide too. A prediction moves a sticking particle far more than its touch's spring gives
+ * way, though only its inertia asks for that [-]. */
 static const double NEIGHBOURS = 30.0;
 
 /* Stiffness of friction's spring in the test for a sure slide [N/m]. */
@@ -184,10 +187,10 @@ static double force_beside(const sw_contact *c, const sw_candidate *k, int by) {
   return sum;
 }
 
-/* Friction on chords round an obstacle. Chords touch in their middles and friction there turns with
- * them, while on a wire it follows the arc. If a chord and its pressing neighbours turn by phi from
- * middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu phi)/sin(phi) instead of mu
- * (balance of a polygon's corners) [-]. */
+/* Coefficient of friction on chords round an obstacle. Chords touch in their middles and friction
+ * there turns with them, while on a wire it follows the arc. If a chord and its pressing neighbours
+ * turn by phi from middle to middle, ln(T2/T1) = mu phi needs the coefficient sinh(mu phi)/sin(phi)
+ * instead of mu (balance of a polygon's corners) [-]. */
 static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m, const sw_touch *t,
                      double mu) {
   const sw_candidate *k = &c->candidates[t->candidate];
@@ -209,8 +212,9 @@ static double of_arc(const sw_contact *c, const sw_system *s, const sw_memory *m
   return turn > 0 && mu > 0 ? sinh(mu * turn) / sin(turn) : mu;
 }
 
-/* Where nothing touched before, a shift along the surface that is no more than so many roundings of
- * places is none: it would give friction a direction by chance, of each touch another one [-]. */
+/* Where nothing touched before, a shift along the surface of up to this many roundings of the
+ * position counts as none. It would give friction a random direction, a different one for each
+ * touch [-]. */
 static const double ROUNDINGS = 16.0 * DBL_EPSILON;
 
 static sw_vec without_rounding(sw_vec u, sw_vec normal, sw_vec place) {
@@ -218,9 +222,9 @@ static sw_vec without_rounding(sw_vec u, sw_vec normal, sw_vec place) {
   return sw_norm2(sw_madd(u, normal, -away)) <= most * most ? sw_scale(normal, away) : u;
 }
 
-/* What only now begins to touch has been moving freely: it slides first. A wire that has been
- * rolling is not called a slide for a long spring: on a curved surface both its shift and its
- * turn are predicted less exactly than that. */
+/* Begins friction of a touch. A new touch has moved freely, so it slides first. For a wire that
+ * rolls, a long spring does not mean a slide: on a curved surface both its shift and its turn are
+ * predicted less exactly than that. */
 static void begin_friction(const sw_contact *c, const sw_system *s, const sw_memory *m,
                            const sw_touch *last, const double *y, sw_touch *t) {
   sw_press *press = &t->press;
@@ -260,9 +264,9 @@ double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw
   return c->candidates[t->candidate].skin - aslant - sw_dot(t->press.normal, sw_sub(from, plane));
 }
 
-/* A wire pushed on by its end bears far more than its weight. Stiffening its touch after it has
- * sunk in would throw the end back; the stiffness of the wire itself is enough from the beginning
- * [N/m]. */
+/* Stiffness of a new touch. A wire pushed on by its end bears far more than its weight, and
+ * stiffening its touch after it has sunk in would throw the end back. So the end's touch is as
+ * stiff as the wire itself from the beginning [N/m]. */
 static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                             const double *y, sw_vec normal) {
   const sw_body *b = &s->bodies[k->body];
@@ -275,7 +279,7 @@ static double end_stiffness(const sw_contact *c, const sw_system *s, const sw_ca
   return fmax(k->usual, along * along * b->EA / b->plan->rest[e]);
 }
 
-/* usual: of a new touch [N/m]. */
+/* Stiffness of a touch; usual: that of a new one [N/m]. */
 static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_memory *m,
                            const sw_touch *last, double usual) {
   if (c->regime == SW_CONTACT_EXPLICIT) return k->usual;
@@ -283,14 +287,14 @@ static double stiffness_of(const sw_contact *c, const sw_candidate *k, const sw_
   return m ? m->kept.k : usual;
 }
 
-/* Is a touch the one of the iterate before, moved a little? */
+/* 1 if a touch is that of the previous iterate, moved a little. */
 static int goes_on(const sw_contact *c, const sw_candidate *k, const sw_press *press,
                    const sw_touch *last) {
   return last && c->regime != SW_CONTACT_EXPLICIT && press->gap < STILL_NEAR * k->radius &&
          sw_dot(press->normal, last->press.normal) > SAME_SIDE;
 }
 
-/* How much of its depth a touch leaves alone in this step. */
+/* Sets how much of its depth a touch leaves alone in this step. */
 static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                     const sw_memory *m, const double *y, sw_touch *t) {
   const sw_web *web = s->bodies[k->body].plan->web;
@@ -308,16 +312,16 @@ static void forgive(const sw_contact *c, const sw_system *s, const sw_candidate 
   t->let_out = left.let_out;
 }
 
-/* Is friction's direction that of its place? In bundles it is an unknown of its own, as between
- * wires: by place alone, wires that are thrown about would turn round in every other iterate. A
- * single wire may do so too, but most agree sooner by their place; after some updates its direction
- * becomes an unknown. */
+/* 1 if friction's direction follows from the place. In bundles it is an unknown, as between wires:
+ * otherwise wires that are thrown about would reverse in every other iterate. A single wire may do
+ * so too, but most agree sooner by the place; after some updates its direction becomes an
+ * unknown. */
 static int goes_by_place(const sw_contact *c, const sw_system *s, const sw_candidate *k) {
   const int apart = s->coupling.part != NULL && c->updates < SW_PATIENCE;
   return apart || c->regime != SW_CONTACT_IMPLICIT || s->bodies[k->body].plan->web;
 }
 
-/* What its place says of a touch. */
+/* Sets a touch's data that follow from its place. */
 static void take_place(const sw_contact *c, const sw_system *s, const sw_candidate *k, double at,
                        const double *y, const sw_place *place, sw_touch *t) {
   const sw_pose *pose = &c->now[k->obstacle].pose;
@@ -334,7 +338,7 @@ static void take_place(const sw_contact *c, const sw_system *s, const sw_candida
   t->stage = c->stage;
 }
 
-/* Which touches press in this iterate. */
+/* Decides whether a touch presses in this iterate. */
 static void activate(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                      const sw_memory *m, const sw_touch *last, sw_press *press) {
   const sw_web *web = s->bodies[k->body].plan->web;
@@ -342,7 +346,7 @@ static void activate(const sw_contact *c, const sw_system *s, const sw_candidate
   if (still && m && web && web->per_ring) press->spare = SPARE_PULLS;
   sw_press_activate(press, goes_on(c, k, press, last) ? &last->press : NULL);
   if (!still || last || web || press->active) return;
-  press->active = sw_press_lies(press); /* it may be all that bears the wire */
+  press->active = sw_press_lies(press); /* this touch may be all that carries the wire */
 }
 
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contact of wires with obstacles, for the files of this room. Candidate: a node or segment and an
- * obstacle that may touch in the step. Touch: a place of it where an iterate lets them press. */
+/* Contact of wires with obstacles: internal types and functions. Candidate: a node or segment and
+ * an obstacle that may touch in the step. Touch: a place of a candidate where an iterate lets them
+ * press. */
 #ifndef SW_CONTACT_TOUCH_H
 #define SW_CONTACT_TOUCH_H
 
@@ -10,216 +11,221 @@
 
 struct sw_contact {
   sw_contact_obstacle *obstacles;
-  sw_contact_loads *loads; /* (count) impulses in the step; zero but for those in busy */
+  sw_contact_loads *loads; /* (count) impulses in the step; zero except for obstacles in busy */
   int *busy;               /* (busy_count) obstacles near wires in this step, or pressed before */
   size_t busy_count;
-  int informed; /* 1: the scene has told what obstacles remember and which of them may move */
+  int informed; /* 1: the owner has told the obstacles' loads and which obstacles may move */
   sw_broad broad;
-  int last_stage; /* number of the last stage whose loads were booked in this trial */
+  int last_stage; /* last stage whose loads were booked in this trial */
   size_t count;
   sw_contact_place place; /* places an obstacle at a time, with user */
   void *user;
-  sw_contact_at *start, *now; /* (count) places at the step's start and at the stage */
-  int *flat;                  /* (count) 1: a half space, no segment contacts */
+  sw_contact_at *start, *now; /* (count) positions at the step's start and at the stage */
+  int *flat;                  /* (count) 1: a half space, without contacts of segments */
   int *straight;              /* (count) 1: its faces meet at right angles */
   int *pads;                  /* (pad_count) numbers of the pads of grippers */
   size_t pad_count;
   int *pressing; /* (count) 1: a pad that pressed on something at the step's start */
   int *sharp;    /* (count) 1: it has faces, edges and corners */
-  double *round; /* (count) radius of its round side; 0: it has none [m] */
-  int *wound;    /* (count) number + 1 of the last body that goes round it in this step */
-  int *dense;    /* (count) 1: particles of the body at hand lie close to each other */
-  double *sunk;  /* (3 nodes) shift of a node by which contact finds it deeper; NULL: none [m] */
+  double *round; /* (count) radius of its round side; 0: no round side [m] */
+  int *wound;    /* (count) last body that goes round it in this step: number + 1, or 0 */
+  int *dense;    /* (count) 1: particles of the current body lie close to each other */
+  double *sunk;  /* (3 nodes) shift by which contact finds a node deeper; NULL: no node [m] */
   size_t sunk_capacity;
-  sw_ahead *ahead; /* (2 ahead_count) statics: states that the search has for touches, then room */
-  size_t ahead_count, ahead_capacity; /* 0: there is no search */
-  int softer;    /* stage of the search, in which touches are softened; 0: no more [-] */
-  int passes;    /* of touches looking for their states at one place [-] */
-  double *reach; /* (nodes) widest gap to an obstacle at rest that may close in the step [m] */
+  sw_ahead *ahead; /* (2 ahead_count) statics: states of the touches in the search, then room */
+  size_t ahead_count, ahead_capacity; /* ahead_count = 0: there is no search */
+  int softer;    /* softening stage of the search; 0: touches have their full stiffness [-] */
+  int passes;    /* solves at one place in which touches look for their states [-] */
+  double *reach; /* (nodes) widest gap to a resting obstacle that may close in the step [m] */
   size_t reach_capacity;
   /* candidates and touches */
-  double *spaced; /* (count) largest distance of samples of the body at hand; 0: no samples [m] */
-  sw_bounds *bounds; /* (count) at the step's start, world axes */
+  double *spaced; /* (count) largest distance of samples of the current body; 0: no samples [m] */
+  sw_bounds *bounds; /* (count) boxes at the step's start, in world axes */
   sw_candidate *candidates;
   size_t candidate_count, candidate_capacity;
-  sw_touch *touches, *last; /* of this iterate and of the one before */
+  sw_touch *touches, *last; /* of this iterate and of the previous one */
   size_t touch_count, touch_capacity, last_count, last_capacity;
-  sw_pressed *pressed; /* touches with a force at the end of a stage of this trial */
-  size_t pressed_count, pressed_capacity, pressed_before; /* the last: of earlier stages */
-  sw_turn *turns;                                         /* (pressed_count) of a review */
+  sw_pressed *pressed; /* touches that had a force at the end of a stage of this trial */
+  size_t pressed_count, pressed_capacity, pressed_before; /* the last: those of earlier stages */
+  sw_turn *turns; /* (pressed_count) order of impacts in a review */
   size_t turn_capacity;
-  sw_memory *memory, *next_memory; /* of touches, from step to step */
+  sw_memory *memory, *next_memory; /* memory of touches from step to step */
   size_t memory_count, memory_capacity, next_count, next_capacity;
   /* impacts and barriers */
-  uint32_t *impact_at, *barrier_at; /* (places) number + 1 of a node's last one, or 0 */
+  uint32_t *impact_at, *barrier_at; /* (places) a node's last impact or barrier: number + 1, or 0 */
   size_t places, place_capacity;
   sw_barrier *barriers;
   size_t barrier_count, barrier_capacity;
   sw_impact *impacts;
   size_t impact_count, impact_capacity;
-  sw_mark *marks; /* touches of the last iterate, to tell whether another one would change any */
+  sw_mark *marks; /* touches of the last matrix, to tell whether it serves again */
   size_t mark_count, mark_capacity;
-  sw_contact_parts parts; /* bodies that are solved by themselves */
-  double *room;           /* of an iterate's refinement: solutions of a wire's equations */
+  sw_contact_parts parts; /* bodies that are solved separately */
+  double *room;           /* refinement: solutions of a wire's equations */
   size_t room_capacity;
-  int unmarked;      /* 1: some touch slid, or there was no room: the marks tell nothing */
-  int looked;        /* 1: touches are those of the iterate to be evaluated next */
-  size_t stage;      /* number of the stage; it grows from step to step */
-  double first;      /* share of the step's first stage in what this one begins from [-] */
-  double time, h;    /* of the step [s] */
-  double stage_time; /* that obstacles were last placed for [s] */
+  int unmarked;   /* 1: the marks are not valid: some touch slid, or there was no memory */
+  int looked;     /* 1: the touches of the next evaluation are already found */
+  size_t stage;   /* number of the stage; it grows from step to step */
+  double first;   /* share of the step's first stage in the state that this stage begins from [-] */
+  double time, h; /* the step's start and size [s] */
+  double stage_time; /* time that obstacles were last placed for [s] */
   double nominal;    /* the run's full step [s] */
-  double asked;      /* the part of it that was first tried, before any was refused [s] */
+  double asked;      /* part (substep) that was first tried, before any was refused [s] */
   sw_contact_regime regime;
-  int plastic;     /* 1: impacts of this step do not rebound */
-  int hasty;       /* 1: this trial ends before friction of a wire that strikes is settled */
-  int careful;     /* 1: no trial of this step does that */
-  double soonest;  /* time after the step's start of the first rebound that is not at it [s] */
-  double least;    /* rebounds sooner than this after the start are at the start [s] */
+  int plastic;     /* 1: nothing rebounds in this step */
+  int hasty;       /* 1: this trial ends before friction of a striking wire is settled */
+  int careful;     /* 1: no trial of this step may be hasty */
+  double soonest;  /* first rebound that is not at the step's start, as time after the start [s] */
+  double least;    /* rebounds earlier than this after the start count as at the start [s] */
   double struck;   /* work of moving obstacles in the step's impacts [J] */
   int fresh;       /* SW_CONTACT_FRESH, or SW_CONTACT_EMERGING, or 0 */
   int updates;     /* of touches in the stage so far [-] */
-  int made;        /* updates that positions took too [-] */
-  double widening; /* of the reserve for flight, when nodes went further than it [-] */
+  int made;        /* updates that were also applied to positions [-] */
+  double widening; /* factor on the reserve for flight, if nodes exceeded it [-] */
 };
 
-/* Force scale of a wire's touches: much smaller forces do not matter [N]. Touches are in the order
- * of wires: *end is the first of the next wire. */
+/* Force scale of a wire's touches; much smaller forces do not matter [N]. Touches are in the order
+ * of wires: *end is the first touch of the next wire. */
 double sw_contact_scale(const sw_contact *c, size_t first, size_t *end);
 
-/* Way that a node of velocity v may go in the step unnoticed; and the least one [m]. */
+/* Way that a node of velocity v may go in the step without a new search for candidates; and the
+ * least such way [m]. */
 #define SW_FLIGHT_LEAST 1e-4
 double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v);
 
-/* An impact at the step's start gave an obstacle this impulse at a point [m], [N s]. A step begins
- * without any. The trial was accepted: what obstacles remember. */
+/* Books an impact at the step's start that gave an obstacle this impulse at a point [m], [N s].
+ * sw_contact_forget_blows: a step begins without loads. sw_contact_conclude: the trial was
+ * accepted; stores the loads that obstacles remember. */
 void sw_contact_add_blow(sw_contact *c, int obstacle, sw_vec point, sw_vec impulse);
 void sw_contact_forget_blows(sw_contact *c);
 void sw_contact_conclude(sw_contact *c);
-/* Wires may press on the obstacle in this step. */
+/* Notes that wires may press on the obstacle in this step. */
 void sw_contact_expect(sw_contact *c, int obstacle);
 
-/* A step of a system with so many nodes begins without impacts and barriers. SW_ENOMEM. */
+/* Clears impacts and barriers at the start of a step of a system with this many nodes.
+ * SW_ENOMEM. */
 sw_status sw_contact_calm(sw_contact *c, size_t nodes);
 
 sw_pressed sw_contact_pressed(const sw_touch *t);
-/* Change the velocities at the step's start so that the touch is reached, not passed. Returns 1
- * when something was changed. */
+/* Changes the velocities at the step's start so that the wire reaches the touch but does not pass
+ * it. Returns 1 if something changed. */
 int sw_contact_strike(sw_contact *c, sw_system *s, const sw_touch *t, double h);
-/* The same of all that pressed in the trial, in the order in which they meet their obstacles. dull:
- * the step does not bounce. */
+/* The same for all touches that pressed in the trial, in the order in which they meet their
+ * obstacles. dull: 1 if the step does not bounce. */
 int sw_contact_strike_all(sw_contact *c, sw_system *s, double h, int dull);
 
-/* Will a touch from first to end strike with its present force? Only of obstacles without
- * restitution. */
+/* 1 if a touch from first to end will strike with its present force. Only looks at obstacles
+ * without restitution. */
 int sw_contact_will_strike(const sw_contact *c, sw_system *s, size_t first, size_t end);
 
-/* Raise barriers where wires cross obstacles on their way to x1. h: of the step, 0 in statics,
- * where there are no speeds to change. Returns 1 when there are new ones. */
+/* Raises barriers where wires cross obstacles on their way to x1. h: the step; 0 in statics, where
+ * there are no speeds to change. Returns 1 if there are new ones. */
 int sw_contact_cross(sw_contact *c, sw_system *s, const double *x1, double h);
 
-/* The barrier that was raised first of those for the node or segment, or NULL. */
+/* Returns the first barrier raised for the node or segment, or NULL. */
 const sw_barrier *sw_contact_barrier(const sw_contact *c, int obstacle, size_t node, int segment);
 
-/* How far nodes are sunk, with the system where it is. SW_ENOMEM. */
+/* Finds how far nodes are sunk at the system's state. SW_ENOMEM. */
 sw_status sw_contact_sink(sw_contact *c, const sw_system *s);
 
-/* Fill the list of candidates for the step. */
+/* Fills the list of candidates for the step. */
 sw_status sw_contact_find_candidates(sw_contact *c, sw_system *s, sw_error *err);
 
-/* An iterate looks at its candidates. */
+/* Progress of an iterate's look at its candidates. */
 typedef struct sw_glance {
-  size_t next, end;   /* what is left of them */
-  size_t match, last; /* the first candidate without its touches of the iterate before, and the
-                         first of these touches that is left */
+  size_t next, end;   /* candidates that are left */
+  size_t match, last; /* the first candidate that is not matched with its touches of the previous
+                         iterate, and the first of these touches that is left */
 } sw_glance;
 
-/* An iterate begins: touches become those of the one before. SW_ENOMEM. */
+/* Begins an iterate: its touches become those of the previous iterate. SW_ENOMEM. */
 sw_status sw_contact_turn_over(sw_contact *c, sw_glance *at);
-/* Candidates up to the next one, and on the segment beside, find theirs. */
+/* Matches candidates up to at->next, and those of the segment beside, with their touches of the
+ * previous iterate. */
 void sw_contact_match(const sw_contact *c, sw_glance *at);
 
-/* The memory of the candidate's touch nearest to this place, or NULL. */
+/* Returns the memory of the candidate's touch nearest to this place, or NULL. */
 const sw_memory *sw_contact_remembered(const sw_contact *c, const sw_candidate *k, double at);
-/* The obstacle with the owner's number, or count. */
+/* Returns the obstacle with this owner's number, or count. */
 size_t sw_contact_index(const sw_contact *c, int id);
-/* A place along a candidate as a mean of nodes. */
+/* Returns a place along a candidate as a mean of nodes. */
 sw_mean sw_contact_spot(const sw_system *s, const sw_candidate *k, double at);
 
 struct sw_place;
-/* SW_ENOMEM. */
+/* Adds a touch of a candidate at a place. SW_ENOMEM. */
 sw_status sw_contact_add_touch(sw_contact *c, const sw_system *s, const sw_candidate *k,
                                const double *y, const struct sw_place *place);
-/* Find touches of some more candidates at positions y. *found: number of touches whose place in the
- * list is final. SW_ENOMEM. */
+/* Finds touches of some more candidates at positions y. *found: number of touches whose position in
+ * the list is final. SW_ENOMEM. */
 sw_status sw_contact_look_on(sw_contact *c, const sw_system *s, const double *y, sw_glance *at,
                              size_t *found, sw_error *err);
-/* Depth of the touch's place at the step's start, below 0 outside [m]. */
+/* Depth of the touch's place at the step's start, negative outside [m]. */
 double sw_contact_depth_before(const sw_contact *c, const sw_system *s, const sw_touch *t);
 
-/* After an update by shift [m] to positions y, does the touch keep the place and normal of its
- * equations? scale: smaller forces do not matter [N]. */
+/* 1 if, after an update by shift [m] to positions y, the touch keeps the place and normal of its
+ * equations. scale: smaller forces do not matter [N]. */
 int sw_contact_stays(const sw_contact *c, const sw_system *s, const sw_touch *t, const double *y,
                      double shift, double scale);
 
-/* After a static solve: release touches at the ends of rows where the wire lifts off. */
+/* After a static solve: releases touches at the ends of rows where the wire lifts off. */
 void sw_contact_peel(sw_contact *c, const sw_system *s);
 
-/* After a static solve whose update is not made: states of the touches at the best place on its
- * way. 0: out of memory. */
+/* After a static solve whose update is not made: sets the touches' states to those of the best
+ * place on its way. 0: out of memory, or a wire rolls. */
 int sw_contact_search(sw_contact *c, const sw_system *s, const double *delta);
 
 /* Number of touches that pull, or do not press where they should. */
 size_t sw_contact_wrong(const sw_contact *c);
-/* The stiffness k of a touch in the search. */
+/* Returns the softened stiffness of a touch in the search [N/m]. */
 double sw_contact_softer(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                          double stiffness);
 
-/* Depth on the segment beside a held node that no force takes away. One held beyond an edge is
- * below the faces that end there, but in none [m]. */
+/* Depth on the segment beside a held node that no force takes away. A node held beyond an edge is
+ * below the faces that end there, but inside none [m]. */
 double sw_contact_imposed(const sw_contact *c, const sw_system *s, const sw_candidate *k,
                           const sw_touch *t, const double *y);
-/* Is it pinched between its obstacle and another one? */
+/* 1 if the wire is pinched between the touch's obstacle and another one. */
 int sw_contact_is_pinched(const sw_contact *c, const sw_touch *t);
 
-/* 1: the candidate's node, or both ends of its segment, are held. */
+/* 1 if the candidate's node, or both ends of its segment, are held. */
 int sw_contact_is_held(const sw_system *s, const sw_candidate *k);
 
-/* How turns of edges shift a wire's surface at a touch. */
+/* How turns of edges about themselves shift a wire's surface at a touch. */
 typedef struct sw_levers {
-  size_t count, edge; /* 0 unless the wire rolls, to 2; the first of them, in its body */
+  size_t count, edge; /* 0 (no rolling) to 2 edges; the first of them, in its body */
   sw_vec arm[2];      /* shift per turn [m] */
 } sw_levers;
 
-/* Of a touch at a node or on a segment that begins there, with the last evaluation's tangents. */
+/* Levers of a touch at a node, or on a segment that begins there, with the last evaluation's
+ * tangents. */
 sw_levers sw_levers_at(const sw_system *s, size_t body, size_t node, int segment, sw_vec normal);
 static inline sw_levers sw_touch_levers(const sw_system *s, const sw_touch *t) {
   if (!s->bodies[t->body].roll_block) return (sw_levers){0};
   return sw_levers_at(s, t->body, t->node, t->segment, t->press.normal);
 }
-/* Shift of the surface by turn[edge stride] [m], or its speed by rates. */
+/* Shift of the surface by turn[edge stride] [m], or its speed if these are rates [m/s]. */
 sw_vec sw_levers_shift(const sw_levers *l, const double *turn, size_t stride);
-/* The touch's friction and stiffness (upper half of K) on the turns. */
+/* Adds the touch's friction and stiffness (upper half of K) to the turns. */
 void sw_levers_push(sw_system *s, const sw_touch *t, const double K[6], unsigned want);
-/* Change of the axis' velocity by an impulse of at most this size that stops the surface's sliding
+/* Returns the change of the axis' velocity that stops the surface's sliding, of at most this size
  * [m/s]. */
 sw_vec sw_levers_brake(const sw_beam *beam, const sw_levers *l, sw_vec slide, double most);
-/* Add the change of the edges' rates (edges) by an impulse at the touch [N s]. */
+/* Adds the change of the edges' rates (edges) by an impulse at the touch [N s]. */
 void sw_levers_kick(const sw_plan *p, const sw_levers *l, sw_vec impulse, double *rates);
 
-/* A candidate has at most so many samples; number k of them, along its segment [-]. */
+/* Most samples of a candidate; place of sample number k along its segment [-]. */
 enum { SW_SAMPLES_MOST = 64 };
 static inline double sw_sample_at(const sw_candidate *candidate, int k) {
   return ((double)k + 0.5) / (double)candidate->samples;
 }
 
-/* The place of a candidate on its segment. */
+/* Returns the position of a place on a segment, or of a node. */
 static inline sw_vec sw_touch_place(const double *x, size_t node, size_t other, double at) {
   return node != other ? sw_lerp(sw_load(x + 3 * node), sw_load(x + 3 * other), at)
                        : sw_load(x + 3 * node);
 }
 
-/* Where its surface is skin from, with the system's nodes at x [m]. */
+/* Position that the surface is skin away from, with the system's nodes at x [m]. */
 static inline sw_vec sw_contact_where(const sw_contact *c, const double *x, size_t node,
                                       size_t other, double at) {
   const sw_vec p = sw_touch_place(x, node, other, at);
@@ -231,9 +237,9 @@ static inline sw_vec sw_mean_place(const sw_contact *c, const double *x, const s
   return c->sunk ? sw_sub(p, sw_mean_of(c->sunk, 0, spot)) : p;
 }
 
-/* Correction of a sunk place's gap. A place sunk along the normal n of its surface meets a face of
- * normal -n at that surface. If the surface is turned against the face the distance stays, so that
- * a flattened section keeps its distance [m]. */
+/* Correction of a sunk place's gap [m]. A place sunk along the normal n of its surface meets a face
+ * of normal -n at that surface. If the surface is turned against the face, the distance is kept, so
+ * that a flattened section keeps its distance. */
 static inline double sw_contact_aslant(const sw_contact *c, size_t node, size_t other, double at,
                                        sw_vec normal) {
   if (!c->sunk) return 0;

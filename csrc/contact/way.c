@@ -23,7 +23,7 @@ void sw_press_go_on(sw_press *p, double friction, sw_vec s, int may) {
   p->next_sliding = sw_press_grip(p) * sw_norm(u) > friction * p->normal_force;
 }
 
-/* Halvings of the way until its share is known [-]. */
+/* Halvings of the way in the search for the share [-]. */
 enum { HALVINGS = 20 };
 
 double sw_way_least(double (*slope)(const void *, double), const void *user) {
@@ -53,8 +53,9 @@ void sw_ways_add(sw_ways *w, sw_press *press, double friction, sw_vec shift) {
       (sw_way){press, friction, shift, begins, assumed(press, friction, shift, shift)};
 }
 
-/* Slope of the energy at this share of the way [J]. All but the touches' forces is linear: with the
- * assumed ones it is in balance at the way's end, and falls by the work at its beginning. */
+/* Slope of the energy at this share of the way [J]. Everything except the touches' forces is
+ * linear: with the assumed forces it is in balance at the way's end, and at its beginning the
+ * energy falls by the work. */
 static double slope(const void *user, double share) {
   const sw_ways *w = user;
   double sum = (share - 1.0) * w->work;
