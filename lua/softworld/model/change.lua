@@ -9,6 +9,7 @@ local change = {}
 change.MODEL = 0.875 -- of a tolerance: what rungs may leave out [-]
 
 local SAFETY = 1.5 -- of what is known of finer levels [-]
+local ELSEWHERE = 1 / 4 -- of a value: how far coarse edges may be off for a change on them to count [-]
 local NONE = 0 / 0 -- the value of a check's row that a computation has not
 
 local function is_finite(v) return v ~= nil and quantity.size(v) < math.huge end
@@ -66,6 +67,21 @@ function change.between(context, state, levels, left)
     if off > c.worst then c.worst, c.quantity, c.allowed, c.seen = off, q, allowed, d / allowed end
   end
   return c
+end
+
+--- Was the choice compared on edges so coarse that the wire was somewhere else there? By the values of the
+-- finest run, the rung's own were off by a quarter and by more than the tolerance. On such edges both rungs
+-- may agree on a shape that fine edges do not have: a pushed trunk buckles to the other side.
+function change.is_elsewhere(context, state, values)
+  local there = state.by == "compared" and state.compared
+  for _, q in ipairs(there and context.job.quantities or {}) do
+    local coarse, fine = there.here.values[q.name] or NONE, values[q.name] or NONE
+    if quantity.alike(coarse, fine) then
+      local off = quantity.distance(coarse, fine)
+      if off > ELSEWHERE * quantity.size(fine) and off > quantity.asked(q, fine) then return true end
+    end
+  end
+  return false
 end
 
 --- The same where edges and steps hide so many times as much of it.

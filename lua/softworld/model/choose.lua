@@ -202,6 +202,24 @@ local function last_facts(context, result)
   return found
 end
 
+-- Compares a choice on finer edges while those it was compared on show another state than the finest run, by
+-- its values. True when another rung comes of it.
+local function compared_finer(context, state, values)
+  local rung, as = state.rung, state.choice.rungs[state.rung].as
+  while change.is_elsewhere(context, state, values) and state.compared.k < decide.levels do
+    state.from, state.by = state.compared.k + 1, nil
+    repeat until decide.look(context, state)
+    if state.rung ~= rung then
+      context.given_up[#context.given_up + 1] = { kind = "model", time = context.scene.time, count = 1,
+        text = ("%s: %s given up; on the coarsest edges the wire is somewhere else: %s"):format(
+          state.choice.name, as, state.why) }
+      decide.settle(context)
+      return true
+    end
+  end
+  return false
+end
+
 -- Look at what the finest run tells; true when it is to be computed again.
 local function broken(context, result)
   local values = {}
@@ -214,6 +232,7 @@ local function broken(context, result)
       given_up(context, state, context.scene.time)
       again = true
     end
+    again = again or compared_finer(context, state, values)
     state.short = state.choice.short and state.choice.short(context, f, share, state)
   end
   return again

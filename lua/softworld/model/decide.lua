@@ -150,11 +150,11 @@ local function compare(context, state, rungs, above)
     if k > 1 and not (here.ok and there.ok) then return c, not there.ok and rung.own and there.reason end
     local now = { k = k, here = here, above = there, before = before }
     local last = c
-    c, before = change.between(context, state, now, left_by_others), now
+    c, before, state.compared = change.between(context, state, now, left_by_others), now, now
     local clear = c.worst < 1 / DOUBT or c.worst > HOPE ^ (levels - k) or k > 1 and c.worst <= 1
     if last and last.worst > FEIGNED and c.worst <= 1 then mark_astray(now, last) end
     local blurred, all = is_blurred(context, state, now, c)
-    if clear and not blurred then return all or c end
+    if clear and not blurred and k >= (state.from or 1) then return all or c end
     local grows = last and not state.choice.steady and c.worst > 1 and c.seen >= last.seen
     if grows then return c end
     local costly = state.choice.costly
