@@ -31,7 +31,8 @@ typedef struct sw_wire_class {
   const char *name;
   const char *summary;
   void (*recipe)(const sw_beam *beam, sw_recipe *out);
-  const char *mesh; /* lattice of room calibrate; NULL: a line of nodes */
+  const char
+      *mesh; /* the lattice of particles that this model is (room calibrate); NULL: line of nodes */
 } sw_wire_class;
 
 /* The recipe of all mesh models; the mesh has their springs. */
