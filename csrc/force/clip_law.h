@@ -13,10 +13,10 @@
  * Floor (u < -clearance) and walls (|v| > clearance): springs of stiffness k. Above the lips' top
  * the walls open into a funnel, which widens to either side by half the length of the lips' outer
  * flank, and fade out over the mouth. Floor and walls are 2 reach thick and hold up to strength = k
- * reach / pi from either side. For a wire that came over the mouth, floor and walls have no far
- * ends: the floor extends to the sides and the walls extend below the floor. For any other wire
- * they end, so that the wire may lie beside or under the clip. A wire pressed harder than strength
- * breaks through; the law is not valid beyond that. */
+ * reach / pi from either side. For a wire that came over the mouth, lips and floor extend to the
+ * sides without end, and the walls extend below the floor without end. For any other wire they end,
+ * so that the wire may lie beside or under the clip. A wire pressed harder than strength breaks
+ * through; the law is not valid beyond that. */
 #ifndef SW_FORCE_CLIP_LAW_H
 #define SW_FORCE_CLIP_LAW_H
 

@@ -53,8 +53,8 @@ static double strain_rate(const sw_field *f, size_t e) {
   return sw_dot(sw_field_tangent(f, e), edge_rate(f, e)) / rest;
 }
 
-/* Returns the change by the dashpot's force in the axial force of the stiffness across the edge. In
- * dynamics only tension counts there (see force/axial.h) [N]. */
+/* Returns how much the dashpot's force changes the axial force that the stiffness across the edge
+ * uses. In dynamics only tension counts there (see force/axial.h) [N]. */
 static double pulled_more(double tension, double more) {
   return fmax(tension + more, 0.0) - fmax(tension, 0.0);
 }

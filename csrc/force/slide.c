@@ -71,7 +71,7 @@ static void add_force(const sw_web_slide *s, const pair *p, double *force) {
   }
 }
 
-/* Second derivatives by r r, r e and e e, without the spring across. */
+/* Second derivatives by r r, r e and e e, without the stiffness k of the spring across. */
 static void derive(const pair *p, int cautious, double H[3][9]) {
   const double *t = p->at.t, *n = p->at.n, l = p->at.l, u = p->at.u, d = p->at.apart;
   /* A slipping pair's cautious stiffness is the secant to the slip limit: an upper bound from which
