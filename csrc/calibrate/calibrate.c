@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a wire's values to a mesh and the targets of its springs, and what to say when there
- * are no such springs. */
+/* From a wire's values to a mesh and the targets of its springs, and advice if there are no such
+ * springs. */
 #include "calibrate/calibrate.h"
 
 #include <math.h>
@@ -11,11 +11,11 @@
 #include "calibrate/calibrate_inner.h"
 #include "calibrate/composite_solid.h"
 
-static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
+static const double OF_LIMIT = 0.6; /* chosen spacing over the largest allowed [-] */
 
-static const double NEAR = 1e-10; /* share of EA at which a radius is good [-] */
-static const double FADED = 0.02; /* of its first guess, below which a spring is gone [-] */
-enum { RADII = 12 };              /* tried at most [-] */
+static const double NEAR = 1e-10; /* relative error of EA at which a radius is accepted [-] */
+static const double FADED = 0.02; /* stiffness over first guess at which a spring is gone [-] */
+enum { RADII = 12 };              /* most radii tried [-] */
 
 static const char *const meshes[] = {"tube", "radial", "cubic", "composite", NULL};
 static const char *const bodies[] = {"springs", "solid", NULL};
@@ -57,8 +57,8 @@ void *sw_lattice_place(sw_lattice_args *args, int mesh) {
 
 /* --- the mesh ------------------------------------------------------------------- */
 
-/* Above this spacing the diagonals that GJ needs bend more stiffly than EI all by themselves:
- * GJ = 2 M k h R^4 s^2/l^2 and EI = (M/2) h R^2 (k_L + 2 k h^2/l^2) with k_L > 0. */
+/* Returns the spacing above which the diagonals that GJ needs give more than EI by themselves: GJ =
+ * 2 M k h R^4 s^2/l^2 and EI = (M/2) h R^2 (k_L + 2 k h^2/l^2) with k_L > 0. */
 static double largest_spacing(double R, double EI, double GJ, long reach, long particles) {
   return R * sqrt(2 * EI / GJ) * fabs(sin(2 * M_PI * (double)reach / (double)particles));
 }
@@ -83,7 +83,7 @@ sw_status sw_calibrate_lattice(const sw_calibrate_args *args, const sw_beam *bea
   const double limit = OF_LIMIT * ring_limit(args, mesh, beam);
   if (args->mesh == SW_LATTICE_TUBE) {
     const double chord = 2 * tube->ring_radius * sin(M_PI / (double)tube->particles);
-    /* A limit of 0 means that the mesh refuses this reach. */
+    /* a limit of 0: the mesh itself refuses this reach */
     if (isnan(h)) h = limit > 1e-6 * chord ? fmin(chord, limit) : chord;
     return sw_lattice_tube(tube, h, out, err);
   }
@@ -109,7 +109,7 @@ sw_status sw_calibrate_materials(const char *object, int mesh, int body,
 
 /* --- the wire -------------------------------------------------------------------- */
 
-/* E and nu are those of a solid round wire. */
+/* Checks the section. E and nu are those of a solid round wire. */
 static sw_status check_section(const sw_calibrate_args *args, const sw_section *c,
                                const sw_cubic_args *cubic, sw_error *err) {
   const int round = args->mesh != SW_LATTICE_CUBIC || cubic->section == SW_SECTION_CIRCLE;
@@ -137,9 +137,9 @@ static sw_status read_beam(const sw_calibrate_args *args, const sw_section *give
   SW_TRY(check_section(args, given, &mesh->cubic, err));
   SW_TRY(sw_calibrate_materials("calibrate", args->mesh, args->body, mesh, &c, err));
   if (flat && isnan(c.radius)) c.radius = 0.5 * hypot(mesh->cubic.width, mesh->cubic.height);
-  if (flat && isnan(c.radius)) c.radius = 1; /* without sides, which the mesh will tell */
+  if (flat && isnan(c.radius)) c.radius = 1; /* sides are missing: the mesh reports it */
   if (isnan(c.mass_per_length) && isnan(c.density)) c.mass_per_length = 1;
-  c.spin_inertia = NAN; /* of the ring, not of the solid: see spread_mass */
+  c.spin_inertia = NAN; /* that of the mesh, see spread_mass */
   return sw_section_beam("calibrate", &c, beam, err);
 }
 
@@ -153,7 +153,7 @@ static void set_targets(const sw_calibrate_args *args, const sw_beam *beam,
   target[SW_TARGET_SQUEEZE] = args->squeeze;
 }
 
-/* Masses so that the slice has the spin inertia that was given, between ring and core. */
+/* Divides the mass between ring and core so that the slice has the given spin inertia. */
 static sw_status spread_mass(const sw_calibrate_args *args, const sw_section *c,
                              const sw_tube_args *tube, sw_calibration *out, sw_error *err) {
   if (isnan(c->spin_inertia)) return SW_OK;
@@ -174,7 +174,7 @@ static sw_status spread_mass(const sw_calibrate_args *args, const sw_section *c,
   return SW_OK;
 }
 
-/* --- what cannot be reached --------------------------------------------------------- */
+/* --- targets that cannot be reached ---------------------------------------------------- */
 
 static void tube_advice(const sw_calibrate_args *args, const sw_tube_args *tube,
                         const sw_calibration *c, int worst, double limit, char *text, size_t n) {
@@ -227,8 +227,8 @@ static void cubic_advice(const sw_cubic_args *cubic, const sw_calibration *c, in
     snprintf(text, n, "make across = %ld more, and even", cubic->across);
 }
 
-/* Springs may meet the targets only by letting go of the section's shape. Where a squeeze
- * stiffness was asked for, soft springs are meant. */
+/* 1 if springs meet the targets only by releasing the section's shape. If a squeeze stiffness was
+ * requested, soft springs are intended. */
 static int is_gone(const sw_calibration *c) {
   return c->fading < FADED && isnan(c->target[SW_TARGET_SQUEEZE]);
 }
@@ -259,7 +259,7 @@ static sw_status check_reached(const sw_calibrate_args *args, const sw_lattice_a
                  text);
 }
 
-/* Lattice, masses and springs for a mesh all of whose arguments are known. */
+/* Makes lattice, masses and springs of a mesh with all arguments known. */
 static sw_status try_mesh(const sw_calibrate_args *args, const sw_section *section,
                           const sw_beam *beam, sw_lattice_args *mesh, sw_calibration *out,
                           sw_error *err) {
@@ -270,9 +270,10 @@ static sw_status try_mesh(const sw_calibrate_args *args, const sw_section *secti
   return sw_calibrate_fit(out, err);
 }
 
-/* A ring alone has EA near 2 EI/R^2: it must be where this is the wire's, which for a wall of
- * one material is in the wall. How near is found by trying, with
- * springs that have EI and GJ; were EA asked for too, hoops would go soft to have it. */
+/* Finds the ring radius of a coreless tube. A single ring has EA near 2 EI/R^2; R must make this
+ * the wire's EA, and for a wall of one material this R lies in the wall. The exact R is found by
+ * iteration with springs that have EI and GJ only; with EA as a target too, hoops would go soft to
+ * meet it. */
 static sw_status find_radius(const sw_calibrate_args *args, const sw_section *section,
                              const sw_beam *beam, sw_lattice_args *mesh, sw_calibration *out,
                              sw_error *err) {
@@ -312,10 +313,9 @@ sw_status sw_calibrate(const sw_calibrate_args *args, const sw_section *section,
   return check_reached(args, mesh, &beam, out, err);
 }
 
-/* Hoops of a ring alone over those of its wall, Et h/chord: where slices are longer than
- * largest_spacing, EI and GJ come together only by soft hoops. Bent to a strain of 1 %, slices
- * whose hoops have less than a fifth wrinkle (0.06: -30 % of the moment); those with 0.5 do not
- * [-]. */
+/* Least hoop stiffness of a coreless ring, over its wall's, Et h/chord. If slices are longer than
+ * largest_spacing, only soft hoops let EI and GJ be met together. Bent to a strain of 1 %, slices
+ * with hoops below a fifth wrinkle (at 0.06 the moment drops by 30 %); at 0.5 they do not [-]. */
 static const double LEAST_HOOP = 0.3;
 
 sw_status sw_calibrate_check_bent(const sw_calibration *c, sw_error *err) {

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elements that are a wire. A beam of elements alone has EA = E a s^2, EI = E b s^4 and
- * GJ = E c s^4 when its section is scaled by s, whatever the distance of slices: modulus and
- * scale make EA and EI exact for a wire of one material, with a scale near 1 that makes up for
- * corners of the mesh. GJ then follows from nu: one that is up to 0.03 off the wire's makes up for
- * corners and for warping that the mesh does not know. Of a composite, whose core has its own
- * modulus and nu, EA and EI are met likewise with the core's modulus over the shell's as a given.
- * Springs along the wire only add to EA and EI, so that elements may have the modulus of GJ where
- * the wire is stiffer than that. Where it is softer (strands that slip bend easily but hardly
- * untwist), diagonals carry a part of GJ, and the least squares of the springs' fit find how
- * much. */
+/* Solid elements calibrated to a wire. A beam of elements alone has EA = E a s^2, EI = E b s^4 and
+ * GJ = E c s^4 if its section is scaled by s, whatever the distance of slices. Modulus and scale
+ * therefore make EA and EI exact for a wire of one material; the scale is near 1 and corrects for
+ * the mesh's corners. GJ then follows from nu; a nu up to 0.03 off the wire's corrects for corners
+ * and for warping that the mesh cannot follow. A composite, whose core has its own modulus and nu,
+ * meets EA and EI in the same way, with the ratio of core to shell modulus given. Springs along the
+ * wire only add to EA and EI: if the wire is stiffer in these, the elements take the modulus of GJ.
+ * If it is softer (slipping strands bend easily but hardly untwist), diagonals carry a part of GJ;
+ * the least squares of the springs' fit find which part. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,13 +16,13 @@
 #include "calibrate/calibrate_inner.h"
 #include "calibrate/composite_solid.h"
 
-static const double RUBBER_POISSON = 0.45; /* of insulation, which hardly changes its volume [-] */
-static const double HIGHEST = 0.4999;      /* Poisson's ratio whose numbers are still exact [-] */
-static const double ONE_MATERIAL = 0.05;   /* EI off that of EA and one material, at most [-] */
-static const double GJ_NEAR = 0.02;        /* of elements alone, before nu makes up for it [-] */
-static const double LEAST = 0.01;          /* of EA and EI that springs are searched from [-] */
+static const double RUBBER_POISSON = 0.45; /* of insulation, nearly incompressible [-] */
+static const double HIGHEST = 0.4999;      /* largest Poisson's ratio with accurate numbers [-] */
+static const double ONE_MATERIAL = 0.05;   /* largest error of EI of one material with EA [-] */
+static const double GJ_NEAR = 0.02;        /* largest error of GJ that nu can correct [-] */
+static const double LEAST = 0.01; /* of EA and EI, where the search of springs starts [-] */
 
-static const double MOST_OFF = 0.03; /* of Poisson's ratio that makes up for it [-] */
+static const double MOST_OFF = 0.03; /* largest correction of Poisson's ratio for GJ [-] */
 enum { CORRECTIONS = 8 };
 
 enum { SHARE_SIZE = SW_CELL_SIZE + 1, CORE_SOLID = SW_GROUP_OF_CORE + SW_GROUP_SOLID };
@@ -31,20 +30,20 @@ static const unsigned ALONG =
     1U << SW_GROUP_LONGITUDINAL | 1U << SW_GROUP_INNER | 1U << SW_GROUP_CORE;
 
 typedef struct task {
-  sw_calibrate_args args; /* with the spacing that is used */
+  sw_calibrate_args args; /* with the spacing in use */
   const sw_beam *beam;
   sw_lattice_args *mesh;
   sw_calibration *c;
-  int rounded;                           /* corners of voxels are put on the circles [-] */
+  int rounded;                           /* 1: the voxels' outer corners lie on the circles [-] */
   double scale;                          /* of the section [-] */
   double ratio;                          /* modulus of a composite's core over the shell's [-] */
-  double unit[SW_TARGETS];               /* of elements of 1 Pa, scale 1 */
-  double shares[SW_GROUPS * SHARE_SIZE]; /* of unit springs */
+  double unit[SW_TARGETS];               /* values for elements of 1 Pa, scale 1 */
+  double shares[SW_GROUPS * SHARE_SIZE]; /* parts of unit springs */
 } task;
 
 static int is_composite(const task *t) { return t->args.mesh == SW_LATTICE_COMPOSITE; }
 
-/* Of all elements, by that of the shell or of all. */
+/* Sets the modulus of all elements; E: the shell's, or that of all. */
 static void set_modulus(task *t, double E) {
   t->c->k[SW_GROUP_SOLID] = E;
   t->c->k[CORE_SOLID] = is_composite(t) ? t->ratio * E : 0;
@@ -54,7 +53,7 @@ static double share(const task *t, int group, int strain) {
   return t->shares[group * SHARE_SIZE + strain * (SW_CELL_STRAINS + 1)];
 }
 
-/* Square of the radius of gyration about y, moduli being weights. */
+/* Returns the square of the radius of gyration about y, weighted by moduli. */
 static double gyration2(const task *t) {
   const sw_cubic_args *cubic = &t->mesh->cubic;
   const double r = t->beam->radius;
@@ -103,7 +102,7 @@ static void choose_composite_poisson(const task *t, const sw_section *section) {
   c->core_nu = c->nu;
 }
 
-/* That which was given, or the one with which GJ and EI of a round wire go together. */
+/* Returns the given Poisson's ratio, or the ratio that gives both GJ and EI of a round wire. */
 static double poisson(const task *t, const sw_section *section) {
   const int flat =
       t->args.mesh == SW_LATTICE_CUBIC && t->mesh->cubic.section == SW_SECTION_RECTANGLE;
@@ -112,8 +111,8 @@ static double poisson(const task *t, const sw_section *section) {
   return !flat && one_material(t) && fits >= 0 && fits <= 0.49 ? fits : RUBBER_POISSON;
 }
 
-/* About as long as the outermost elements are wide: nothing but the curvature of the wire asks
- * for short ones. */
+/* Returns the default spacing: about the width of the outermost elements. Only the wire's curvature
+ * needs shorter ones. */
 static double usual_spacing(const task *t) {
   const sw_composite *c = &t->c->composite;
   const double r = t->beam->radius;
@@ -124,9 +123,9 @@ static double usual_spacing(const task *t) {
   return fmin(0.75 * r, fmax(chord, r / layers));
 }
 
-/* Voxels need not stay squares: their outer corners go to the nearer of the section's circles.
- * Else obstacles would press on stairs, and GJ would be 5 % too small. A corner is outer when
- * it has less than four elements. Masses then go with the elements' areas. */
+/* Moves the outer corners of voxels to the nearer of the section's circles. Otherwise obstacles
+ * would press on stairs, and GJ would be 5 % too small. A corner is outer if it has fewer than four
+ * elements. Masses then follow the elements' areas. */
 static sw_status round_voxels(const task *t, sw_lattice *l, sw_error *err) {
   const double r = t->beam->radius;
   const double inner =
@@ -180,7 +179,7 @@ static int is_good(const task *t, double near_GJ) {
   return 1;
 }
 
-/* Elements of 1 Pa, and the scale that is right for one material. */
+/* Measures elements of 1 Pa, and finds the scale for one material. */
 static sw_status measure(task *t, sw_error *err) {
   SW_TRY(fresh(t, 1, 0, err));
   set_modulus(t, 1);
@@ -199,15 +198,15 @@ static sw_status elements_alone(task *t, sw_error *err) {
   return reach(t, err);
 }
 
-/* The same, with the Poisson's ratio that gives GJ too. If no material has that ratio, GJ stays as
- * near as possible. */
+/* The same, with the Poisson's ratio that also gives GJ. If no allowed ratio does, GJ is as near as
+ * possible. */
 static sw_status one_that_twists(task *t, sw_error *err) {
   const double nu = t->c->nu, core_nu = t->c->core_nu;
   SW_TRY(elements_alone(t, err));
   if (!is_good(t, GJ_NEAR)) return SW_OK;
   for (int k = 0; k < CORRECTIONS && !is_good(t, 0); k++) {
     const double fits = (1 + t->c->nu) * (1 + t->c->residual[SW_TARGET_GJ]) - 1;
-    const double off = fmax(-MOST_OFF, fmin(fits - nu, MOST_OFF)); /* of core and shell alike */
+    const double off = fmax(-MOST_OFF, fmin(fits - nu, MOST_OFF)); /* the same for core and shell */
     t->c->nu = fmin(HIGHEST, nu + off);
     t->c->core_nu = fmin(HIGHEST, core_nu + off);
     SW_TRY(measure(t, err));
@@ -216,7 +215,7 @@ static sw_status one_that_twists(task *t, sw_error *err) {
   return SW_OK;
 }
 
-/* Shares of unit springs of each group in EA, EI and GJ. */
+/* Finds each group's shares of EA, EI and GJ for unit springs. */
 static void measure_springs(task *t) {
   const sw_cell cell = sw_lattice_cell(&t->c->lattice);
   double one[SW_GROUPS], S[SW_CELL_SIZE];
@@ -224,8 +223,8 @@ static void measure_springs(task *t) {
   sw_cell_affine(&cell, one, S, t->shares);
 }
 
-/* Springs along the wire that have EA and EI: those off its axis EI, equal in modulus if that
- * leaves something of EA for the axis, else the outermost alone. 0: there are none. */
+/* Finds springs along the wire with this EA and EI. The springs off the axis give EI: all with the
+ * same modulus if this leaves some EA for the axis, else the outermost alone. 0: there are none. */
 static int springs_along(task *t, double EA, double EI) {
   double *k = t->c->k;
   const double EA_out = share(t, SW_GROUP_LONGITUDINAL, SW_CELL_STRETCH);
@@ -238,7 +237,7 @@ static int springs_along(task *t, double EA, double EI) {
   for (int both = EI_in > 0; both >= 0; both--) {
     const double EAs = EA_out + both * EA_in, EIs = EI_out + both * EI_in;
     const double b = core ? EA_core : EA_in, d = core ? EI_core : EI_in;
-    const double det = EAs * d - EIs * b; /* rows: EA, EI; columns: off the axis, at it */
+    const double det = EAs * d - EIs * b; /* rows: EA, EI; columns: off the axis, on it */
     if (!(fabs(det) > 0) || (both && !core)) continue;
     const double off = (EA * d - EI * b) / det, at = (EAs * EI - EIs * EA) / det;
     if (!(off >= 0) || !(at >= 0)) continue;
@@ -250,8 +249,8 @@ static int springs_along(task *t, double EA, double EI) {
   return 0;
 }
 
-/* Elements make GJ, springs along the wire the rest of EA and EI. *possible: 0 when the elements
- * alone already have more EA or EI. */
+/* The elements give GJ, springs along the wire the rest of EA and EI. *possible: 0 if the elements
+ * alone already exceed EA or EI. */
 static sw_status with_springs(task *t, int *possible, sw_error *err) {
   const double *target = t->c->target, s2 = t->scale * t->scale;
   const double E = target[SW_TARGET_GJ] / (t->unit[SW_TARGET_GJ] * s2 * s2);
@@ -263,8 +262,8 @@ static sw_status with_springs(task *t, int *possible, sw_error *err) {
   return *possible ? reach(t, err) : SW_OK;
 }
 
-/* Largest modulus whose elements, with the diagonals that make up for GJ, leave some of a target
- * that diagonals have a share of as well. */
+/* Returns the largest modulus of the elements at which elements, and the diagonals that supply the
+ * rest of GJ, leave some of a target that the diagonals contribute to as well. */
 static double room(const task *t, int target, int strain, double power) {
   const double s4 = pow(t->scale, 4), *wanted = t->c->target;
   const double per_GJ =
@@ -275,7 +274,7 @@ static double room(const task *t, int target, int strain, double power) {
          fmax(own - t->unit[SW_TARGET_GJ] * s4 * per_GJ, LEAST * own);
 }
 
-/* Elements make most of EA or EI, diagonals the rest of GJ; all are searched. */
+/* The elements give most of EA or EI, diagonals the rest of GJ; the fit searches all of them. */
 static sw_status with_diagonals(task *t, sw_error *err) {
   const double *target = t->c->target, s2 = t->scale * t->scale;
   const double least_EA = LEAST * target[SW_TARGET_EA], least_EI = LEAST * target[SW_TARGET_EI];
@@ -294,7 +293,7 @@ static sw_status with_diagonals(task *t, sw_error *err) {
   springs_along(t, fmax(EA, least_EA), fmax(EI, least_EI));
   set_modulus(t, E);
   k[SW_GROUP_DIAGONAL] = diagonal;
-  for (int g = 0; g < SW_GROUPS; g++) /* logarithms are searched */
+  for (int g = 0; g < SW_GROUPS; g++) /* the fit works on logarithms */
     if (t->c->links[g] && !(k[g] > 0)) k[g] = least_EA / fmax(share(t, g, SW_CELL_STRETCH), 1e-300);
   return sw_calibrate_fit(t->c, err);
 }
@@ -321,11 +320,11 @@ static sw_status refuse(const task *t, sw_error *err) {
                  advice);
 }
 
-/* Elements alone where these have EA, EI and nearly GJ, else springs as well. */
+/* Tries elements alone, which must give EA, EI and nearly GJ; else adds springs. */
 static sw_status fit(task *t, double spacing, sw_error *err) {
   int possible = 0;
   sw_status status = measure(t, err);
-  if (status == SW_EINVAL && t->rounded) { /* walls of a voxel or two may not bear it */
+  if (status == SW_EINVAL && t->rounded) { /* walls of one or two voxels may become too distorted */
     t->rounded = 0;
     status = measure(t, err);
   }
@@ -336,12 +335,12 @@ static sw_status fit(task *t, double spacing, sw_error *err) {
   }
   SW_TRY(with_springs(t, &possible, err));
   if (possible && is_good(t, 0)) return SW_OK;
-  t->args.spacing = spacing; /* diagonals want short slices */
+  t->args.spacing = spacing; /* diagonals need short slices */
   SW_TRY(with_diagonals(t, err));
   return is_good(t, 0) ? SW_OK : refuse(t, err);
 }
 
-/* Places and materials of core and shell. */
+/* Sets places and materials of core and shell. */
 static sw_status begin_composite(task *t, const sw_section *section, double *core_share,
                                  sw_error *err) {
   const sw_composite_args *given = &t->mesh->composite;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Displacements u(x, y, z) = strains of the beam + v, where v is the same in every slice.
- * Energy per slice: 1/2 e'C e + e'G'v + 1/2 v'K v; smallest for v = -K^+ G e, so that
- * S = (C - G'K^+G)/h. K v = -G e has solutions though K is singular, because both come from
- * the same springs and elements; all of them have the same energy. */
+/* Displacements u(x, y, z) = strains of the beam + v, with the same v in every slice. The energy
+ * per slice is 1/2 e'C e + e'G'v + 1/2 v'K v, minimal for v = -K^+ G e, so S = (C - G'K^+G)/h. K is
+ * singular, but K v = -G e has solutions because both come from the same springs and elements; all
+ * solutions have the same energy. */
 #include "calibrate/cell.h"
 
 #include <math.h>
@@ -14,9 +14,9 @@
 #include "calibrate/dense.h"
 
 enum { SIDES = SW_CELL_SIDES };
-static const double IN_RANGE = 1e-6; /* of a right side that may be left [-] */
+static const double IN_RANGE = 1e-6; /* relative residual of a right-hand side in range [-] */
 
-/* Where a link's far end is in the unstrained mesh. */
+/* Returns the place of a link's far end in the unstrained mesh. */
 static sw_vec far_end(const sw_cell *c, const sw_cell_link *l) {
   sw_vec q = sw_vec_at(c->at, l->to);
   q.z += l->slices * c->spacing;
@@ -34,7 +34,8 @@ void sw_cell_macro(sw_vec p, sw_vec u[SW_CELL_STRAINS]) {
   u[SW_CELL_TWIST] = sw_v(-p.y * p.z, p.x * p.z, 0);
 }
 
-/* The link's direction, and its elongation e by each unit strain [m; m2 for curvatures]. */
+/* Returns the link's direction; fills its elongation e under each unit strain
+ * [m; m2 for curvatures]. */
 static sw_vec elongations(const sw_cell *c, const sw_cell_link *l, double e[SW_CELL_STRAINS]) {
   const sw_vec p = sw_vec_at(c->at, l->from), q = far_end(c, l);
   const sw_vec n = sw_unit_or(sw_sub(q, p), sw_v(0, 0, 0));
@@ -45,19 +46,19 @@ static sw_vec elongations(const sw_cell *c, const sw_cell_link *l, double e[SW_C
   return n;
 }
 
-/* Energy of a link with elongations e, into the symmetric S. */
+/* Adds the energy of a link with elongations e to the symmetric S. */
 static void add_energy(double *S, const double e[SW_CELL_STRAINS], double factor) {
   for (int i = 0; i < SW_CELL_STRAINS; i++)
     for (int j = 0; j < SW_CELL_STRAINS; j++) S[i * SW_CELL_STRAINS + j] += factor * e[i] * e[j];
 }
 
-/* A spring against the angle h kappa between neighbours in a line; v has no part in it. */
+/* Adds a spring against the angle h kappa between neighbours in a line; it does not depend on v. */
 static void add_bend(double *S, double factor, double h) {
   S[SW_CELL_ABOUT_X * (SW_CELL_STRAINS + 1)] += factor * h * h;
   S[SW_CELL_ABOUT_Y * (SW_CELL_STRAINS + 1)] += factor * h * h;
 }
 
-/* Equal shares of the plates' unit forces on the particles at the largest and least x. */
+/* Shares the plates' unit forces equally among the particles at the largest and at the least x. */
 static void squeeze_load(const sw_cell *c, double *f) {
   double low = HUGE_VAL, high = -HUGE_VAL, count[2] = {0, 0};
   for (size_t i = 0; i < c->particles; i++) {
@@ -76,7 +77,7 @@ static void squeeze_load(const sw_cell *c, double *f) {
   }
 }
 
-/* K (n x n) and the right sides -G and the plates' forces (SIDES x n). */
+/* Assembles K (n x n) and the right-hand sides: -G and the plates' forces (SIDES x n). */
 static void assemble(const sw_cell *c, const double *k, double *K, double *right) {
   const size_t n = 3 * c->particles;
   for (size_t m = 0; m < c->links; m++) {
@@ -105,7 +106,7 @@ static void assemble(const sw_cell *c, const double *k, double *K, double *right
   squeeze_load(c, right + SW_CELL_STRAINS * n);
 }
 
-/* What each link stores in the relaxed state v (SIDES x n; NULL: none) into the parts of its
+/* Sums the energy of each link in the relaxed state v (SIDES x n; NULL: none) into the parts of its
  * group; returns the compliance under the plates [m/N]. */
 static double collect(const sw_cell *c, const double *k, const double *v, double *parts) {
   const size_t n = 3 * c->particles, size = SW_CELL_SIZE + 1;
@@ -187,7 +188,7 @@ sw_status sw_cell_stiffness(const sw_cell *c, const double *k, sw_cell_result *o
                                    status == SW_ENOMEM ? "out of memory" : "not a finite matrix");
 }
 
-/* Take the mean shift and the mean turn about z out of v (particles x 3). */
+/* Subtracts the mean shift and the mean turn about z from v (particles x 3). */
 static void remove_motion(const sw_cell *c, const double *share, double *v) {
   sw_vec mean = sw_v(0, 0, 0), middle = sw_v(0, 0, 0);
   for (size_t i = 0; i < c->particles; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solid elements in the slice that repeats: as springs are, with the element's second derivative
- * at rest for the spring's stiffness. */
+/* Solid elements in the repeated slice, handled like springs: the element's second derivative at
+ * rest takes the place of the spring's stiffness. */
 #include <string.h>
 
 #include "calibrate/cell_inner.h"
@@ -8,12 +8,12 @@
 
 enum { MOST = 3 * SW_SOLID_NODES };
 
-/* One element of modulus 1 Pa: places at rest, displacements by the strains, stiffness. */
+/* One element of modulus 1 Pa. */
 typedef struct element {
   int n;                             /* components [-] */
-  size_t component[MOST];            /* of the slice [-] */
-  double moved[SW_CELL_SIDES][MOST]; /* by unit strains [m] */
-  double stiffness[MOST * MOST];     /* of modulus 1 Pa [m] */
+  size_t component[MOST];            /* numbers in the slice [-] */
+  double moved[SW_CELL_SIDES][MOST]; /* displacements under unit strains [m] */
+  double stiffness[MOST * MOST];     /* for modulus 1 Pa [m] */
 } element;
 
 static sw_status prepare(const sw_cell *c, const sw_cell_solid *s, element *e) {

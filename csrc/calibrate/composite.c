@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Springs of a shell around cores. First each core is fitted by itself to its targets; then the
- * shell, whose ring has an EA near 2 EI/R^2, by its springs and its radius, so that the whole
- * has EA, EI and GJ. Bonded cores bend about the wire's axis, sliding ones about their own. */
+/* Springs of a shell around cores. First each core is fitted alone to its targets. Then the shell,
+ * whose ring has an EA near 2 EI/R^2, is fitted by its springs and its radius so that the whole has
+ * EA, EI and GJ. Bonded cores bend about the wire's axis, sliding cores about their own. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,11 +9,11 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/shell_fit.h"
 
-static const double OF_LIMIT = 0.6; /* of the largest spacing, when it is chosen [-] */
-static const double LONGEST = 0.55; /* spacing over the ring's radius, when it is chosen [-] */
-static const double FADED = 0.02;   /* of its first guess, below which a spring is gone [-] */
-static const double CARRIED = 0.1;  /* of the lesser EA, by bonds from slice to slice [-] */
-static const double DEFINITE = 0.2; /* least of a divisor that is trusted [-] */
+static const double OF_LIMIT = 0.6; /* chosen spacing over the largest allowed [-] */
+static const double LONGEST = 0.55; /* largest chosen spacing over the ring's radius [-] */
+static const double FADED = 0.02;   /* stiffness over first guess at which a spring is gone [-] */
+static const double CARRIED = 0.1;  /* largest EA of bonds, over shell and cores in series [-] */
+static const double DEFINITE = 0.2; /* least divisor that is trusted, per core [-] */
 
 /* EA, EI, GJ of a part [N, N m2, N m2]. */
 typedef struct part {
@@ -24,20 +24,20 @@ typedef struct plan {
   const sw_calibrate_args *args;
   const sw_composite_args *given;
   sw_composite *place;
-  part wire, shell, core; /* core: each of them */
-  double n;               /* cores [-] */
-  double aside, polar;    /* sums of x^2 and r^2 of the cores' centres when bonded, else 0 [m2] */
+  part wire, shell, core; /* core: of each core */
+  double n;               /* number of cores [-] */
+  double aside, polar;    /* sums of x^2 and r^2 of bonded cores' centres, else 0 [m2] */
 } plan;
 
-/* Area and its second moment [m2, m4]. */
+/* Area and second moment of area [m2, m4]. */
 static double area(double outer, double inner) { return M_PI * (outer * outer - inner * inner); }
 static double moment(double outer, double inner) {
   return 0.25 * area(outer, inner) * (outer * outer + inner * inner);
 }
 
-/* --- which part bears what --------------------------------------------------------------- */
+/* --- shares of the parts ----------------------------------------------------------------- */
 
-/* EA of each core when the shell has the rest of EI at the radius R of its ring. */
+/* Returns the EA of each core if the shell has the rest of EI, its ring being at radius R. */
 static double left_by_ring(const plan *p, double R) {
   const double by = p->n - 2 * p->aside / (R * R);
   return (p->wire.EA - 2 * (p->wire.EI - p->n * p->core.EI) / (R * R)) / by;
@@ -50,7 +50,7 @@ static void share_out(plan *p) {
   const double I = Is + p->n * Ic + Ac * p->aside, J = 2 * (Is + p->n * Ic) + Ac * p->polar;
   const double R = sqrt(0.5 * (c->radius * c->radius + c->bore * c->bore));
   const sw_composite_args *a = p->given;
-  /* of the shares of EI and of EA the lesser: a shell can have more than its share of EI */
+  /* the lesser of the shares by EI and EA: a shell can have more than its share of EI */
   const double by_EA = p->wire.EA * Ic / (As + p->n * Ac);
   p->core.EI = isnan(a->core_EI) ? fmin(p->wire.EI * Ic / I, by_EA) : a->core_EI;
   p->core.GJ = isnan(a->core_GJ) ? p->wire.GJ * 2 * Ic / J : a->core_GJ;
@@ -62,7 +62,7 @@ static void share_out(plan *p) {
     p->core.EA = p->wire.EA * Ac / (As + p->n * Ac);
   p->shell.EA = p->wire.EA - p->n * p->core.EA;
   p->shell.EI = p->wire.EI - p->n * p->core.EI - p->core.EA * p->aside;
-  /* what bonded cores off the axis resist is found with the whole mesh */
+  /* the GJ of bonded cores off the axis is found with the whole mesh */
   p->shell.GJ = p->polar > 0 ? fmin(p->wire.GJ - p->n * p->core.GJ, p->wire.GJ * 2 * Is / J)
                              : p->wire.GJ - p->n * p->core.GJ;
 }
@@ -107,7 +107,7 @@ static sw_status check_parts(const plan *p, sw_error *err) {
   return SW_OK;
 }
 
-/* A ring that is not in the wall is not the shell's. */
+/* 1 if the ring lies in the shell's wall. */
 static int is_in_wall(const plan *p, double R) {
   const double room = 1e-9 * p->place->radius;
   return R >= p->place->bore - room && R <= p->place->radius + room;
@@ -126,7 +126,7 @@ static sw_status check_wall(const plan *p, double R, sw_error *err) {
 
 /* --- spacing --------------------------------------------------------------------------- */
 
-/* As for the tube: above it diagonals bend more stiffly than EI by themselves. */
+/* As for the tube: above this spacing the diagonals alone have more than EI. */
 static double limit(double R, part of, double reach, double particles) {
   return R * sqrt(2 * of.EI / of.GJ) * fabs(sin(2 * M_PI * reach / particles));
 }
@@ -151,7 +151,7 @@ static double choose_spacing(const plan *p) {
   double h = fmin(2 * sin(M_PI / (double)c->ring), LONGEST) * c->ring_radius;
   const double most = OF_LIMIT * shell_limit(p);
   if (!isnan(p->args->spacing)) return p->args->spacing;
-  if (most > 1e-6 * h) h = fmin(h, most); /* 0: a reach that the tube refuses */
+  if (most > 1e-6 * h) h = fmin(h, most); /* 0: the tube refuses this reach */
   if (a->core == SW_CORE_RADIAL) {
     const double M = (double)sw_core_particles(a, c), L = (double)sw_core_layers(a, c);
     h = fmin(h, fmin(2 * c->core_radius * sin(M_PI / M), c->core_radius / L));
@@ -193,7 +193,7 @@ static sw_status check_core(const plan *p, const sw_calibration *core, sw_error 
                  text);
 }
 
-/* Springs of a core by itself, core->lattice, into the groups of cores of k. */
+/* Fits the springs of one core alone, core->lattice, into the core groups of k. */
 static sw_status fit_core(const plan *p, sw_calibration *core, double *k, sw_error *err) {
   const double h = core->lattice.spacing;
   if (p->given->core == SW_CORE_LINE) {
@@ -217,8 +217,9 @@ static sw_status fit_core(const plan *p, sw_calibration *core, double *k, sw_err
 
 /* --- bonds ------------------------------------------------------------------------------ */
 
-/* Within a slice as bars of the shell's modulus. Those to the next slice resist sliding, and
- * stretch too: so stiff that by this they carry a share of the lesser of shell and cores. */
+/* Sets the bonds. Within a slice they are like bars of the shell's modulus. Bonds to the next slice
+ * resist sliding, but also stretch; they are limited so that they carry at most the share CARRIED
+ * of the EA of shell and cores in series. */
 static void set_bonds(const plan *p, sw_calibration *out) {
   const sw_lattice *l = &out->lattice;
   const sw_cell cell = sw_lattice_cell(l);
@@ -243,7 +244,7 @@ static void set_bonds(const plan *p, sw_calibration *out) {
 
 /* --- the whole --------------------------------------------------------------------------- */
 
-/* The shell alone: the slice's first particles and links. */
+/* Returns the shell alone: the slice's first particles and links. */
 static sw_cell shell_cell(const sw_calibration *c) {
   sw_cell cell = sw_lattice_cell(&c->lattice);
   cell.particles = c->composite.ring;
@@ -255,7 +256,7 @@ static void add(sw_cell_result *sum, const sw_cell_result *more, double times) {
   for (int i = 0; i < SW_CELL_SIZE; i++) sum->S[i] += times * more->S[i];
 }
 
-/* Stiffness of the parts, alone and together. */
+/* Computes the stiffness of the parts alone, and of the whole. */
 static sw_status read_back(const plan *p, sw_calibration *out, sw_error *err) {
   const sw_cell alone = shell_cell(out), whole = sw_lattice_cell(&out->lattice);
   SW_TRY(sw_cell_stiffness(&alone, out->k, &out->composite.shell, NULL, err));
@@ -306,7 +307,7 @@ static sw_status check_whole(const plan *p, const sw_calibration *out, sw_error 
                  100 * out->residual[worst], text);
 }
 
-/* First the shell alone, then, bonded, in the whole. */
+/* Fits the shell alone, then, if bonded, within the whole. */
 static sw_status fit_whole(const plan *p, sw_calibration *out, sw_error *err) {
   const double alone[SW_SHELL_TARGETS] = {p->shell.EA, p->shell.EI, p->shell.GJ};
   const double all[SW_SHELL_TARGETS] = {p->wire.EA, p->wire.EI, p->wire.GJ};

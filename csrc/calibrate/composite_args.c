@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters of a composite, and which of them go together. */
+/* Parameters of a composite, and checks of their combinations. */
 #include <math.h>
 
 #include "calibrate/composite.h"
@@ -65,7 +65,7 @@ static const sw_param rows[] = {
 };
 const sw_params sw_composite_params = SW_PARAMS("calibrate", rows);
 
-/* Values of parts that slide, with parts that do not. */
+/* Refuses values of sliding parts for bonded ones. */
 static sw_status check_sliding(const sw_composite_args *a, sw_error *err) {
   if (a->bonded && a->friction != 0)
     return sw_fail(err, SW_EINVAL, "calibrate: friction = %g goes with bonded = false",
@@ -75,7 +75,7 @@ static sw_status check_sliding(const sw_composite_args *a, sw_error *err) {
   return SW_OK;
 }
 
-/* Numbers of a mesh that was not chosen. */
+/* Also refuses numbers of a core mesh that was not chosen. */
 sw_status sw_composite_check(const sw_composite_args *a, sw_error *err) {
   const struct {
     const char *name;
@@ -115,7 +115,7 @@ sw_status sw_composite_check_springs(const sw_composite_args *a, sw_error *err) 
   return SW_OK;
 }
 
-/* Parameters without a use for elements: the core is of one material, and part of the same
+/* Refuses parameters that elements do not use: the core is of one material and part of the same
  * mesh. */
 static sw_status check_unused(const sw_composite_args *a, sw_error *err) {
   const struct {

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Materials of a core and the shell around it, and the beam that they make together. Sections
- * stay plane, so that EA = sum of E_i A_i, EI = sum of E_i I_i and GJ = sum of G_i J_i. Parts
- * with different Poisson's ratios also press on one another when they are drawn, which makes EA
- * larger (Hill, J. Mech. Phys. Solids 12 (1964) 199): by 0.1 % for nu = 0.3 and 0.4, but by
- * several % where one part is nearly incompressible and the other one is like cork. The mesh
- * has this too; it is calibrated to the sums. */
+/* Materials of a core and the shell around it, and the beam that they form. Sections stay plane, so
+ * EA = sum of E_i A_i, EI = sum of E_i I_i and GJ = sum of G_i J_i. Parts with different Poisson's
+ * ratios also press on each other under tension, which increases EA (Hill, J. Mech. Phys. Solids 12
+ * (1964) 199): by 0.1 % for nu = 0.3 and 0.4, but by several % if one part is nearly incompressible
+ * and the other is like cork. The mesh has this effect too; it is calibrated to the sums. */
 #include <math.h>
 #include <string.h>
 
 #include "calibrate/composite_solid.h"
 
-static const double FITS = 0.49;  /* Poisson's ratio that is taken from EI and GJ [-] */
-static const double APART = 1e6;  /* moduli of two parts, that numbers bear [-] */
-static const double SOLVED = 1e4; /* likewise that EA and EI tell apart [-] */
+static const double FITS = 0.49;  /* largest Poisson's ratio taken from EI and GJ [-] */
+static const double APART = 1e6;  /* largest ratio of two parts' moduli [-] */
+static const double SOLVED = 1e4; /* largest ratio that EA and EI can determine [-] */
 
-/* Of the core, as given; NAN: it is not. */
+/* Returns the given modulus of the core; NAN: not given. */
 static double core_modulus(const sw_composite_args *a, const sw_composite *c) {
   return isnan(a->core_E) ? a->core_EA / sw_composite_measure(c).core : a->core_E;
 }
@@ -23,7 +22,7 @@ static void fill(double *value, double with) {
   if (isnan(*value)) *value = with;
 }
 
-/* Under the name of the wire. */
+/* Passes an error on under the name of the wire. */
 static sw_status renamed(const char *object, sw_status status, const sw_error *why, sw_error *err) {
   const char *text = strncmp(why->text, "calibrate: ", 11) == 0 ? why->text + 11 : why->text;
   return sw_fail(err, status, "%s: %.400s", object, text);
@@ -33,7 +32,7 @@ sw_status sw_composite_section(const char *object, const sw_composite_args *args
                                sw_section *section, sw_error *err) {
   sw_composite c;
   sw_error why = {""};
-  if (isnan(section->radius) || isnan(section->E)) return SW_OK; /* told, or without materials */
+  if (isnan(section->radius) || isnan(section->E)) return SW_OK; /* reported later, or not given */
   const sw_status status = sw_composite_place_solid(args, section->radius, &c, &why);
   if (status != SW_OK) return renamed(object, status, &why, err);
   const sw_composite_areas of = sw_composite_measure(&c);
@@ -48,7 +47,7 @@ sw_status sw_composite_section(const char *object, const sw_composite_args *args
   return SW_OK;
 }
 
-/* The shell has the rest of EA, unless its modulus is given too. */
+/* Ratio for a given core modulus. The shell has the rest of EA, unless its modulus is given too. */
 static sw_status given_ratio(const sw_composite_args *a, const sw_section *section,
                              const sw_beam *beam, const sw_composite_areas *of, double core_E,
                              double *ratio, sw_error *err) {

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mesh of a composite of solid elements: layers around a line, one of which is the face
- * between core and shell, which share its particles. */
+/* The mesh of a composite of solid elements: layers around a line. One layer is the face between
+ * core and shell, which share its particles. */
 #include "calibrate/composite_solid.h"
 
 #include <math.h>
 
-static const double THIRD = 3;           /* layers over the radius, when they are chosen [-] */
-static const double SAME = 1e-9;         /* of the radius: lengths that agree [-] */
-enum { MOST = 6, RADII = 2 * MOST + 1 }; /* layers of a part, radii of both [-] */
+static const double THIRD = 3;           /* default number of layers per radius [-] */
+static const double SAME = 1e-9;         /* tolerance of equal lengths, over the radius [-] */
+enum { MOST = 6, RADII = 2 * MOST + 1 }; /* most layers of a part; radii of both parts [-] */
 enum { CORE_SOLID = SW_GROUP_OF_CORE + SW_GROUP_SOLID };
 
-/* --- where parts are ---------------------------------------------------------------- */
+/* --- positions of the parts ----------------------------------------------------------- */
 
-/* So many that elements are about as thick as a third of the wire's radius. A core that is one
- * layer of prisms bends up to a third too stiffly by itself, as it cannot bulge. */
+/* Returns the given number of layers, or one that makes elements about a third of the wire's radius
+ * thick. A core of a single layer of prisms bends up to a third too stiffly by itself, because it
+ * cannot bulge. */
 static size_t chosen(long given, double thickness, double radius, double least) {
   const double usual = fmin(MOST, fmax(least, round(THIRD * thickness / radius)));
   return (size_t)(given ? (double)given : usual);
@@ -38,7 +39,7 @@ sw_status sw_composite_place_solid(const sw_composite_args *given, double radius
   return SW_OK;
 }
 
-/* Of the line, of the core's layers and of the shell's; returns the number of layers. */
+/* Fills the radii of the line, the core's layers and the shell's; returns the number of layers. */
 static size_t radii(const sw_composite *c, double out[RADII]) {
   const double m = (double)c->core_layers, n = (double)c->layers;
   for (size_t k = 0; k <= c->core_layers; k++) out[k] = c->core_radius * ((double)k / m);
@@ -69,7 +70,7 @@ void sw_composite_weigh(const sw_composite *c, double core_share, sw_lattice *l)
   const double inside = core_share / core, outside = (1 - core_share) / (whole - core);
   double at[RADII], inner = 0;
   const size_t layers = radii(c, at);
-  for (size_t k = 0; k <= layers; k++) { /* up to half the way to the next layer */
+  for (size_t k = 0; k <= layers; k++) { /* a layer has the area up to half way to the next one */
     const double middle = k < layers ? 0.5 * (at[k] + at[k + 1]) : at[k], outer = middle * middle;
     const double own = at[k] * at[k];
     const double share = (own - inner) * (k <= c->core_layers ? inside : outside) +
@@ -80,7 +81,7 @@ void sw_composite_weigh(const sw_composite *c, double core_share, sw_lattice *l)
   }
 }
 
-/* --- parts by themselves ------------------------------------------------------------------ */
+/* --- parts alone ---------------------------------------------------------------------- */
 
 sw_composite_areas sw_composite_measure(const sw_composite *c) {
   const double core = c->core_radius * c->core_radius, whole = c->radius * c->radius;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Dense matrices, small or of a slice of springs. */
+/* Dense matrices: small ones, or those of a slice of springs. */
 #ifndef SW_CALIBRATE_DENSE_H
 #define SW_CALIBRATE_DENSE_H
 
@@ -7,20 +7,19 @@
 
 #include "base/status.h"
 
-/* A matrix may be singular, as that of a slice is: nothing resists moving it as a whole.
- * Solve a x = b for m right sides, b[k * n ..] for number k, each replaced by its x. a: n x n,
- * symmetric, no eigenvalue below 0. Where a is singular, a right side must be in its range; x
- * is one of the solutions. left (m numbers, may be NULL): share of each right side that was
- * not reached, about 1e-12 where it is in the range [-]. SW_ENOMEM, SW_ESINGULAR when a is not
- * finite. */
+/* Solves a x = b for m right-hand sides, b[k * n ..] for number k; x replaces b. a: n x n,
+ * symmetric, no eigenvalue below 0. a may be singular, as for a slice, which is free to move as a
+ * whole. A right-hand side must then be in its range, and x is one of the solutions. left (m
+ * numbers, may be NULL): relative residual of each right-hand side, about 1e-12 if it is in the
+ * range [-]. SW_ENOMEM; SW_ESINGULAR if a is not finite. */
 sw_status sw_dense_semidefinite(const double *a, size_t n, double *b, size_t m, double *left);
 
-/* Eigenvalues, ascending, and eigenvectors of length 1, one after the other, of a symmetric matrix
- * a (n x n, of which the lower half is read). SW_ENOMEM; SW_EDIVERGED where it is not finite. */
+/* Finds the eigenvalues (ascending) and unit eigenvectors (one after another) of a symmetric matrix
+ * a (n x n; its lower half is read). SW_ENOMEM; SW_EDIVERGED if it is not finite. */
 sw_status sw_symmetric_eigen(const double *a, size_t n, double *values, double *vectors);
 
-/* Singular values s (n, falling) of a (rows x n, rows >= n) and directions v (n x n, one a column);
- * one-sided Jacobi, exact to the last digits for small values as well. */
+/* Finds the singular values s (n, descending) of a (rows x n, rows >= n) and directions v (n x n,
+ * one per column). One-sided Jacobi: small values are accurate to the last digits too. */
 sw_status sw_singular(const double *a, size_t rows, size_t n, double *s, double *v, sw_error *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL's dense matrices. */
+/* Dense matrices by GSL. */
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
@@ -9,14 +9,14 @@
 #include "base/alloc.h"
 #include "calibrate/dense.h"
 
-/* --- that may be singular ---------------------------------------------------- */
+/* --- semidefinite matrices ------------------------------------------------------ */
 
-/* Cholesky of the matrix with a small shift, and the error of the shift taken out by
- * repetition: x <- x + (A + d)^-1 (b - A x) multiplies it by d / (lambda + d) for every
- * eigenvalue lambda > 0, and leaves what belongs to lambda = 0 alone. No rank to decide. */
-static const double SHIFT = 1e-11;  /* of the matrix scaled to a diagonal of 1 [-] */
-enum { REPEATS = 8 };               /* at most [-] */
-static const double ENOUGH = 1e-12; /* share of the right side that may be left [-] */
+/* Cholesky factors of the matrix with a small shift d; iteration removes the error of the shift: x
+ * <- x + (A + d)^-1 (b - A x) multiplies it by d / (lambda + d) for every eigenvalue lambda > 0 and
+ * leaves the components of lambda = 0 alone. No rank must be decided. */
+static const double SHIFT = 1e-11;  /* for the matrix scaled to a diagonal of 1 [-] */
+enum { REPEATS = 8 };               /* most iterations [-] */
+static const double ENOUGH = 1e-12; /* relative residual that ends the iteration [-] */
 
 static double norm(const double *x, size_t n) {
   double sum = 0;
@@ -24,7 +24,7 @@ static double norm(const double *x, size_t n) {
   return sqrt(sum);
 }
 
-/* r = b - scaled x, the matrix's entries a_ij s_i s_j. */
+/* r = b - A x for the scaled matrix with entries a_ij s_i s_j. */
 static void residual(const double *a, const double *s, size_t n, const double *b, const double *x,
                      double *r) {
   for (size_t i = 0; i < n; i++) {
@@ -34,7 +34,7 @@ static void residual(const double *a, const double *s, size_t n, const double *b
   }
 }
 
-/* One right side; b becomes x. work: 3 n. Returns the share that was left. */
+/* Solves for one right-hand side; x replaces b. work: 3 n. Returns the relative residual. */
 static double solve_one(const double *a, const double *s, const gsl_matrix *factor, size_t n,
                         double *b, double *work) {
   double *right = work, *x = work + n, *r = work + 2 * n;

@@ -5,21 +5,21 @@
 
 #include "base/alloc.h"
 
-enum { STACK = 1 << 18 }; /* minimisers take a few kB of it, their tables are on the heap [B] */
+enum { STACK = 1 << 18 }; /* minimisers need a few kB; their tables are on the heap [B] */
 
 struct sw_fiber {
   ucontext_t inside, outside;
   void (*run)(void *user);
   void *user;
   int ended;
-  const void *outer; /* stack of who resumes, as the sanitizer told it */
+  const void *outer; /* the resumer's stack, as reported by the sanitizer */
   size_t outer_size; /* [B] */
   char *stack;
 };
 
-static _Thread_local sw_fiber *beginning; /* makecontext hands over numbers only */
+static _Thread_local sw_fiber *beginning; /* makecontext only passes integers */
 
-/* The address sanitizer wants to be told which stack is in use. */
+/* The address sanitizer must be told which stack is in use. */
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/common_interface_defs.h>
 #define LEAVE(save, bottom, size) __sanitizer_start_switch_fiber(save, bottom, size)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Least squares on the logarithms of the groups' stiffnesses, so that all stay above 0. There
- * are more groups than targets: a weak pull to the previous guess makes the answer one, and
- * moving the guess after each round takes its effect away. */
+/* Least squares on the logarithms of the groups' stiffnesses, so that all stay above 0. There are
+ * more groups than targets. A weak pull towards the previous guess makes the solution unique;
+ * moving the guess after each round removes the pull's effect. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,19 +10,19 @@
 #include "calibrate/calibrate_inner.h"
 #include "calibrate/least_squares.h"
 
-static const double PULL = 0.03;     /* of the guess, per unit of log stiffness, first round [-] */
-static const double WEAKER = 0.1;    /* from round to round [-] */
+static const double PULL = 0.03;     /* weight per unit of log stiffness, first round [-] */
+static const double WEAKER = 0.1;    /* factor of the pull from round to round [-] */
 static const double GOOD = 1e-10;    /* residual that ends the rounds [-] */
-static const double HOPELESS = 0.01; /* residual that more rounds do not mend [-] */
-static const double FAR = 50;     /* log of how far stiffnesses may go from the first guess [-] */
-static const double MOST = 1e150; /* stiffness whose products are finite [N/m] */
-static const double LEAST = 0.05; /* of the whole that a group begins with [-] */
+static const double HOPELESS = 0.01; /* residual above which little progress ends the rounds [-] */
+static const double FAR = 50;        /* largest change of log stiffness from the first guess [-] */
+static const double MOST = 1e150;    /* largest stiffness with finite products [N/m] */
+static const double LEAST = 0.05;    /* least share of the whole in a group's first guess [-] */
 enum { ROUNDS = 6, ITERATIONS = 40, PART = SW_CELL_SIZE + 1 };
 
 const char *const sw_target_names[SW_TARGETS] = {"EA", "EI", "EI2", "GJ", "squeeze"};
 const char *const sw_target_units[SW_TARGETS] = {"N", "N m2", "N m2", "N m2", "Pa"};
 
-/* Where a target stands in S: bending in the plane of x and z is about y. */
+/* Entry of each target in S. Bending in the plane of x and z is about y. */
 static const int entry[SW_TARGET_SQUEEZE] = {
     SW_CELL_STRETCH * (SW_CELL_STRAINS + 1), SW_CELL_ABOUT_Y *(SW_CELL_STRAINS + 1),
     SW_CELL_ABOUT_X *(SW_CELL_STRAINS + 1), SW_CELL_TWIST *(SW_CELL_STRAINS + 1)};
@@ -36,17 +36,17 @@ typedef struct search {
   sw_cell cell;
   size_t n;                /* groups that have links [-] */
   size_t group[SW_GROUPS]; /* their numbers */
-  double first[SW_GROUPS]; /* log stiffness to begin with */
-  double guess[SW_GROUPS]; /* log stiffness the pull leads to */
+  double first[SW_GROUPS]; /* log stiffness at the start */
+  double guess[SW_GROUPS]; /* log stiffness that the pull leads to */
   double pull;             /* [-] */
 } search;
 
-/* Where the mesh does not resist at all, a residual that is as bad as any. */
+/* Returns the log of the ratio; the worst possible residual if the mesh does not resist at all. */
 static double log_ratio(double reached, double target) {
   return reached > DBL_MIN ? log(reached / target) : log(DBL_MIN / target);
 }
 
-/* A search that has lost its way must not leave the finite numbers. */
+/* Sets stiffnesses, limited so that a diverging search keeps finite numbers. */
 static void set_stiffness(search *s, const double *x) {
   for (size_t i = 0; i < s->n; i++)
     s->c->k[s->group[i]] = exp(s->first[i] + fmax(-FAR, fmin(FAR, x[i] - s->first[i])));
@@ -77,18 +77,18 @@ static sw_status residuals(void *user, const double *x, double *r, double *jacob
   return SW_OK;
 }
 
-/* First guess for springs that neither go along the wire nor resist twist: bars with the modulus of
- * the lines along the wire, whose stiffness is base. */
+/* First guess for springs that neither run along the wire nor resist twist: bars with the modulus
+ * of the lines along the wire, whose stiffness is base. */
 static double bar(const search *s, const sw_cell_link *l, double base) {
   const double h = s->cell.spacing;
   if (l->group == SW_GROUP_BEND) return LEAST * s->c->target[SW_TARGET_EI] / h;
   const double ratio = h / sw_cell_length(&s->cell, l);
-  /* a tenth of the ring's EA between ring and core */
+  /* small: a tenth of the ring's EA between ring and core */
   if (l->group == SW_GROUP_INCLINED) return LEAST * base / (ratio * ratio);
   return base * ratio * ratio;
 }
 
-/* By links with weight 1, and by any others where small meshes have none of these. */
+/* Guesses from the links of weight 1, or from any others in small meshes that have none. */
 static void guess_section(const search *s, double base) {
   for (int any = 0; any <= 1; any++)
     for (size_t m = 0; m < s->cell.links; m++) {
@@ -98,8 +98,8 @@ static void guess_section(const search *s, double base) {
     }
 }
 
-/* Closed forms: sections that stay plane and keep their shape, for which each target is linear
- * in the stiffnesses. GJ gives the diagonals, EI then the lines, EA then the core. */
+/* First guess by closed forms: for sections that stay plane and keep their shape each target is
+ * linear in the stiffnesses. GJ gives the diagonals, then EI the lines, then EA the core. */
 static void guess(search *s) {
   sw_calibration *c = s->c;
   double one[SW_GROUPS], S[SW_CELL_SIZE], parts[SW_GROUPS * PART];
@@ -142,7 +142,7 @@ void sw_calibrate_count(sw_calibration *c) {
   for (size_t m = 0; m < c->lattice.solids; m++) c->links[c->lattice.solid[m].group]++;
 }
 
-/* The groups that have links, and where their search begins. */
+/* Lists the groups that have links, and sets the start of their search. */
 static sw_status begin(search *s, double *x, sw_error *err) {
   sw_calibration *c = s->c;
   sw_calibrate_count(c);

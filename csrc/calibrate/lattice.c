@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all meshes need, and the round ones. */
+/* Functions of all lattices, and the round lattices. */
 #include "calibrate/lattice.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static const sw_param tube_rows[] = {
 const sw_params sw_tube_params = SW_PARAMS("calibrate", tube_rows);
 #undef AT
 
-enum { LAYERS = 6 }; /* of radial at most [-] */
+enum { LAYERS = 6 }; /* most of a radial lattice [-] */
 
 static const sw_param radial_rows[] = {
     {"particles", SW_PARAM_INTEGER, "-", 8, 3, 48, 0, NULL, offsetof(sw_radial_args, particles),
@@ -133,7 +133,7 @@ uint32_t sw_lattice_line(const sw_lattice *l, size_t i) {
     least = fmin(least, radius2(l, p));
   }
   if (radius2(l, i) <= least * (1 + 1e-6) && least < 0.25 * gyration2) return SW_GROUP_CORE;
-  /* lines that are all equally far out are not inside */
+  /* lines at equal distances do not count as inner */
   return radius2(l, i) < (1 - 1e-6) * gyration2 ? SW_GROUP_INNER : SW_GROUP_LONGITUDINAL;
 }
 
@@ -153,8 +153,8 @@ static void place(sw_lattice *l, size_t i, double r, double angle, double share)
   l->share[i] = share;
 }
 
-/* A link between particles i and j, and the one the other way round when it goes to the next
- * slice and i is not j. */
+/* Adds a link between particles i and j, and its mirror image if it goes to the next slice and i is
+ * not j. */
 static sw_status join(sw_lattice *l, size_t i, size_t j, int slices, uint32_t group, double weight,
                       sw_error *err) {
   const uint32_t a = (uint32_t)i, b = (uint32_t)j;
@@ -185,7 +185,7 @@ static sw_status check_tube(const sw_tube_args *a, sw_error *err) {
   return SW_OK;
 }
 
-/* Without spokes a ring of more than three particles flattens freely. */
+/* Returns the chord's step. Without spokes a ring of more than three particles flattens freely. */
 static size_t brace_of(const sw_tube_args *a) {
   if (a->brace >= 0) return (size_t)a->brace;
   return !a->core && a->particles > 3 ? 2 : 0;
@@ -205,8 +205,8 @@ static sw_status ring_links(const sw_tube_args *a, sw_lattice *l, size_t i, sw_e
   return SW_OK;
 }
 
-/* A wire that is solid has half its spin inertia mass_per_length r^2: a ring at r with half of
- * the mass has it too. */
+/* A solid wire has half of the spin inertia mass_per_length r^2, and so does a ring at r with half
+ * of the mass. */
 sw_status sw_lattice_tube(const sw_tube_args *a, double spacing, sw_lattice *l, sw_error *err) {
   *l = (sw_lattice){0};
   SW_TRY(check_tube(a, err));
@@ -236,7 +236,7 @@ static size_t node(const radial *r, size_t layer, size_t sector) {
   return layer == 0 ? 0 : 1 + (layer - 1) * r->M + sector % r->M;
 }
 
-/* As a bar of the volume around it: stiffness goes with volume over the square of length. */
+/* Adds a link as a bar of the volume around it: stiffness goes with volume over length squared. */
 static sw_status bar(const radial *r, size_t i, size_t j, int slices, uint32_t group,
                      sw_error *err) {
   const sw_cell cell = sw_lattice_cell(r->l);
@@ -283,7 +283,7 @@ sw_status sw_lattice_layers(size_t particles, size_t layers, const double *radiu
                             sw_lattice *l, sw_error *err) {
   const radial r = {particles, layers, l};
   const double M = (double)particles, whole = radius[layers] * radius[layers];
-  double inner = 0; /* square of the radius up to which others have the area */
+  double inner = 0; /* squared outer radius of the area already given to inner layers */
   SW_TRY(sw_lattice_room(l, 1 + particles * layers, err));
   l->spacing = spacing;
   for (size_t k = 0; k <= layers; k++) {

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mesh of a shell around cores. Cores off the axis are copies of the first turned about
- * it, and the ring has the same symmetry, so that bending is alike in all planes. */
+/* The mesh of a shell around cores. Cores off the axis are copies of the first, rotated about the
+ * axis, and the ring has the same symmetry: bending is the same in all planes. */
 #include <math.h>
 
 #include "base/alloc.h"
 #include "calibrate/composite.h"
 
-static const double ONE = 0.6;    /* radius of a single core over the wire's, unless given [-] */
-static const double WALL = 0.2;   /* of the shell over the radius, around several [-] */
-static const double USUAL = 0.95; /* radius of several cores over what fits, unless given [-] */
-static const double MOST = 0.98;  /* the same at most: particles must not meet [-] */
-static const double TIE = 1e-6;   /* of distances that count as the same [-] */
-static const double BESIDE = 1.2; /* of the least distance of cores, for neighbours [-] */
-static const long CORE_RING = 6;  /* of a layer of a radial core, unless given [-] */
-static const long RING = 12;      /* particles of the shell, at least, unless given [-] */
+static const double ONE = 0.6;    /* default radius of a single core over the wire's [-] */
+static const double WALL = 0.2;   /* default wall around several cores over the radius [-] */
+static const double USUAL = 0.95; /* default radius of several cores over the largest fitting [-] */
+static const double MOST = 0.98;  /* the same, largest: particles must not meet [-] */
+static const double TIE = 1e-6;   /* relative difference of distances that count as equal [-] */
+static const double BESIDE = 1.2; /* largest distance of neighbours, over the least of cores [-] */
+static const long CORE_RING = 6;  /* default particles of a layer of a radial core [-] */
+static const long RING = 12;      /* default particles of the shell, at least [-] */
 
-/* --- where parts are ---------------------------------------------------------------- */
+/* --- positions of the parts ----------------------------------------------------------- */
 
-/* Cores around the axis. */
+/* Returns the number of cores around the axis. */
 static size_t around(const sw_composite *c) {
   return c->cores == SW_COMPOSITE_CORES ? c->cores - 1 : c->cores;
 }
 
-/* The largest radius with which cores touch one another or the bore. */
+/* Returns the core radius at which cores touch each other or the bore. */
 static double fitting(const sw_composite *c) {
   if (c->cores == 1) return c->bore;
   const double s = sin(M_PI / (double)around(c));
@@ -87,7 +87,7 @@ sw_status sw_composite_place(const sw_composite_args *a, double radius, sw_compo
   SW_TRY(choose_radii(a, c, err));
   SW_TRY(choose_ring(a, c, err));
   c->ring_radius = sqrt(0.5 * (radius * radius + c->bore * c->bore));
-  for (size_t i = 0; c->cores > 1 && i < around(c); i++) { /* against the shell */
+  for (size_t i = 0; c->cores > 1 && i < around(c); i++) { /* they touch the shell */
     const double angle = 2 * M_PI * (double)i / (double)around(c), d = c->bore - c->core_radius;
     c->centre[i] = sw_v(d * cos(angle), d * sin(angle), 0);
   }
@@ -134,7 +134,7 @@ size_t sw_composite_part(const sw_composite *c, size_t particle) {
 
 static long divisor(long a, long b) { return b ? divisor(b, a % b) : a; }
 
-/* Layers and ring together look alike after a third of a turn or less, where that can be. */
+/* Layers and ring together should be symmetric under a third of a turn or less, if possible. */
 long sw_core_particles(const sw_composite_args *a, const sw_composite *c) {
   if (a->core_particles) return a->core_particles;
   if (c->cores > 1 || divisor((long)c->ring, CORE_RING) > 2) return CORE_RING;
@@ -207,18 +207,19 @@ static sw_status copy_links(const sw_composite *c, size_t number, const sw_latti
                          err);
 }
 
-/* --- what faces what ------------------------------------------------------------------ */
+/* --- facing particles ----------------------------------------------------------------- */
 
-/* A body's surface, at the particles that can face another body. */
+/* A body's surface: the particles that can face another body. */
 typedef struct surface {
   size_t count;
-  uint32_t *at;  /* numbers of particles in the slice */
-  double pitch;  /* of neighbouring particles [m] */
+  uint32_t *at;  /* particle numbers in the slice */
+  double pitch;  /* distance of neighbouring particles [m] */
   sw_vec centre; /* of a core [m] */
   int shell;     /* [-] */
 } surface;
 
-/* Inner voxels have more of the mass than others; of a few, none is an inner one. */
+/* 1 if particle i of a core is at its surface. Inner voxel corners have more mass than outer ones;
+ * a core with equal masses has no inner corner. */
 static int is_outer(const sw_composite_args *a, const sw_composite *c, const sw_lattice *core,
                     size_t i) {
   if (a->core == SW_CORE_RADIAL) return i + (size_t)sw_core_particles(a, c) >= core->particles;
@@ -245,7 +246,8 @@ static surface core_surface(const sw_composite_args *a, const sw_composite *c,
                    c->centre[number], 0};
 }
 
-/* Clearance between the bodies where the particle at p stands for the surface of core b. */
+/* Returns the gap between two bodies at a pair of facing particles: at `shell` in body a, and at
+ * `core` in core b. */
 static double clearance(const sw_composite *c, const surface *a, const surface *b, sw_vec shell,
                         sw_vec core) {
   if (a->shell) {
@@ -279,8 +281,8 @@ static sw_status join(const sw_composite_args *args, sw_composite *c, sw_lattice
   return SW_OK;
 }
 
-/* Each particle with the nearest ones of the other body, all of them where several are as
- * near, so that nothing of the symmetry is lost; but not those that look away. */
+/* Pairs each particle with the nearest of the other body, or with all that are equally near, which
+ * preserves symmetry. Particles that look away are skipped. */
 static sw_status face(const sw_composite_args *args, sw_composite *c, const surface *a,
                       const surface *b, sw_lattice *l, sw_error *err) {
   double least = HUGE_VAL;
@@ -317,7 +319,7 @@ static sw_status face_all(const sw_composite_args *args, const sw_lattice *core,
 
 /* --- the whole ------------------------------------------------------------------------ */
 
-/* The shell as the tube without a central line, whose chords keep it round by itself. */
+/* Makes the shell as a tube without a central line; chords keep it round by itself. */
 static sw_status shell(const sw_composite_args *a, const sw_composite *c, double spacing,
                        sw_lattice *out, sw_error *err) {
   sw_tube_args tube;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Voxels of a section: particles at their corners, springs along edges and diagonals of faces.
- * A spring counts with the share of its voxels that are there: quarters along edges, halves
- * on faces. All of one stiffness k = 0.4 E a make an isotropic body with nu = 1/4. */
+/* Voxels of a section: particles at their corners, springs along edges and face diagonals. A
+ * spring's weight is the share of its voxels that exist: quarters along edges, halves on faces. If
+ * all have the stiffness k = 0.4 E a, the body is isotropic with nu = 1/4. */
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +31,7 @@ const sw_params sw_cubic_params = SW_PARAMS("calibrate", rows);
 typedef struct grid {
   size_t nx, ny;                          /* voxels [-] */
   double ax, ay;                          /* their size [m] */
-  unsigned char full[MOST + 2][MOST + 2]; /* with an empty rim: voxel i, j at [i + 1][j + 1] */
+  unsigned char full[MOST + 2][MOST + 2]; /* with an empty margin: voxel i, j at [i + 1][j + 1] */
   int32_t particle[MOST + 1][MOST + 1];   /* at the corner of voxels i - 1, i; -1: none */
 } grid;
 
@@ -53,7 +53,7 @@ static sw_status rectangle(const sw_cubic_args *a, grid *g, sw_error *err) {
   return SW_OK;
 }
 
-/* Voxels whose centre is inside, of such a size that their area is right. */
+/* Fills the voxels whose centre is inside; their size makes the total area right. */
 static sw_status circle(const sw_cubic_args *a, double radius, grid *g, sw_error *err) {
   const double inner = a->section == SW_SECTION_ANNULUS ? a->inner : 0;
   double count = 0;
@@ -78,7 +78,7 @@ static sw_status circle(const sw_cubic_args *a, double radius, grid *g, sw_error
   return SW_OK;
 }
 
-/* Voxels at the corner i, j. */
+/* Returns the number of voxels at the corner i, j. */
 static int around(const grid *g, size_t i, size_t j) {
   return g->full[i][j] + g->full[i + 1][j] + g->full[i][j + 1] + g->full[i + 1][j + 1];
 }
@@ -103,8 +103,8 @@ static sw_status place_corners(grid *g, sw_lattice *l, sw_error *err) {
   return SW_OK;
 }
 
-/* Links between corners p and q that count voxels share: their edge, and the diagonals of the
- * face that stands on it. */
+/* Adds the links on an edge from p to q, which `count` voxels share: the edge, and the diagonals of
+ * the face that stands on it. */
 static sw_status edge(sw_lattice *l, int32_t p, int32_t q, int count, sw_error *err) {
   if (!count) return SW_OK;
   const uint32_t a = (uint32_t)p, b = (uint32_t)q;
@@ -114,7 +114,8 @@ static sw_status edge(sw_lattice *l, int32_t p, int32_t q, int count, sw_error *
   return sw_lattice_link(l, (sw_cell_link){b, a, SW_GROUP_DIAGONAL, 1, 0, weight}, err);
 }
 
-/* What belongs to the corner i, j and the voxel, edges and faces that begin there. */
+/* Adds the links and the element of the corner i, j and of the voxel, edges and faces that begin
+ * there. */
 static sw_status corner(const grid *g, sw_lattice *l, size_t i, size_t j, sw_error *err) {
   const int32_t p = g->particle[i][j];
   const uint32_t a = (uint32_t)p;

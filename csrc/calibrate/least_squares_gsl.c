@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL's multifit_nlinear. It asks for residuals and derivatives one after the other; they are
+/* Least squares by GSL's multifit_nlinear. It asks for residuals and derivatives in turn; both are
  * computed together and kept. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
@@ -12,10 +12,10 @@ typedef struct bridge {
   sw_residuals f;
   void *user;
   size_t n, rows;
-  double *x, *r, *jacobian; /* of the latest evaluation */
-  int known;                /* there was one */
-  int apart;                /* residuals and derivatives are asked for one by one */
-  sw_status status;         /* of the first failure: nothing is evaluated after it */
+  double *x, *r, *jacobian; /* of the last evaluation */
+  int known;                /* 1: there was an evaluation */
+  int apart;                /* 1: residuals and derivatives are evaluated separately */
+  sw_status status;         /* of the first failure; no evaluation after it */
   sw_error *err;
 } bridge;
 
@@ -31,7 +31,7 @@ static int evaluate(bridge *b, const gsl_vector *x) {
   return GSL_SUCCESS;
 }
 
-/* One of the two alone. */
+/* Evaluates residuals or derivatives alone. */
 static int evaluate_part(bridge *b, const gsl_vector *x, double *r, double *jacobian) {
   for (size_t i = 0; i < b->n; i++) b->x[i] = gsl_vector_get(x, i);
   if (b->status == SW_OK) b->status = b->f(b->user, b->x, r, jacobian, b->err);
@@ -62,7 +62,7 @@ typedef struct limits {
   size_t iterations;
 } limits;
 
-/* Steps until one is small, none helps or they are used up. */
+/* Iterates until a step is small, none helps, or the iterations are used up. */
 static void iterate(bridge *b, gsl_multifit_nlinear_workspace *w, limits *l) {
   int info;
   l->end = SW_FIT_USED;
@@ -89,7 +89,7 @@ static void search(bridge *b, gsl_multifit_nlinear_workspace *w, double *x, limi
   if (gsl_multifit_nlinear_init(&start.vector, &f, w) != GSL_SUCCESS) return;
   if (b->apart)
     iterate(b, w, l);
-  else /* ENOPROG, EMAXITER: as near as it gets; the caller looks at the residuals. */
+  else /* ENOPROG, EMAXITER are fine: the caller checks the residuals */
     gsl_multifit_nlinear_driver(l->max_iterations, 1e-12, 1e-14, 0, NULL, NULL, &info, w);
   for (size_t i = 0; b->status == SW_OK && i < b->n; i++)
     x[i] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GSL's minimisers: Brent in one dimension, Nelder and Mead in several. */
+/* Minimisers by GSL: Brent in one dimension, Nelder and Mead in several. */
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
@@ -27,17 +27,17 @@ static const sw_param rows[] = {
 };
 const sw_params sw_minimise_params = SW_PARAMS("tune.minimise", rows);
 
-/* Between GSL and the objective. */
+/* Connects GSL and the objective. */
 typedef struct bridge {
   sw_objective f;
   void *user;
   size_t n;
-  double *x;                  /* parameters as the objective sees them */
-  const double *start, *step; /* of the simplex: x = start + step * u; NULL for the interval */
+  double *x;                  /* parameters of the objective */
+  const double *start, *step; /* simplex: x = start + step * u; NULL for the interval */
   double worst;               /* largest finite value so far */
   int (*interrupted)(void);
   sw_minimum *out;
-  sw_status status; /* of the first failure: nothing is evaluated after it */
+  sw_status status; /* of the first failure; no evaluation after it */
   sw_error *err;
 } bridge;
 
@@ -53,7 +53,7 @@ static double evaluate(bridge *b) {
     return value;
   }
   b->out->nonfinite++;
-  /* GSL wants numbers: one that is worse than all others leads the search away. */
+  /* GSL needs finite numbers: a value worse than all others leads the search away. */
   return isfinite(b->worst) ? b->worst + 10 * fabs(b->worst) + 1 : DBL_MAX;
 }
 
@@ -75,9 +75,9 @@ static sw_status no_memory(sw_error *err) {
 
 /* --- one parameter ------------------------------------------------------------ */
 
-enum { LOOKS = 9 }; /* places of the first look, ends included [-] */
+enum { LOOKS = 9 }; /* places of the first scan, ends included [-] */
 
-/* Look at LOOKS even places; *best is the smallest of them. */
+/* Evaluates LOOKS evenly spaced places; *best is the one with the smallest value. */
 static sw_status look(bridge *b, const sw_minimise_args *args, double at[LOOKS],
                       double value[LOOKS], int *best) {
   int finite = 0;
@@ -137,7 +137,7 @@ sw_status sw_minimise_interval(sw_objective f, void *user, const sw_minimise_arg
     return sw_fail(err, SW_EINVAL,
                    "tune.minimise: from = %g and to = %g are no interval; from must be below to",
                    args->from, args->to);
-  gsl_set_error_handler_off(); /* a status is enough */
+  gsl_set_error_handler_off(); /* statuses are checked instead */
   SW_TRY(look(&b, args, at, value, &best));
   int low = best, high = best;
   while (low > 0 && !(value[low] > value[best])) low--;
@@ -177,7 +177,7 @@ static sw_status nelder_mead(bridge *b, const sw_minimise_args *args, gsl_vector
     x[i] = b->start[i] + b->step[i] * gsl_vector_get(gsl_multimin_fminimizer_x(m), i);
   b->out->value = gsl_multimin_fminimizer_minimum(m);
   gsl_multimin_fminimizer_free(m);
-  /* ENOPROG: the simplex cannot shrink any more, which is as near as it gets. */
+  /* ENOPROG: the simplex cannot shrink further; this counts as reached. */
   near = near || code == GSL_ENOPROG;
   b->out->ok = near && (code == GSL_SUCCESS || code == GSL_ENOPROG);
   if (!b->out->ok && code != GSL_SUCCESS)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A minimiser on a fiber, which is left where it wants a value. */
+/* A minimiser on a fiber, which is suspended whenever the minimiser needs a value. */
 #include "calibrate/search.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@
 #include "calibrate/minimise.h"
 #include "calibrate/search_inner.h"
 
-static const sw_search *drawing; /* the search that has NLopt's random numbers */
+static const sw_search *drawing; /* the search that uses NLopt's random numbers */
 
 int sw_search_evaluate(sw_search *s, const double *x) {
   if (s->stop) return 0;
   if (s->known && memcmp(s->x, x, s->args.n * sizeof *x) == 0)
-    return 1; /* constraints come after */
+    return 1; /* constraints use the known place */
   memcpy(s->x, x, s->args.n * sizeof *x);
   s->waits = 1;
   s->known = 0;
@@ -27,7 +27,7 @@ static sw_status simplex_value(void *user, const double *x, size_t n, double *va
                                sw_error *err) {
   sw_search *s = user;
   (void)n, (void)err;
-  s->known = 0; /* the simplex may ask twice */
+  s->known = 0; /* the simplex may ask for the same place again */
   if (!sw_search_evaluate(s, x)) return SW_EINTR;
   *value = s->value;
   return SW_OK;
@@ -69,7 +69,7 @@ static sw_status check(const sw_search_args *a, sw_error *err) {
   return SW_OK;
 }
 
-/* Methods by their own names, which stay. */
+/* Returns a constant copy of a method's name. */
 static const char *name_of(const char *method) {
   static const char *const names[] = {"simplex", "bobyqa", "cobyla", "direct", "crs2"};
   for (size_t k = 0; k < sizeof names / sizeof *names; k++)
@@ -121,7 +121,7 @@ const char *sw_search_reason(const sw_search *s, int *ok) {
 void sw_search_free(sw_search *s) {
   if (!s) return;
   s->stop = 1;
-  if (s->begun) sw_fiber_resume(s->fiber); /* to its end, which frees what it has */
+  if (s->begun) sw_fiber_resume(s->fiber); /* runs it to its end, where it frees its memory */
   if (drawing == s) drawing = NULL;
   sw_fiber_free(s->fiber);
   sw_free(s->start);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* NLopt's minimisers without derivatives (S. G. Johnson, The NLopt nonlinear-optimization package).
- */
+/* NLopt's derivative-free minimisers (S. G. Johnson, The NLopt nonlinear-optimization package). */
 #include <nlopt.h>
 #include <string.h>
 
@@ -16,7 +15,7 @@ static const struct {
     {"crs2", NLOPT_GN_CRS2_LM},    /* Kaelo, Ali 2006 */
 };
 
-static const double CONSTRAINT_TOLERANCE = 0; /* a limit is a limit [-] */
+static const double CONSTRAINT_TOLERANCE = 0; /* no violation is allowed [-] */
 
 static int index_of(const char *method) {
   for (int k = 0; k < (int)(sizeof METHODS / sizeof *METHODS); k++)
@@ -57,7 +56,8 @@ static void tell(sw_search *s, nlopt_result code) {
     sw_fail(&s->reason, SW_ENOCONV, "NLopt: %s", nlopt_result_to_string(code));
 }
 
-/* Its xtol compares two bests in turn, which are soon near; who asks it sees when it is done. */
+/* 1 for crs2. Its xtol compares successive best points, which are soon close; the caller decides
+ * when it is done. */
 static int is_crs2(const sw_search_args *a) { return a->method[0] == 'c' && a->method[1] == 'r'; }
 
 static nlopt_result prepare(bridge *b) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Newton's method for three targets in three unknowns, all as logarithms. Derivatives by
- * stiffness are known exactly, the one by the radius from a small change of it. */
+/* Newton's method for three targets in three unknowns, all as logarithms. Derivatives by stiffness
+ * are exact; the derivative by radius comes from a finite difference. */
 #include "calibrate/shell_fit.h"
 
 #include <float.h>
@@ -10,13 +10,13 @@
 #include "base/interrupt.h"
 
 static const double GOOD = 1e-11;   /* residual that ends the search [-] */
-static const double SMALL = 1e-4;   /* change of log radius for its derivative [-] */
-static const double SETTLED = 0.02; /* residual below which that derivative is kept [-] */
-static const double STEP = 1.5;     /* of log stiffness at most at once [-] */
-static const double TURN = 0.15;    /* of log radius at most at once [-] */
-static const double LEAST = 0.05;   /* of the whole that the lines begin with [-] */
-static const double FAR = 3;        /* of the wire's radius where a ring is lost [-] */
-static const double FLOOR = 1e-12;  /* of the first guess where springs are lost [-] */
+static const double SMALL = 1e-4;   /* change of log radius in the finite difference [-] */
+static const double SETTLED = 0.02; /* residual below which that derivative is reused [-] */
+static const double STEP = 1.5;     /* largest step of log stiffness [-] */
+static const double TURN = 0.15;    /* largest step of log radius [-] */
+static const double LEAST = 0.05;   /* least share of the whole in the lines' first guess [-] */
+static const double FAR = 3;        /* largest ratio of ring radius and wall's, either way [-] */
+static const double FLOOR = 1e-12;  /* stiffness over the first guess that is lost [-] */
 enum { STEPS = 30, PART = SW_CELL_SIZE + 1 };
 
 enum { LINES, DIAGONALS, RADIUS, UNKNOWNS };
@@ -41,7 +41,7 @@ void sw_shell_guess(sw_calibration *c, sw_cell shell, const double *target) {
   const double carried = k * of_part(parts, SW_GROUP_DIAGONAL, SW_SHELL_EA) / target[SW_SHELL_EA];
   c->k[SW_GROUP_DIAGONAL] = k;
   c->k[SW_GROUP_LONGITUDINAL] = all * fmax(LEAST, 1 - carried);
-  for (size_t m = 0; m < shell.links; m++) { /* bars of one modulus */
+  for (size_t m = 0; m < shell.links; m++) { /* bars with the same modulus */
     const sw_cell_link *l = shell.link + m;
     const double ratio = shell.spacing / sw_cell_length(&shell, l);
     if (l->group == SW_GROUP_HOOP || l->group == SW_GROUP_BRACE)
@@ -54,10 +54,10 @@ typedef struct newton {
   const double *target;
   sw_cell cell;
   double left[SW_SHELL_TARGETS];             /* log of reached over target [-] */
-  double slope[SW_SHELL_TARGETS * UNKNOWNS]; /* of it by the unknowns [-] */
+  double slope[SW_SHELL_TARGETS * UNKNOWNS]; /* its derivatives by the unknowns [-] */
 } newton;
 
-/* slope may be NULL: only what is left. */
+/* Evaluates left, and slope unless it is NULL (without the radius). */
 static sw_status evaluate(const newton *n, double *left, double *slope, sw_error *err) {
   double parts[SW_GROUPS * PART];
   sw_cell_result result;
@@ -89,7 +89,7 @@ static sw_status slope_by_radius(newton *n, sw_error *err) {
   return status;
 }
 
-/* slope step = -left, by the rule of determinants; 0 when there is no such step. */
+/* Solves slope step = -left by Cramer's rule; 0: no finite solution. */
 static int solve(const newton *n, double step[UNKNOWNS]) {
   sw_vec column[UNKNOWNS];
   for (int u = 0; u < UNKNOWNS; u++)
@@ -118,7 +118,7 @@ static double worst(const newton *n) {
   return most;
 }
 
-/* Where the shell was nearest. */
+/* The best shell so far. */
 typedef struct kept {
   double off, k[SW_GROUPS], ring_radius;
 } kept;

@@ -5,7 +5,7 @@
 
 #include "base/simd.h"
 
-/* Axial force of an edge from its length, on the strains in signs. */
+/* Returns the axial force of an edge from its length, for the strains in signs. */
 static inline double axial_force(double EA, int signs, double l, double rest) {
   const double force = EA * (l / rest - 1.0);
   const int allowed = force >= 0 ? (signs & SW_AXIAL_TENSION) : (signs & SW_AXIAL_COMPRESSION);
@@ -38,7 +38,7 @@ static void add_stiffness(double EA, int signs, int statics, size_t m, const dou
                           double *restrict o4, double *restrict o5) {
   const double tension = (signs & SW_AXIAL_TENSION) ? 1.0 : 0.0;
   const double compression = (signs & SW_AXIAL_COMPRESSION) ? 1.0 : 0.0;
-  const double pushing = statics ? compression : 0.0; /* geometric part of a push */
+  const double pushing = statics ? compression : 0.0; /* of the geometric part; statics only */
   for (size_t e = 0; e < m; e++) {
     const double strain = l[e] / rest[e] - 1.0;
     const double T = stored ? stored[e] : EA * strain;
@@ -53,9 +53,9 @@ static void add_stiffness(double EA, int signs, int statics, size_t m, const dou
   }
 }
 
-enum { LANES = 8 }; /* sums side by side, for the processor [-] */
+enum { LANES = 8 }; /* parallel sums, for vector instructions [-] */
 
-/* Sum of T^2 l0 over the edges of which it is; that is twice EA times their energy. */
+/* Returns the sum of T^2 l0 over the edges whose strain is in signs: 2 EA times their energy. */
 SW_HOT
 static double squares_of_forces(int signs, size_t m, const double *restrict rest,
                                 const double *restrict T) {

@@ -8,12 +8,12 @@
 /* Which strains the spring answers to. */
 enum { SW_AXIAL_TENSION = 1, SW_AXIAL_COMPRESSION = 2 };
 
-/* Energy 1/2 (EA/l0)(l - l0)^2 on the strains in signs. The stiffness takes
- * the field's stored axial force for its geometric part ("mixed" Newton), in
- * dynamics only where it pulls. */
+/* Adds the energy 1/2 (EA/l0)(l - l0)^2 for the strains in signs. The geometric part of the
+ * stiffness uses the field's stored axial force ("mixed" Newton); in dynamics only tension counts
+ * there. */
 sw_status sw_axial_eval(double EA, int signs, sw_field *field);
 
-/* 2 / omega_max of the chain of axial springs with lumped masses [s]. */
+/* Returns 2 / omega_max of the chain of axial springs with lumped masses [s]. */
 double sw_axial_stable_dt(double EA, const sw_plan *plan);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The centre line of a wire of any model, for forces that act on it: its places are nodes, or the
- * middles of a mesh's rings. Loose particles have none. */
+/* The centre line of a wire of any model, for forces that act on it. Its places are the nodes, or
+ * the centres of a mesh's rings. Loose particles have no places. */
 #ifndef SW_FORCE_AXIS_H
 #define SW_FORCE_AXIS_H
 
@@ -14,14 +14,15 @@ double sw_axis_s(const sw_plan *plan, size_t i);          /* arc length of place
 sw_vec sw_axis_at(const sw_field *field, size_t i);       /* [m] */
 sw_vec sw_axis_velocity(const sw_field *field, size_t i); /* [m/s] */
 
-/* Largest stable step of leapfrog, 2 / omega, of a spring that ends at half an edge of the wire at
- * least [N/m], [s]. */
+/* Returns leapfrog's largest stable step 2 / omega [s] for a spring of this stiffness [N/m]. The
+ * spring moves at least the mass of half the shortest edge. */
 double sw_axis_stable_dt(const sw_plan *plan, double stiffness);
 
-/* Add a force on place i, and its stiffness (whole, or NULL); of a ring each particle has its
- * share, and only the stiffness against moves of the whole ring counts. */
+/* Adds a force and its stiffness K (3 x 3, or NULL) to place i. Each particle of a ring gets its
+ * share of both. Only its own block of stiffness is added, which is exact for moves of the whole
+ * ring. */
 void sw_axis_put(sw_field *field, size_t i, sw_vec force, const double *K);
-/* The same with stiffness k along a unit vector. */
+/* Does the same with stiffness k along a unit vector. */
 void sw_axis_push(sw_field *field, size_t i, sw_vec force, sw_vec along, double k);
 
 #endif

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Isotropic bending of a straight wire. Hinge i turns by the angle phi between
- * the unit tangents t1, t2 of its edges: E = 1/2 (EI/w_i) phi^2, w_i the hinge
- * length of the plan. Exact gradient and second derivative with s = phi/sin phi
- * and w = -ds/dcos phi, both analytic in u = sin^2(phi/2) (Bergou et al. 2008
- * use 2 tan(phi/2) instead; the angle goes with the corrected clamp, see
- * plan.c). Valid below about 1 rad a hinge; at pi the direction is undefined. */
+/* Isotropic bending of a straight wire. Hinge i turns by the angle phi between the unit tangents
+ * t1, t2 of its edges: E = 1/2 (EI/w_i) phi^2, with w_i the hinge length of the plan. Gradient and
+ * second derivative are exact. They use s = phi/sin phi and w = -ds/dcos phi, both analytic in u =
+ * sin^2(phi/2). Bergou et al. 2008 use 2 tan(phi/2) instead; the angle fits the corrected clamp,
+ * see plan.c. Valid below about 1 rad per hinge; at pi the direction is undefined. */
 #include <math.h>
 
 #include "base/simd.h"
@@ -12,8 +11,8 @@
 #include "state/angle.h"
 #include "state/clamp.h"
 
-/* scratch: 0 cos phi, 1 k s, 2 k w for hinges 1..n-2. Returns how many hinges are
- * beyond the fit (a count, because a largest angle would not go into vectors). */
+/* Fills the scratch arrays for hinges 1..n-2: 0 cos phi, 1 k s, 2 k w. Returns the number of hinges
+ * beyond the range of the fit (a count, because a loop with a maximum would not vectorise). */
 SW_HOT
 static long hinge_factors(size_t n, double EI, const double *restrict hinge,
                           const double *restrict tx, const double *restrict ty,
@@ -63,8 +62,8 @@ static void add_gradient(size_t n, const double *restrict c, const double *restr
   }
 }
 
-/* own += [kw p p' + ks (c (I - t t') + t p' + p t')] / l^2 for the edge at
- * shift (0: second edge of the hinge, -1: first) */
+/* own += [kw p p' + ks (c (I - t t') + t p' + p t')] / l^2 for the edge at shift (0: second edge of
+ * the hinge, -1: first) */
 SW_HOT
 static void add_own(size_t n, long shift, const double *restrict c, const double *restrict ks,
                     const double *restrict kw, const double *restrict rl, const double *restrict tx,
@@ -115,8 +114,8 @@ static void add_next(size_t n, const double *restrict c, const double *restrict 
   }
 }
 
-/* The hinge between a held director d and one edge: the same energy with one
- * tangent fixed. side -1: the edge arrives, its tangent counts reversed. */
+/* The hinge between a held director d and one edge: the same energy with one tangent fixed. It is
+ * symmetric in both directions, so the hinge's side does not matter. */
 static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *field) {
   const size_t e = h->edge;
   const double *d0 = field->hold_directors + 3 * sw_clamp_place(h);
@@ -140,14 +139,14 @@ static void clamp_hinge(const sw_clamp_hinge *h, double EI, sw_field *field) {
                            (i == j ? a * c : 0.0);
 }
 
-/* What the hinge is less stiff about the axis of its hold's give [N m]. */
+/* Returns the stiffness that the hinge loses about the axis of its hold's give [N m]. */
 static double softening(const sw_clamp_hinge *h, double EI) {
   return h->softer > 0 ? EI / h->length - EI / (h->length + h->softer) : 0.0;
 }
 
-/* For that E = -1/2 k f^2, f the angle about the axis (state/clamp.h): with g = dE/dt and H its
- * derivative, of the edge vector P g / l and (P H P - (g.t) P - P g t' - t g' P) / l^2, P = I - t
- * t'. */
+/* Adds E = -1/2 k f^2 for that loss, with f the angle about the axis (state/clamp.h). With g =
+ * dE/dt, H = d2E/dt2 and P = I - t t', the derivatives with respect to the edge vector are P g / l
+ * and (P H P - (g.t) P - P g t' - t g' P) / l^2. */
 static void soften_clamp(const sw_clamp_hinge *h, double EI, sw_field *field) {
   const size_t e = h->edge;
   const double k = softening(h, EI), rl = field->reciprocal[e];
@@ -171,7 +170,8 @@ static void soften_clamp(const sw_clamp_hinge *h, double EI, sw_field *field) {
     }
 }
 
-/* Energy of every hinge, by phi = s sin phi. Returns how many are beyond the fit. */
+/* Computes the energy of every hinge from phi = s sin phi. Returns the number beyond the fit's
+ * range. */
 SW_HOT
 static long hinge_energies(size_t n, double EI, const double *restrict hinge,
                            const double *restrict tx, const double *restrict ty,
@@ -198,7 +198,7 @@ static void sharp_energies(size_t n, double EI, const double *hinge, double *con
   }
 }
 
-enum { LANES = 8 }; /* sums side by side, for the processor [-] */
+enum { LANES = 8 }; /* parallel sums, for vector instructions [-] */
 
 SW_HOT
 static double sum_of(size_t n, const double *x) {
@@ -246,8 +246,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* omega_max <= 4 sqrt(EI/mu) / l^2 for equal edges and lumped masses; more by the root of what
- * hinges are shorter. */
+/* omega_max <= 4 sqrt(EI/mu) / l^2 for equal edges and lumped masses. A hinge shorter than its edge
+ * raises it by the square root of the ratio. */
 static double stable_dt(const void *args, const sw_plan *plan) {
   const double EI = ((const sw_bend_args *)args)->EI;
   double smallest = HUGE_VAL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A user's function as a force (in Lua: scene:force{ kind = function ... }).
- * It has no stiffness, so the solver iterates to its fixed point: fine for
- * forces softer than the wire's own, else the run asks for smaller steps. */
+/* A user's function as a force (in Lua: scene:force{ kind = function ... }). It has no stiffness,
+ * so the solver finds its fixed point by iteration. This works for forces softer than the wire's
+ * own; for stiffer ones the run asks for smaller steps. */
 #include "force/force.h"
 
 static sw_status eval(const void *args, sw_field *field, sw_error *err) {

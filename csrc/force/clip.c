@@ -2,28 +2,28 @@
 /* A snap-in clip: a potential U(u, v) across the wire (clip_law.h), spread over the clip's width W
  * by the window chi(a) = 2 cos^2(pi a / W), |a| < W/2, whose mean is 1:
  *   E = (1/W) integral of U chi ds over the wire's centre line,
- * with u, v, a along the clip's direction, across both, and along its axis. So it takes hold of
- * whatever part of the wire is there, not of nodes, and a straight wire slides along the axis
- * without being pushed either way. The integral is a sum over places at even distances of at most
- * W/16 within each edge, for which the window's sum is exact where edges are equal. Of meshes of
- * particles it takes the middles of rings and leaves the stiffness between neighbouring rings in
- * the rings' own.
+ * with u along the clip's direction, v across, and a along its axis. The clip acts on whatever part
+ * of the wire is inside, wherever its nodes are; a straight wire slides along the axis without any
+ * force along it. The integral is a sum over evenly spaced places, at most W/16 apart, within each
+ * edge; the window's sum is exact where edges are equal. In a mesh of particles the clip acts on
+ * the centres of rings; coupling stiffness between neighbouring rings is lumped into each ring's
+ * own.
  *
- * Friction acts along the axis: at each node a spring that is W/200 long when it slips, with
- * mu times the push |grad U| that the node had in the last accepted state. So it is a potential
- * of the step, its stiffness symmetric, and it lags one step behind a push that changes.
+ * Friction acts along the axis: each node has a spring with limit mu |grad U|, which slips at a
+ * stretch of W/200. |grad U| is the node's push in the last accepted state. Friction is therefore a
+ * potential within a step, with a symmetric stiffness, and lags one step behind a changing push.
  *
- * Floor and walls bear their strength. A wire that is pressed through them, from within or from
- * outside, has broken the clip, which does nothing to it from then on. A wire that crosses the clip
- * at an angle of more than 45 degrees, or passes it altogether within one step, is outside of
- * what this describes. All of that is told. */
+ * Floor and walls have a strength. A wire pressed through them, from inside or outside, has broken
+ * the clip, which does not act on the wire any more. The model does not cover a wire that crosses
+ * the clip at more than 45 degrees, or one that goes right through it within one step. Each of
+ * these cases is reported as an event. */
 #include <math.h>
 #include <stddef.h>
 
 #include "force/clip_watch.h"
 #include "force/force.h"
 
-static const double SLIP = 1.0 / 200.0; /* length of friction's spring as it slips, of W [-] */
+static const double SLIP = 1.0 / 200.0; /* stretch at which a friction spring slips, over W [-] */
 
 static const sw_param rows[] = {
     SW_CLIP_ROWS,
@@ -59,7 +59,7 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
 
 /* --- history ------------------------------------------------------------------ */
 
-/* The clip as the wire meets it in this step. */
+/* Returns the clip as the wire meets it in this step. */
 static sw_clip clip_of(const void *args, const sw_field *f, const double *history) {
   sw_clip c = sw_clip_of(args, &f->plan->beam);
   c.law.caught = history && history[SW_CLIP_STATE] != SW_CLIP_EMPTY;
@@ -74,12 +74,13 @@ static double place_of(const sw_clip *c, const sw_field *f, size_t i) {
   return sw_dot(c->axis, sw_sub(sw_axis_at(f, i), c->at));
 }
 
-/* Friction at node i: how far its spring would be stretched if it did not slip [m]. */
+/* Returns the stretch of node i's friction spring if it did not slip [m]. */
 static double stretch_of(const sw_clip *c, const sw_field *f, const double *h, size_t i) {
   return h[SW_CLIP_STRETCH] + place_of(c, f, i) - h[SW_CLIP_PLACE];
 }
 
-/* Energy of the spring, or what slipping costs from there on, with most as its force. */
+/* Returns the energy of a friction spring whose largest force is `most`, plus the work of slipping
+ * beyond. */
 static double friction_energy(double stretch, double most, double slip) {
   const double e = fabs(stretch);
   return e < slip ? 0.5 * most * e * e / slip : most * (e - 0.5 * slip);
@@ -117,7 +118,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* Sets friction for the next step from the normal force on each node. */
+/* Sets the largest friction of the next step from the normal force on each node. */
 static void measure_friction(const sw_clip *c, const sw_field *f, double *each) {
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
     sw_clip_sum sum;
@@ -127,8 +128,8 @@ static void measure_friction(const sw_clip *c, const sw_field *f, double *each) 
   }
 }
 
-/* Friction's springs after slipping, the work that it took, and the most friction from now on. What
- * sticks goes on with the force that it had, as long as friction can bear that. */
+/* Updates the friction springs after slipping, the dissipated work, and the largest friction of the
+ * next step. A sticking node keeps its friction force as long as the new limit allows it. */
 static void commit_friction(const sw_clip *c, const sw_field *f, double *history) {
   const double slip = SLIP * c->width;
   const size_t points = sw_axis_points(f->plan);
@@ -138,7 +139,7 @@ static void commit_friction(const sw_clip *c, const sw_field *f, double *history
     double *h = each + SW_CLIP_EACH * i;
     const double trial = stretch_of(c, f, h, i);
     const double kept = h[SW_CLIP_MOST] > 0 ? fmax(-slip, fmin(slip, trial)) : 0.0;
-    if (begun) /* less what it will store */
+    if (begun) /* the springs' new energy is subtracted below */
       history[SW_CLIP_DISSIPATED] += h[SW_CLIP_MOST] * fabs(trial - kept) * (h[SW_CLIP_MOST] > 0) +
                                      friction_energy(kept, h[SW_CLIP_MOST], slip);
     h[SW_CLIP_STRETCH] = fabs(kept) < slip ? kept * h[SW_CLIP_MOST] : copysign(HUGE_VAL, kept);
@@ -156,8 +157,9 @@ static void commit_friction(const sw_clip *c, const sw_field *f, double *history
   }
 }
 
-/* What presses the wire is not known before the first solve. In a static one friction then holds it
- * up to mu times the retention, so that a wire which lies in clips alone does not slide away. */
+/* Fills the first history. The normal force is not known before the first solve. In a static first
+ * solve friction holds the wire up to mu times the larger lip force, so that a wire held by clips
+ * alone does not slide away. */
 static void begin_history(const void *args, const sw_field *f, double *history) {
   const sw_clip c = sw_clip_of(args, &f->plan->beam);
   double *each = history + SW_CLIP_HEAD;
@@ -175,7 +177,7 @@ static void begin_history(const void *args, const sw_field *f, double *history) 
   }
 }
 
-/* Is some of the wire so near that a step may bring it in? */
+/* 1 if some of the wire is near enough for a step to bring it in. */
 static int near_by(const sw_clip *c, const sw_field *f) {
   const double reach = 4.0 * (c->law.out + c->law.in + c->law.reach);
   for (long e = sw_clip_find(c, f, 0); e >= 0; e = sw_clip_find(c, f, e + 1)) {
@@ -191,19 +193,19 @@ static int idle(const double *history) {
   return sw_clip_is_broken(history) || (history[SW_CLIP_BEGUN] > 0 && !(history[SW_CLIP_NEAR] > 0));
 }
 
-/* A step may take the wire over this share of the lips: their force rises and falls within half of
- * each flank, and a peak between two states is not seen. With twice of it peaks are up to 15 % off,
- * with half of it 2 % at twice the cost (spec/scene/clip_steps_spec) [-]. */
+/* Share of the lips' length that a step may move the wire over. The lips' force rises and falls
+ * within half of each flank; a step does not see a peak between its two states. At twice this value
+ * peaks are up to 15 % off, at half 2 % at twice the cost (spec/scene/clip_steps_spec) [-]. */
 static const double FOLLOWED = 1.0 / 16;
 
-/* The middle of the part of an edge that is in the clip's width, as a share of the edge [-]. */
+/* Returns the middle of an edge's part within the clip's width, as a share of the edge [-]. */
 static double middle_of(const sw_clip_walk *w) {
   const double a = w->a[2], b = w->b[2], half = w->half;
   const double from = fmax(-half, fmin(half, a)), to = fmax(-half, fmin(half, b));
   return fabs(b - a) > 0 ? (0.5 * (from + to) - a) / (b - a) : 0.5;
 }
 
-/* Local u and v at a share of an edge [m]. */
+/* Fills u and v at a share of an edge [m]. */
 static void place_on(const sw_clip_walk *w, double share, double out[2]) {
   for (int k = 0; k < 2; k++) out[k] = w->a[k] + share * (w->b[k] - w->a[k]);
 }
@@ -223,7 +225,7 @@ static double oversteps(const void *args, const sw_field *f, const double *histo
     if (!sw_clip_begin(&c, f, (size_t)e, &was)) continue;
     const double middle = middle_of(&was);
     const int stays =
-        sw_clip_begin(&c, &after, (size_t)e, &is); /* else it is torn out, or slides */
+        sw_clip_begin(&c, &after, (size_t)e, &is); /* 0: the edge leaves, torn out or sliding */
     place_on(&was, middle, one), place_on(&is, stays ? middle_of(&is) : middle, two);
     if (fmax(one[0], two[0]) < low || fmin(one[0], two[0]) > high) continue;
     if (fmin(fabs(one[1]), fabs(two[1])) > beside) continue;
@@ -232,7 +234,8 @@ static double oversteps(const void *args, const sw_field *f, const double *histo
   return most;
 }
 
-/* A broken clip does nothing any more; what it and friction's springs stored is lost. */
+/* Ends the action of a broken clip. The energy stored in the clip and its friction springs is
+ * lost. */
 static void give_up(const sw_clip *c, const sw_field *f, double *history) {
   const double slip = SLIP * c->width;
   sw_clip_sum sum;
@@ -254,7 +257,7 @@ static void commit(const void *args, const sw_field *f, double *history) {
   const int was_near = history[SW_CLIP_NEAR] > 0 || !(history[SW_CLIP_BEGUN] > 0);
   history[SW_CLIP_NEAR] = near_by(&c, f);
   const sw_clip_middle m = sw_clip_middle_of(&c, f);
-  if (sw_clip_breaks(&c, &m, f->time, history)) { /* from afar to afar in one step, too */
+  if (sw_clip_breaks(&c, &m, f->time, history)) { /* also from far to far within one step */
     give_up(&c, f, history);
     return;
   }
@@ -263,14 +266,14 @@ static void commit(const void *args, const sw_field *f, double *history) {
     history[SW_CLIP_LAST] = m.u;
     if (c.friction > 0) commit_friction(&c, f, history);
   }
-  /* what was over the mouth may come back from anywhere */
+  /* a wire that was above the mouth and left may come back from anywhere */
   if (!(history[SW_CLIP_NEAR] > 0) && history[SW_CLIP_STATE] == SW_CLIP_ABOVE)
     history[SW_CLIP_STATE] = SW_CLIP_EMPTY;
   history[SW_CLIP_BEGUN] = 1;
 }
 
-/* Node for node by arc length: each node of the new mesh gets its share of the old springs and
- * their friction. */
+/* Interpolates the old nodes' springs by arc length. Each new node gets its length's share of the
+ * old friction. */
 static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
   const size_t before = sw_axis_points(old), points = sw_axis_points(f->plan);
   for (size_t k = 0; k < SW_CLIP_HEAD; k++) history[k] = from[k];
@@ -331,7 +334,8 @@ static void read(const void *args, const sw_field *f, const double *history, dou
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) out[k] = values[k];
 }
 
-/* A node has at most 2 length / W of the clip, or all of it. Leapfrog's limit is 2 / omega. */
+/* A node carries at most 2 length / W of the clip, and at most the whole clip. Leapfrog's limit is
+ * 2 / omega. */
 static double stable_dt(const void *args, const sw_plan *plan) {
   const sw_clip c = sw_clip_of(args, &plan->beam);
   const double k = sw_clip_stiffness(&c, SLIP * c.width);

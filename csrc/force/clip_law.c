@@ -3,13 +3,14 @@
 
 #include <math.h>
 
-/* The way over the lips when it is not given: that of a round wire through a mouth two thirds as
- * wide, 2 sqrt(1 - (2/3)^2) of the radius [-]. */
+/* Default way over the lips, over the wire's radius: a round wire through a mouth two thirds as
+ * wide, 2 sqrt(1 - (2/3)^2) [-]. */
 static const double USUAL_WAY = 1.5;
-/* Floor and walls give way by a fiftieth of the radius under the larger of both forces [-]. */
+/* Default stiffness of floor and walls: they yield by 1/50 of the radius under the larger lip force
+ * [-]. */
 static const double USUAL_STIFFNESS = 50.0;
-/* They end where a wire that comes from outside touches a wall half a radius thick: halfway
- * through that they hold no more [radii]. */
+/* Default depth, in wire radii, from which floor and walls no longer push back. They end at twice
+ * this depth, where a wire from outside touches a wall half a radius thick [-]. */
 static const double REACH = 1.25;
 
 /* A function of one variable and its derivatives. */
@@ -23,10 +24,10 @@ static curve hump(double x, double length, double height) {
   return (curve){height * s * s, 2.0 * height * a * s * c, 2.0 * height * a * a * (c * c - s * s)};
 }
 
-/* The same of a variable that goes the other way. */
+/* Returns the function of -x. */
 static curve mirrored(curve c) { return (curve){c.f, -c.d, c.dd}; }
 
-/* From 1 at x = 0 to 0 at x = length. */
+/* Returns a curve that falls from 1 at x = 0 to 0 at x = length. */
 static curve fade(double x, double length) {
   const curve c = hump(length - x, length, 1.0);
   return mirrored(c);
@@ -34,14 +35,15 @@ static curve fade(double x, double length) {
 
 static const curve NOTHING = {0, 0, 0}, ONE = {1, 0, 0};
 
-/* A spring of stiffness k that holds no more at depth reach and is nothing at twice that. */
+/* A spring of stiffness k. Its force peaks at depth reach / 2, vanishes at reach, then pushes
+ * towards the far side; it ends at twice reach. */
 static curve barrier(double depth, double reach, double k) {
   const double a = 0.5 * M_PI / reach;
   if (!(depth > 0) || depth >= 2.0 * reach) return NOTHING;
   return hump(depth, reach, 0.5 * k / (a * a));
 }
 
-/* What floor and walls do at this depth. */
+/* Potential of floor or wall at this depth. */
 static curve side(const sw_clip_law *l, double depth) { return barrier(depth, l->reach, l->k); }
 
 static curve lips(const sw_clip_law *l, double u) {
@@ -54,10 +56,10 @@ static curve floor_of(const sw_clip_law *l, double u) {
   return mirrored(side(l, -l->clearance - u));
 }
 
-/* Of something even in v, from what it is at depth |v| - clearance. */
+/* Extends a function of the depth |v| - clearance evenly to negative v. */
 static curve even(curve c, double v) { return v < 0 ? mirrored(c) : c; }
 
-/* How much further apart the walls are above the lips' top: a funnel that ends as steep as 45
+/* Returns how much further apart the walls are above the lips' top: a funnel that ends at 45
  * degrees. */
 static curve widening(const sw_clip_law *l, double u) {
   const double above = u - l->out;
@@ -65,14 +67,14 @@ static curve widening(const sw_clip_law *l, double u) {
   return (curve){0.5 * above * above / l->in, above / l->in, 1.0 / l->in};
 }
 
-/* Between the walls: where lips and floor are. */
+/* Weight of lips and floor: 1 between the walls. */
 static curve between(const sw_clip_law *l, double v) {
   const double depth = fabs(v) - l->clearance;
   if (depth <= 0) return ONE;
   return depth < 2.0 * l->reach ? even(fade(depth, 2.0 * l->reach), v) : NOTHING;
 }
 
-/* Between floor and mouth: where walls are. */
+/* Weight of the walls: 1 between floor and mouth. */
 static curve beside(const sw_clip_law *l, double u) {
   const double above = u - l->out, below = -l->clearance - u;
   if (above > 0) return above < l->in ? fade(above, l->in) : NOTHING;
@@ -97,7 +99,7 @@ sw_clip_law sw_clip_law_of(double wire, double seat, double insertion, double re
   return l;
 }
 
-/* Add the walls: what they do at their depth, times how much of them there is at u. */
+/* Adds the walls: their potential at their depth times their weight at u. */
 static void add_walls(const sw_clip_law *l, double u, double v, sw_clip_point *p) {
   const curve z = widening(l, u), g = beside(l, u);
   const curve w = side(l, fabs(v) - l->clearance - z.f);

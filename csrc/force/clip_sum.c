@@ -5,12 +5,12 @@
 #include <string.h>
 
 enum { FINENESS = 16 };                /* places over the clip's width, at least [-] */
-enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* layout of a node's row */
+enum { NEXT = 6, ROW = SW_FIELD_ROW }; /* offset and size in a node's row of the field */
 
-static const double STEEPEST = 1e6;   /* ratio of both forces, so of the lips' flanks [-] */
-static const double STRONGEST = 1e12; /* [N] */
+static const double STEEPEST = 1e6;   /* largest ratio of the lip forces and flanks [-] */
+static const double STRONGEST = 1e12; /* largest lip force [N] */
 
-/* Flanks of no length would have no slope. */
+/* A flank of length 0 would have no slope. */
 sw_status sw_clip_check_lips(const sw_clip_args *a, const char *kind, sw_error *err) {
   const double larger = fmax(a->insertion, a->retention);
   const double smaller = fmin(a->insertion, a->retention);
@@ -50,13 +50,13 @@ void sw_clip_window(const sw_clip *c, double a, double chi[3]) {
   chi[2] = -k * k * cos(k * a);
 }
 
-/* Second derivatives of U chi by u, v, a, upper half. */
+/* Second derivatives of w U chi with respect to u, v, a; upper half. */
 static void second(const sw_clip_point *p, const double chi[3], double w, double H[6]) {
   H[0] = w * chi[0] * p->uu, H[1] = w * chi[0] * p->uv, H[2] = w * chi[1] * p->u;
   H[3] = w * chi[0] * p->vv, H[4] = w * chi[1] * p->v, H[5] = w * chi[2] * p->energy;
 }
 
-/* Add one place at t along the edge, of weight w. */
+/* Adds one place at t along the edge, of weight w. */
 static void add_place(const sw_clip *c, const double x[3], double t, double w, double s,
                       int stiffness, sw_clip_sum *out) {
   const double part[2] = {1.0 - t, t};
@@ -82,7 +82,8 @@ static void add_place(const sw_clip *c, const double x[3], double t, double w, d
   }
 }
 
-/* Which of n even places between a and b may lie within the window: first and last. */
+/* Finds the first and last of n evenly spaced places between a and b that may lie in the window; 0:
+ * none. */
 static int range(double a, double b, double half, long n, long *first, long *last) {
   const double low = fmin(a, b), high = fmax(a, b);
   if (low >= half || high <= -half) return 0;
@@ -158,7 +159,7 @@ int sw_clip_edge(const sw_clip *c, const sw_field *f, size_t e, int stiffness, s
 
 /* --- on the wire --------------------------------------------------------------------- */
 
-/* Q' H Q, whole, of local second derivatives H. */
+/* Turns local second derivatives H into world axes: Q' H Q, all nine items. */
 static void turn(const sw_clip *c, const double H[6], double out[9]) {
   static const int whole[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   const double q[9] = {c->direction.x, c->direction.y, c->direction.z, c->across.x, c->across.y,

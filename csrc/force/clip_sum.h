@@ -15,14 +15,14 @@ typedef struct sw_clip_args {
   sw_vec direction, axis;      /* [-] */
   double width;                /* [m] */
   double insertion, retention; /* [N] */
-  double radius;               /* of the seat; NAN = that of the wire [m] */
+  double radius;               /* radius of the seat; NAN = the wire's [m] */
   double friction;             /* [-] */
-  double way;                  /* of the wire over the lips; NAN = chosen [m] */
-  double stiffness;            /* of floor and walls; NAN = chosen [N/m] */
-  double strength;             /* what these bear; NAN = chosen [N] */
+  double way;                  /* way of the wire over the lips; NAN = chosen [m] */
+  double stiffness;            /* stiffness of floor and walls; NAN = chosen [N/m] */
+  double strength;             /* strength of floor and walls; NAN = chosen [N] */
 } sw_clip_args;
 
-/* Rows of parameters that every force of a clip takes. */
+/* Parameter rows shared by the clip's forces. */
 #define SW_CLIP_ROW(field, unit, def, flags, doc) \
   SW_NUMBER_ROW(sw_clip_args, field, unit, def, 0, HUGE_VAL, (flags) | SW_PARAM_ABOVE_MIN, doc)
 #define SW_CLIP_ROWS                                                                              \
@@ -39,64 +39,68 @@ typedef struct sw_clip_args {
       SW_CLIP_ROW(radius, "m", NAN, 0, "of the seat (default: that of the wire)"),                \
       SW_CLIP_ROW(way, "m", NAN, 0, "of the wire over the lips (default: 1.5 of its radius)")
 
-/* The clip as one wire meets it. */
+/* A clip with the law for one wire. */
 typedef struct sw_clip {
   sw_clip_law law;
   sw_vec at, direction, across, axis; /* [m], three unit vectors [-] */
   double width, friction;             /* [m], [-] */
-  double strongest;                   /* of both forces of the lips [N] */
+  double strongest;                   /* the larger of insertion and retention [N] */
 } sw_clip;
 
-/* Can lips be made of insertion and retention? kind: of the force, for the error. */
+/* SW_EINVAL if lips cannot have this insertion and retention. kind: the force's name, for the
+ * error. */
 sw_status sw_clip_check_lips(const sw_clip_args *args, const char *kind, sw_error *err);
 
 sw_clip sw_clip_of(const sw_clip_args *args, const sw_beam *beam);
 
-/* Share of one edge in the clip; vectors and matrices in the clip's u, v, a. */
+/* Contribution of one edge; vectors and matrices in the clip's axes u, v, a. */
 typedef struct sw_clip_sum {
   double energy;         /* [J] */
-  double g[2][3];        /* derivatives by the two ends [N] */
-  double own[2][6];      /* second ones by each end, upper half [N/m] */
-  double next[6];        /* by both, which is symmetric too [N/m] */
+  double g[2][3];        /* derivatives with respect to the two ends [N] */
+  double own[2][6];      /* second derivatives for each end, upper half [N/m] */
+  double next[6];        /* coupling of both ends, symmetric too [N/m] */
   double push[2];        /* |grad U| across the axis, shared between the ends [N] */
-  double share, u, v, s; /* of the window within the walls; times u, v and arc length [-], [m] */
-  double all[3];         /* of all of the window, and times u and v [-], [m] */
+  double share, u, v, s; /* share of the window between the walls; its u, v, arc length [-], [m] */
+  double all[3];         /* share of the whole window; its u, v (weighted) [-], [m] */
 } sw_clip_sum;
 
-/* The places of the sum along one edge, one after another. */
+/* Steps through the integration places of one edge. */
 typedef struct sw_clip_walk {
   double a[3], b[3];   /* u, v, a of the edge's ends [m] */
-  double s, length;    /* arc length at the first end, of the edge [m] */
-  long count, k, last; /* places on the edge, the next one, the last one that may count */
-  double half, weight; /* of the clip's width; of a place, without chi [m], [-] */
+  double s, length;    /* arc length at the first end; length of the edge [m] */
+  long count, k, last; /* number of places on the edge, next place, last place in the window */
+  double half, weight; /* half the clip's width; weight of a place, without chi [m], [-] */
 } sw_clip_walk;
 
 enum { SW_CLIP_NO_EDGE = -1 };
-/* The first edge from number `from` on that is within the clip's width, or SW_CLIP_NO_EDGE. */
+/* Returns the first edge, from number `from` on, within the clip's width, or SW_CLIP_NO_EDGE. */
 long sw_clip_find(const sw_clip *clip, const sw_field *field, long from);
 
-/* 0: the edge from place e to the next is outside of the clip's width. */
+/* Starts a walk along the edge from place e to the next; 0: the edge is outside the clip's
+ * width. */
 int sw_clip_begin(const sw_clip *clip, const sw_field *field, size_t e, sw_clip_walk *walk);
-/* The next place: u, v, a and how far along the edge it is [m], [-]; 0: there is none. */
+/* Returns the next place: u, v, a [m] and its share of the way along the edge [-]; 0: no more
+ * places. */
 int sw_clip_next(sw_clip_walk *walk, double x[3], double *along);
 
-/* chi at a and its derivatives [-], [1/m], [1/m2]. */
+/* Window chi at a, with its first and second derivative [-], [1/m], [1/m2]. */
 void sw_clip_window(const sw_clip *clip, double a, double chi[3]);
 
-/* 1: nothing acts on any part of the edge. */
+/* 1 if the clip does not act on any part of the edge. */
 int sw_clip_far(const sw_clip *clip, const sw_clip_walk *walk);
 
-/* The sum along edge e, from place e to the next; 0: it has none. */
+/* Sums along edge e, from place e to the next; 0: the edge is outside the clip's width. */
 int sw_clip_edge(const sw_clip *clip, const sw_field *field, size_t e, int stiffness,
                  sw_clip_sum *out);
 
-/* (u, v, a) as a vector of the world. */
+/* Turns (u, v, a) into world axes. */
 sw_vec sw_clip_world(const sw_clip *clip, const double local[3]);
 
-/* Add what is wanted of a sum to the field. */
+/* Adds what the field wants of a sum to the field. */
 void sw_clip_on_edge(const sw_clip *clip, sw_field *field, size_t e, const sw_clip_sum *sum);
 
-/* Largest stiffness that all of the clip can have, with friction that slips after slip [N/m]. */
+/* Returns an upper bound of the clip's stiffness; its friction slips at a stretch of `slip` [m],
+ * [N/m]. */
 double sw_clip_stiffness(const sw_clip *clip, double slip);
 
 #endif

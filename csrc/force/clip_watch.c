@@ -4,13 +4,13 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Cosine of the angle between the edge and the axis. */
+/* Returns the cosine of the angle between edge and axis. */
 static double cosine(const sw_clip *c, const sw_field *f, size_t e) {
   const sw_vec d = sw_sub(sw_axis_at(f, e + 1), sw_axis_at(f, e));
   return fabs(sw_dot(c->axis, sw_unit_or(d, c->axis)));
 }
 
-/* Rise of the edge over its way along the axis, at most 1. */
+/* Returns the rise of the edge over its way along the axis, at most 1. */
 static double slope(const sw_clip *c, const sw_field *f, size_t e) {
   const sw_vec d = sw_sub(sw_axis_at(f, e + 1), sw_axis_at(f, e));
   const double along = sw_dot(c->axis, d), up = sw_dot(c->direction, d);
@@ -37,14 +37,14 @@ sw_clip_middle sw_clip_middle_of(const sw_clip *c, const sw_field *f) {
   return m;
 }
 
-/* A wire counts as there when it passes through this share of the clip, and as seated when it has
- * gone this share of the way from the lips' top to the seat [-]. */
+/* THERE: a wire is in the clip if it fills this share of its width. SETTLED: it is seated after
+ * this share of the way from the lips' top to the seat [-]. */
 static const double THERE = 0.5, SETTLED = 0.5;
 
 static void begin(double *h, int state) { h[SW_CLIP_STATE] = state, h[SW_CLIP_PEAK] = 0; }
 
-/* Where a wire is that is not in the clip. Above it is over the mouth up to where the funnel's
- * walls end. */
+/* Returns the state of a wire that is not caught. SW_CLIP_ABOVE: above the lips and between the
+ * ends of the funnel's walls. */
 static int outside(const sw_clip *c, const sw_clip_middle *m) {
   const double way = c->law.out + c->law.in;
   const double mouth = c->law.clearance + 2.0 * c->law.reach + 0.5 * c->law.in;
@@ -53,23 +53,24 @@ static int outside(const sw_clip *c, const sw_clip_middle *m) {
   return m->u < way ? SW_CLIP_INSERTING : SW_CLIP_ABOVE;
 }
 
-/* --- what it does not bear or describe ------------------------------------------------ */
+/* --- overload, and cases that the model does not cover -------------------------------- */
 
-static const double PART = 0.25; /* of the width, from which on a wire counts as there [-] */
-static const double STEEP = 0.7071067812; /* cosine of the largest angle of crossing [-] */
-static const double TOUCHES = 1e-3;       /* of the larger force, from which on it is told of [-] */
-static const double PRESSED = 0.2;        /* of the strength: the push before can be told [-] */
+static const double PART = 0.25; /* share of the width from which a crossing is reported [-] */
+static const double STEEP = 0.7071067812; /* cosine of the largest crossing angle [-] */
+static const double TOUCHES = 1e-3; /* least force of a crossing, over the larger lip force [-] */
+static const double PRESSED = 0.2;  /* push over strength above which a wall counts as broken [-] */
 
 static void tell(double *h, int what, double value, double s) {
   h[SW_CLIP_NEWS] = what, h[SW_CLIP_NEWS_VALUE] = value, h[SW_CLIP_NEWS_S] = s;
 }
 
-/* Is a wire at u, v between the walls, or under the lips' top beside or under the clip's body? */
+/* 1 if u, v is inside the clip's body: below the lips' top, above the middle of the floor, and
+ * between the middles of the walls. */
 static int inside(const sw_clip_law *l, double u, double v) {
   return u < l->out && u > -l->clearance - l->reach && fabs(v) < l->clearance + l->reach;
 }
 
-/* Does the straight way from one place to the other go through the body, below the lips' top? */
+/* 1 if the straight way between two places goes through the clip's body. */
 static int goes_through(const sw_clip_law *l, const double from[2], const double to[2]) {
   enum { LOOKS = 64 };
   for (int k = 1; k < LOOKS; k++) {
@@ -80,15 +81,15 @@ static int goes_through(const sw_clip_law *l, const double from[2], const double
   return 0;
 }
 
-/* Is it where floor or walls, pressed from either side, have borne all they can? */
+/* 1 if floor or wall, pressed from either side, is past its largest force at this place. */
 static int deep(const sw_clip_law *l, const double at[2]) {
   const double below = -l->clearance - at[0], aside = fabs(at[1]) - l->clearance;
   const double low = 0.5 * l->reach, high = 1.5 * l->reach;
   return (below > low && below < high) || (aside > low && aside < high);
 }
 
-/* How a wire that was in the clip has left it, on the straight way from one place to the next,
- * other than by its mouth. */
+/* Returns how a caught wire left the clip on the straight way between two places: through a wall,
+ * through the floor, or neither (also by the mouth). */
 static int way_out(const sw_clip_law *l, const double from[2], const double to[2]) {
   const double wall = l->clearance + l->reach, floor = -wall;
   const double v0 = fabs(from[1]), v1 = fabs(to[1]);
@@ -100,7 +101,7 @@ static int way_out(const sw_clip_law *l, const double from[2], const double to[2
   return to[0] < floor ? SW_CLIP_THROUGH_FLOOR : SW_CLIP_NO_NEWS;
 }
 
-/* Has the wire gone where this is valid no more? */
+/* Returns how the wire broke or passed the clip, or SW_CLIP_NO_NEWS. Reports a steep crossing. */
 static int look(const sw_clip *c, const sw_clip_middle *m, double *h) {
   const sw_clip_law *l = &c->law;
   const double before[2] = {h[SW_CLIP_U_BEFORE], h[SW_CLIP_V_BEFORE]};
@@ -118,7 +119,6 @@ static int look(const sw_clip *c, const sw_clip_middle *m, double *h) {
                                                                 : SW_CLIP_PASSED;
 }
 
-/* 1: the clip is broken for this wire. */
 int sw_clip_breaks(const sw_clip *c, const sw_clip_middle *m, double time, double *h) {
   const double push = sw_norm(m->force), most = fmax(push, h[SW_CLIP_PUSH]);
   const double step = hypot(m->at[0] - h[SW_CLIP_U_BEFORE], m->at[1] - h[SW_CLIP_V_BEFORE]);
@@ -133,10 +133,11 @@ int sw_clip_breaks(const sw_clip *c, const sw_clip_middle *m, double time, doubl
   return 1;
 }
 
-/* A wire that leaves askew is peeled out, which edges have to follow: with edges of a quarter, a
- * half and all of the width the force was up to 5, 25 and 45 % off (spec/scene/clipping_spec). */
-static const double COARSE = 0.255; /* edge over width, from which on that is told [-] */
-static const double ASKEW = 0.5;    /* rise over the width, of the lips' way, that is askew [-] */
+/* A wire that leaves at an angle is peeled out, and its edges must resolve the peeling: with edges
+ * of a quarter, half and the whole of the width, the force was up to 5, 25 and 45 % off
+ * (spec/scene/clipping_spec). */
+static const double COARSE = 0.255; /* edge length over the width from which this is reported [-] */
+static const double ASKEW = 0.5;    /* its rise within the width, over the inner flank [-] */
 
 static void come_out(const sw_clip *c, const sw_clip_middle *m, double time, double *h) {
   h[SW_CLIP_OUT]++, h[SW_CLIP_OUT_TIME] = time, h[SW_CLIP_OUT_PEAK] = h[SW_CLIP_PEAK];
@@ -158,13 +159,14 @@ void sw_clip_follow(const sw_clip *c, const sw_clip_middle *m, double time, doub
   }
   if (h[SW_CLIP_STATE] == SW_CLIP_INSERTING) {
     if (m->u > c->law.out)
-      h[SW_CLIP_PEAK] = fmax(h[SW_CLIP_PEAK], m->push); /* else the lips pull it in */
+      h[SW_CLIP_PEAK] = fmax(h[SW_CLIP_PEAK], m->push); /* below the top the lips pull it in */
     if (m->u > (1.0 - SETTLED) * c->law.out) return;
     h[SW_CLIP_IN]++, h[SW_CLIP_IN_TIME] = time, h[SW_CLIP_IN_S] = m->s,
                      h[SW_CLIP_IN_PEAK] = h[SW_CLIP_PEAK];
     begin(h, SW_CLIP_SEATED);
   }
-  /* on its way in it is pulled too, but by nothing outside of the clip */
+  /* Only outward motion counts: on the way in the lips pull the wire too, without a load from
+   * outside. */
   if (h[SW_CLIP_STATE] == SW_CLIP_SEATED && m->u >= h[SW_CLIP_LAST] && -m->push > h[SW_CLIP_PEAK])
     h[SW_CLIP_PEAK] = -m->push, h[SW_CLIP_PEAK_SLOPE] = m->slope;
 }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory of a clip about a wire, and its events: the wire goes in, comes out, breaks the clip,
- * or crosses it in a way that the clip does not describe. */
+/* History of a clip on one wire, and its events: the wire goes in, comes out, breaks the clip, or
+ * crosses it in a way that the model does not cover. */
 #ifndef SW_FORCE_CLIP_WATCH_H
 #define SW_FORCE_CLIP_WATCH_H
 
 #include "force/clip_sum.h"
 #include "force/force.h"
 
-/* The head, then three numbers for each node or ring: how far friction's spring is stretched
- * [m], where along the axis the node was [m], and the most friction there [N]. */
+/* Layout of the history: the head, then three numbers for each node or ring: stretch of its
+ * friction spring [m], its place along the axis at the last commit [m], and its largest friction
+ * [N]. */
 enum {
   SW_CLIP_DISSIPATED,
   SW_CLIP_BEGUN,
@@ -24,17 +25,17 @@ enum {
   SW_CLIP_OUT,
   SW_CLIP_OUT_TIME,
   SW_CLIP_OUT_PEAK,
-  SW_CLIP_THERE_BEFORE, /* 1: the wire passed the clip's plane in the last accepted state, at */
+  SW_CLIP_THERE_BEFORE, /* 1: the wire crossed the clip's plane in the last accepted state, at */
   SW_CLIP_U_BEFORE,     /* this height and */
-  SW_CLIP_V_BEFORE,     /* this far to the side [m] */
-  SW_CLIP_PUSH,         /* the most that floor or wall did to it since it is deep in them [N] */
-  SW_CLIP_BROKEN,       /* part through which the wire broke out, see below; 0 = it did not */
+  SW_CLIP_V_BEFORE,     /* this distance to the side [m] */
+  SW_CLIP_PUSH,         /* largest push of floor or wall since the wire is deep in them [N] */
+  SW_CLIP_BROKEN,       /* the way the wire broke out, a number of the last list below; 0 = none */
   SW_CLIP_BROKEN_TIME,
   SW_CLIP_BROKEN_FORCE,
-  SW_CLIP_NEWS, /* what is to be told of the last step */
+  SW_CLIP_NEWS, /* event of the last step */
   SW_CLIP_NEWS_VALUE,
   SW_CLIP_NEWS_S,
-  SW_CLIP_PEAK_SLOPE, /* the middle's slope at the largest pull [-] */
+  SW_CLIP_PEAK_SLOPE, /* slope of the wire at the largest pull [-] */
   SW_CLIP_HEAD
 };
 enum { SW_CLIP_STRETCH, SW_CLIP_PLACE, SW_CLIP_MOST, SW_CLIP_EACH };
@@ -53,25 +54,26 @@ static inline int sw_clip_is_broken(const double *history) {
   return history && history[SW_CLIP_BROKEN] > 0;
 }
 
-/* The wire's part in the clip as a whole. */
+/* The whole of the wire within the clip. */
 typedef struct sw_clip_middle {
-  double share;   /* of the width that it passes through, between the walls [-] */
-  double u, v, s; /* of its middle [m] */
-  double push;    /* of lips, floor and walls along direction [N] */
-  sw_vec force;   /* of all [N] */
-  double passes;  /* share of the width that it passes through, anywhere [-] */
-  double at[2];   /* u and v of that [m] */
-  double along;   /* of the wire there and the axis, the cosine [-] */
-  double slope;   /* mean of the wire's rise over its way along the axis [-] */
-  double edge;    /* length of the longest edge there [m] */
+  double share;   /* share of the clip's width that the wire fills, between the walls [-] */
+  double u, v, s; /* mean u, v and arc length of that [m] */
+  double push;    /* force of lips, floor and walls along direction [N] */
+  sw_vec force;   /* their whole force on the wire [N] */
+  double passes;  /* share of the clip's width that the wire fills, at any u and v [-] */
+  double at[2];   /* mean u and v of that [m] */
+  double along;   /* mean cosine of the angle between wire and axis [-] */
+  double slope;   /* mean rise of the wire over its way along the axis [-] */
+  double edge;    /* length of the longest edge in the clip [m] */
 } sw_clip_middle;
 
 sw_clip_middle sw_clip_middle_of(const sw_clip *clip, const sw_field *field);
 
-/* After a step: 1 = the wire has broken the clip, which then does nothing to it any more. */
+/* After a step: 1 if the wire has broken the clip. The clip does not act on this wire from then
+ * on. */
 int sw_clip_breaks(const sw_clip *clip, const sw_clip_middle *middle, double time, double *history);
 
-/* After a step: which part of its way in or out the wire is on. */
+/* After a step: updates the wire's state on its way in or out. */
 void sw_clip_follow(const sw_clip *clip, const sw_clip_middle *middle, double time,
                     double *history);
 

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bending of a ring's wall about the wire: E = 1/2 k (phi - phi0)^2 with phi the angle by which the
+/* Bending of a ring's wall about the wire: E = 1/2 k (phi - phi0)^2. phi is the angle by which the
  * strip from b to c is turned from the strip from a to b, about the edge from b to d, which runs
- * along the wire (the hinge of Grinspun et al., Discrete shells, 2003). It has a sign: a wall that
- * is pressed flat or bent the other way is told from one that is not.
+ * along the wire (the hinge of Grinspun et al., Discrete shells, 2003). phi has a sign: it
+ * distinguishes a wall bent inwards from one bent outwards.
  *
- * With e = d - b, u its unit vector, l its length, the turn theta of q about e has with w = u x q,
- * h = |w|, n = w/h, s = q.e/l^2 the derivatives
+ * Let e = d - b, u its unit vector, l its length. The turn theta of q about e has, with w = u x q,
+ * h = |w|, n = w/h, s = q.e/l^2, the derivatives
  *   theta_q = w/h^2, theta_e = -s theta_q, theta_qq = (I - 2 n n')[u x]/h^2,
  *   theta_qe = -(I - 2 n n')[q x](I - u u')/(l h^2), theta_ee = -theta_q s_e' - s theta_qe,
  *   s_e = q/l^2 - 2 s e/l^2,
- * and phi = pi + theta(c - b) - theta(a - b). Undefined where a or c gets onto the edge (h = 0). */
+ * and phi = pi + theta(c - b) - theta(a - b). Undefined where a or c lies on the edge (h = 0). */
 #include "state/crease.h"
 
 #include <math.h>
 
 #include "force/force.h"
 
-enum { A, C, EDGE, PARTS }; /* what b's neighbours are from b */
+enum { A, C, EDGE, PARTS }; /* vectors from b to a, c and d */
 
 typedef double block[3][3];
 
@@ -91,7 +91,7 @@ static void add_force(const sw_web_crease *crease, const bent *b, double *force)
   }
 }
 
-/* Second derivatives of the energy by the vectors from b. */
+/* Second derivatives of the energy with respect to the vectors from b. */
 static void curve(const bent *b, block H[PARTS][PARTS]) {
   const double moment = b->k * b->over;
   for (int i = 0; i < 3; i++)
@@ -118,7 +118,7 @@ static void add_stiffness(const sw_web_crease *crease, const bent *b, size_t num
   block H[PARTS][PARTS], own = {{0}};
   curve(b, H);
   for (int m = 0; m < PARTS; m++) {
-    block with_b = {{0}}; /* what shifts b shifts all three the other way */
+    block with_b = {{0}}; /* moving b moves all three vectors the other way */
     for (int n = 0; n < PARTS; n++)
       for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {

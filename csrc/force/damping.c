@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inner and outer damping: mass term f = -alpha m v; axial force beta EA per rate
- * of strain in each edge; bending moment beta EI per rate of curvature. alpha and beta are
- * Rayleigh's: a mode of angular frequency omega has the damping ratio
- * alpha/(2 omega) + beta omega/2 (small vibrations). In a mesh of particles the dashpots are
- * those of its springs, beta k each; its folds and solid elements have none. */
+/* Inner and outer damping: mass term f = -alpha m v; axial force beta EA per strain rate in each
+ * edge; bending moment beta EI per rate of curvature. alpha and beta are Rayleigh's: a mode of
+ * angular frequency omega has the damping ratio alpha/(2 omega) + beta omega/2 (small vibrations).
+ * A mesh of particles has one dashpot of beta k beside each spring; its folds and solid elements
+ * have none. */
 #include <math.h>
 #include <stddef.h>
 
@@ -45,7 +45,7 @@ static void add_own(sw_field *f, size_t e, double a, double b) {
     for (int j = i; j < 3; j++, at++) f->own[at][e] += (a - b) * t[i] * t[j] + (i == j ? b : 0.0);
 }
 
-/* Rate of an edge's strain [1/s]. */
+/* Returns the strain rate of an edge [1/s]. */
 static double strain_rate(const sw_field *f, size_t e) {
   const double rest = f->plan->rest[e];
   if (f->strain_rate) return f->strain_rate[e];
@@ -53,8 +53,8 @@ static double strain_rate(const sw_field *f, size_t e) {
   return sw_dot(sw_field_tangent(f, e), edge_rate(f, e)) / rest;
 }
 
-/* By how much the dashpot's force changes the axial force that the stiffness across the edge may
- * use: in dynamics only what pulls (see force/axial.h) [N]. */
+/* Returns how much the dashpot's force changes the axial force that the stiffness across the edge
+ * uses. In dynamics only tension counts there (see force/axial.h) [N]. */
 static double pulled_more(double tension, double more) {
   return fmax(tension + more, 0.0) - fmax(tension, 0.0);
 }
@@ -78,7 +78,7 @@ static void axial_term(double beta, sw_field *f) {
   }
 }
 
-/* One dashpot beside the spring of a mesh. */
+/* Adds the dashpot beside one spring of a mesh. */
 static void spring_dashpot(double beta, sw_field *f, size_t e) {
   const sw_web_link *link = &f->plan->web->link[e];
   const double c = beta * link->k * link->rest;
@@ -116,7 +116,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   if (a->stiffness > 0 && f->plan->web) {
     for (size_t e = 0; e < f->plan->web->links; e++) spring_dashpot(a->stiffness, f, e);
   } else if (a->stiffness > 0) {
-    /* in statics nodes rest while what holds them may be under way */
+    /* in statics nodes are at rest, but holds may be moving */
     const double eta = a->stiffness * f->plan->beam.EI;
     axial_term(a->stiffness, f);
     sw_dashpot_hinges(eta, f);

@@ -4,7 +4,7 @@
 #include "base/simd.h"
 #include "state/clamp.h"
 
-/* Rotation of an edge without its spin: t x v / l [rad/s]. */
+/* Returns the rotation of an edge without its spin: t x v / l [rad/s]. */
 static sw_vec rotation_of(const sw_field *f, size_t e) {
   const sw_vec v = sw_sub(sw_load(f->v + 3 * e + 3), sw_load(f->v + 3 * e));
   return sw_scale(sw_cross(sw_field_tangent(f, e), v), f->reciprocal[e]);
@@ -17,7 +17,7 @@ static void add_own(sw_field *f, size_t e, double k) {
     for (int j = i; j < 3; j++, at++) f->own[at][e] += k * ((i == j ? 1.0 : 0.0) - t[i] * t[j]);
 }
 
-/* own += kr (I - t t') / l^2 of the edge at shift (0: second edge of the hinge, -1: first) */
+/* own += kr (I - t t') / l^2 for the edge at shift (0: second edge of the hinge, -1: first) */
 SW_HOT
 static void own_of_hinges(size_t n, long shift, double eta, const double *restrict hinge,
                           const double *restrict rl, const double *restrict tx,
@@ -92,13 +92,14 @@ void sw_dashpot_hinges(double eta, sw_field *f) {
                  x[5], x[6], x[7], x[8]);
 }
 
-/* How fast the edge falls behind the hold, about axes across the edge [rad/s]. */
+/* Returns the rotation rate of the hold relative to the edge, about axes across the edge
+ * [rad/s]. */
 static sw_vec clamp_rate(const sw_field *f, const sw_clamp_hinge *h) {
   const size_t c = (size_t)(h - f->plan->clamps);
   const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h)),
                t = sw_field_tangent(f, h->edge);
   const sw_vec turn = sw_vec_at(f->hold_turns, (size_t)h->hold);
-  const double spin = sw_dot(turn, d); /* does not count, see dashpot.h */
+  const double spin = sw_dot(turn, d); /* spin does not count, see dashpot.h */
   if (f->clamp_past || f->clamp_rate) {
     const sw_vec away = f->clamp_past
                             ? sw_scale(sw_sub(t, sw_vec_at(f->clamp_past, c)), f->velocity_rate)

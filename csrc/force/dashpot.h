@@ -5,16 +5,17 @@
 
 #include "force/force.h"
 
-/* The rate of a hinge of length w is rho / w with rho the rotation of its second edge less that
- * of its first, both without spin about themselves: rho = t2 x t2' - t1 x t1'. In a plane that is
- * the rate of the angle whatever the wire's rotation; where a bent wire is spun about its own
- * axis, it counts as bending. eta [N m2 s] */
+/* Adds the viscous moments of all hinges. The curvature rate of a hinge of length w is rho / w. rho
+ * is the rotation of its second edge minus that of its first, both without spin about their own
+ * axes: rho = t2 x t2' - t1 x t1'. For bending in a plane this is the rate of the angle, whatever
+ * the rotation of the whole wire. Spinning a bent wire about its own axis counts as bending.
+ * eta [N m2 s] */
 void sw_dashpot_hinges(double eta, sw_field *field);
 
-/* The same between a held director and an edge. */
+/* Adds the same between a held director and an edge. */
 void sw_dashpot_clamp(double eta, sw_field *field, const sw_clamp_hinge *hinge);
 
-/* Moment of that hinge on its edge [N m]. */
+/* Returns the moment of that hinge on its edge [N m]. */
 sw_vec sw_dashpot_clamp_moment(double eta, const sw_field *field, const sw_clamp_hinge *hinge);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Resistance of the surrounding air or liquid, at rest: f = -(c1 + c2 |v|) v
- * per length of wire, the same along and across (Morison's drag term with one
- * coefficient). */
+/* Resistance of still air or liquid: f = -(c1 + c2 |v|) v per length of wire, the same along and
+ * across (Morison's drag term with one coefficient). */
 #include <math.h>
 #include <stddef.h>
 

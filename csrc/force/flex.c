@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bending of the string model: a linear spring on the second difference,
- * E = 1/2 (EI/w_i) |e2/l2 - e1/l1|^2 with unstressed lengths l. Second
- * derivatives are constant, so it is the cheapest bending there is; it equals
- * 4 sin^2(phi/2) instead of phi^2, 1 % soft at 20 degrees a hinge. */
+/* Bending of the string model: a linear spring on the second difference, E = 1/2 (EI/w_i) |e2/l2 -
+ * e1/l1|^2 with unstressed lengths l. Its second derivatives are constant, so it is the cheapest
+ * bending force. The energy has 4 sin^2(phi/2) instead of phi^2: 1 % too soft at 20 degrees per
+ * hinge. */
 #include <math.h>
 
 #include "base/simd.h"
@@ -72,8 +72,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* The second difference stiffens axial waves too, so the limit is that of both:
- * omega^2 <= 16 EI/(mu l^4) + 4 EA/(mu l^2). */
+/* The second difference stiffens axial waves too, so the limit covers both: omega^2 <= 16 EI/(mu
+ * l^4) + 4 EA/(mu l^2). */
 static double stable_dt(const void *args, const sw_plan *plan) {
   const double EI = ((const sw_bend_args *)args)->EI, mu = plan->beam.mass;
   double smallest = HUGE_VAL;
@@ -85,7 +85,7 @@ static double stable_dt(const void *args, const sw_plan *plan) {
   return smallest;
 }
 
-/* e/l x k d: the couple of the linear spring between director and edge. */
+/* Returns e/l x k d: the couple of the linear spring between director and edge. */
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *h) {
   const size_t e = h->edge;
   const sw_vec d = sw_vec_at(f->hold_directors, sw_clamp_place(h));

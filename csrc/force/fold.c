@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bending between three particles of a web in a row: E = 1/2 k phi^2 with phi the angle between
- * the unit tangents t1 and t2 of both parts. As for a rod's hinges (bend.c): with c = cos phi,
- * s = phi/sin phi, w = (1 - s c)/sin^2 phi, p1 = t2 - c t1, p2 = t1 - c t2 the gradient by the
- * edge e1 is -k s p1/l1, and second derivatives are
- * H11 = (k w p1 p1' + k s (c (I - t1 t1') + t1 p1' + p1 t1')) / l1^2,
- * H12 = (k w p1 p2' - k s (I - t1 t1')(I - t2 t2')) / (l1 l2). With an angle phi0 at rest it is phi
- * - phi0 instead of phi, also in s. Undefined where a part is folded back onto the other (phi =
- * pi). */
+/* Bending between three particles of a web in a row: E = 1/2 k (phi - phi0)^2, phi the angle
+ * between the unit tangents t1 and t2 of both parts, phi0 the angle at rest. As for a rod's hinges
+ * (bend.c), with c = cos phi, s = (phi - phi0)/sin phi, w = (1 - s c)/sin^2 phi, p1 = t2 - c t1, p2
+ * = t1 - c t2, the gradient with respect to edge e1 is -k s p1/l1 and the second derivatives are
+ *   H11 = (k w p1 p1' + k s (c (I - t1 t1') + t1 p1' + p1 t1')) / l1^2,
+ *   H12 = (k w p1 p2' - k s (I - t1 t1')(I - t2 t2')) / (l1 l2).
+ * Undefined where one part is folded back onto the other (phi = pi). */
 #include <math.h>
 
 #include "force/force.h"
@@ -19,7 +18,7 @@ typedef struct bent {
   double k;                      /* [N m] */
 } bent;
 
-static const double LEAST_SINE = 1e-3; /* of a fold with an angle at rest [-] */
+static const double LEAST_SINE = 1e-3; /* lower bound of sin phi where phi0 > 0 [-] */
 
 static void measure(const sw_web_fold *fold, const double *x, bent *b) {
   const sw_vec at[3] = {sw_vec_at(x, fold->a), sw_vec_at(x, fold->b), sw_vec_at(x, fold->c)};
@@ -59,7 +58,7 @@ static void add_force(const sw_web_fold *fold, const bent *b, double *force) {
     }
 }
 
-/* Second derivatives by the edges. */
+/* Second derivatives with respect to one edge. */
 static void own_part(const bent *b, int n, double H[9]) {
   const double *t = b->t[n], *p = b->p[n], r = b->k / (b->l[n] * b->l[n]);
   for (int i = 0; i < 3; i++)

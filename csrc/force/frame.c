@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What material frames add to a rod: two bending stiffnesses, natural curvature,
- * twist with a value at every hinge (discrete elastic rods, Bergou et al. 2008 and
- * 2010). Of the bending energy 1/2 k1 (b1 - b1')^2 + 1/2 k2 (b2 - b2')^2, b as in
- * state/hinge.h and b' its unloaded value, bend.c has 1/2 k (b1^2 + b2^2), k the
- * smaller stiffness; here is the rest. */
+/* What material frames add to a rod: two bending stiffnesses, natural curvature, and a twist at
+ * every hinge (discrete elastic rods, Bergou et al. 2008 and 2010). The whole bending energy is 1/2
+ * k1 (b1 - b1')^2 + 1/2 k2 (b2 - b2')^2, with b as in state/hinge.h and b' its unloaded value.
+ * bend.c contributes 1/2 k (b1^2 + b2^2), k the smaller stiffness; this force adds the rest. */
 
 #include "force/frame.h"
 
@@ -18,7 +17,7 @@ FLAT void put(double *const *arrays, size_t at, vec v) {
   accumulate(arrays[2] + at, v.z);
 }
 
-/* Hinges i .. i + 3; lanes beyond the last hinge have no stiffness. */
+/* Loads hinges i .. i + 3. Lanes beyond the last hinge get no stiffness. */
 FLAT void gather(const sw_field *f, size_t i, hinge *h, kind what) {
   const sw_plan *p = f->plan;
   double *const *t = f->tangent;
@@ -30,7 +29,7 @@ FLAT void gather(const sw_field *f, size_t i, hinge *h, kind what) {
     h->a.m1 = (vec){load(m[0] + i - 1), load(m[1] + i - 1), load(m[2] + i - 1)};
     h->b.m1 = (vec){load(m[0] + i), load(m[1] + i), load(m[2] + i)};
   }
-  double end[4][2 * LANES]; /* the last hinges, and what lanes beyond them get */
+  double end[4][2 * LANES]; /* copies of the last hinges, filled up for the lanes beyond */
   const double *length = p->hinge + i, *twist = f->hinge_twist + i, *rest_twist = p->rest_twist + i;
   const double *bend = p->rest_bend + 2 * i;
   if (i + LANES > p->edges) {
@@ -96,11 +95,11 @@ static void curved(const frame_args *args, sw_field *f) { between_edges(args, f,
 SW_HOT
 static void two(const frame_args *args, sw_field *f) { between_edges(args, f, TWO); }
 
-/* --- clamps, one in all lanes ----------------------------------------------------- */
+/* --- clamps, the same hinge in all lanes --------------------------------------------- */
 
 FLAT void spread(vec *out, sw_vec v) { *out = (vec){all(v.x), all(v.y), all(v.z)}; }
 
-/* The hinge between a held frame, as an edge of length 1, and an edge. */
+/* Sets the hinge between a held frame, treated as an edge of length 1, and an edge. */
 FLAT void clamp_hinge(const frame_args *args, const sw_field *f, size_t c, hinge *h) {
   const sw_plan *p = f->plan;
   const sw_clamp_hinge *at = &p->clamps[c];
@@ -165,7 +164,7 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* What turning the held frame would cost: the moment on the wire. */
+/* Returns the moment on the wire: the energy's derivative by a rotation of the held frame. */
 SW_HOT
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *at) {
   hinge h;
@@ -179,7 +178,7 @@ static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_h
 const sw_force_class sw_force_frame = {
     .name = "frame",
     .summary = "two bending stiffnesses, natural curvature and local twist",
-    .stores = "twist", /* beside what counts as bend */
+    .stores = "twist", /* the rest of its energy counts as bend */
     .flags = SW_FORCE_INNER,
     .params = {"force frame", NULL, 0},
     .eval = eval,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The second derivatives of the hinge of frame.c, four at a time. Private to that file. */
+/* Second derivatives of the hinge of frame.c, four hinges at a time. Private to that file. */
 #ifndef SW_FORCE_FRAME_H
 #define SW_FORCE_FRAME_H
 
@@ -15,7 +15,7 @@ FLAT void add_pair(lane out[6], vec x, vec y) {
   out[5] += 2.0 * x.z * y.z;
 }
 
-/* out += x y', which is symmetric */
+/* out += x y', for x and y whose product is symmetric */
 FLAT void add_symmetric(lane out[6], vec x, vec y) {
   out[0] += x.x * y.x;
   out[1] += x.x * y.y;
@@ -32,7 +32,7 @@ FLAT void add_product(lane out[9], vec x, vec y) {
   out[6] += x.z * y.x, out[7] += x.z * y.y, out[8] += x.z * y.z;
 }
 
-/* g k' + k g' over the edges, and with the spins of g */
+/* Adds g k' + k g' over the edges, and the products of k's edges with g's spins. */
 FLAT void add_edge_pair(blocks *o, const slope *g, const slope *k) {
   add_pair(o->own1, g->e1, k->e1);
   add_pair(o->own2, g->e2, k->e2);
@@ -44,7 +44,7 @@ FLAT void add_edge_pair(blocks *o, const slope *g, const slope *k) {
   o->e2s2 = madd(o->e2s2, k->e2, g->s2);
 }
 
-/* The same over all unknowns */
+/* Adds g k' + k g' over all unknowns. */
 FLAT void add_slope_pair(blocks *o, const slope *g, const slope *k) {
   add_edge_pair(o, g, k);
   o->e1s1 = madd(o->e1s1, g->e1, k->s1);
@@ -77,7 +77,7 @@ FLAT void add_across(lane out[6], vec t, lane f) {
   add_pair(out, t, scale(t, -0.5 * f));
 }
 
-/* f times the second derivative of the cosine */
+/* Adds f times the second derivative of the cosine. */
 FLAT void add_cosine(blocks *o, const hinge *h, lane f) {
   const vec a = h->a.t, b = h->b.t;
   const lane f1 = -f * h->ra * h->ra, f2 = -f * h->rb * h->rb, f3 = f * h->ra * h->rb;
@@ -90,8 +90,8 @@ FLAT void add_cosine(blocks *o, const hinge *h, lane f) {
   add_product(o->next, b, scale(b, -f3));
 }
 
-/* s times the second derivative of f1 q1 + f2 q2; ma, mb: the axes summed with those
- * factors */
+/* Adds s times the second derivative of f1 q1 + f2 q2; ma, mb: the axes summed with these
+ * factors. */
 FLAT void add_q(blocks *o, const hinge *h, vec ma, vec mb) {
   const vec a = h->a.t, b = h->b.t;
   const lane c = h->cosine, f = 0.5 * h->s, ab = dot(a, mb), ba = dot(b, ma);
@@ -105,7 +105,7 @@ FLAT void add_q(blocks *o, const hinge *h, vec ma, vec mb) {
   add_pair(o->own2, mb, scale(h->across_b, -0.5 * f2));
   add_product(o->next, ma, scale(h->across_b, f3));
   add_product(o->next, h->across_a, scale(mb, -f3));
-  const vec ta = cross(a, ma), tb = cross(b, mb); /* turned by a right angle */
+  const vec ta = cross(a, ma), tb = cross(b, mb); /* turned by 90 degrees */
   o->e1s1 = madd(o->e1s1, ta, -f * h->ra * c);
   o->e1s2 = madd(o->e1s2, madd(tb, a, -dot(tb, a)), -f * h->ra);
   o->e2s1 = madd(o->e2s1, madd(ta, b, -dot(ta, b)), f * h->rb);
@@ -114,7 +114,7 @@ FLAT void add_q(blocks *o, const hinge *h, vec ma, vec mb) {
   o->spin2 += f * ab;
 }
 
-/* f times the second derivative of the twist */
+/* Adds f times the second derivative of the twist. */
 FLAT void add_twist(blocks *o, const hinge *h, lane f) {
   const vec a = h->a.t, b = h->b.t;
   const lane over = h->over, f3 = 0.5 * f * h->ra * h->rb;
@@ -138,7 +138,7 @@ FLAT void second(const hinge *h, blocks *o, const frame_args *args, kind what) {
   add_square(o, &h->gm, h->twist_stiffness + whole * h->gain_curve);
   add_twist(o, h, h->torque + whole * h->gain_slope);
   for (int j = 0; j < 2 && what == TWO; j++) {
-    if (args->EI_axis[j] == args->EI) continue; /* at least one is */
+    if (args->EI_axis[j] == args->EI) continue; /* true for at least one j */
     const slope g = add_slopes(&h->gb[j], h->gain, &h->gm, h->gain_slope * h->s * h->q[j]);
     add_square(o, &g, h->excess[j]);
   }
@@ -148,7 +148,7 @@ FLAT void second(const hinge *h, blocks *o, const frame_args *args, kind what) {
   const lane sum = f0 * h->q[0] + f1 * h->q[1];
   const slope g = add_slopes(&h->gq[0], f0, &h->gq[1], f1);
   const slope mix = add_slopes(&g, -h->w, &h->gc, 0.5 * sum * h->third);
-  add_edge_pair(o, &mix, &h->gc); /* the cosine knows no spin */
+  add_edge_pair(o, &mix, &h->gc); /* the cosine does not depend on spins */
   add_cosine(o, h, -h->w * sum);
   add_q(o, h, madd(scale(h->ma[0], f0), h->ma[1], f1), madd(scale(h->mb[0], f0), h->mb[1], f1));
 }

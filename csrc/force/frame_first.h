@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The hinge of frame.c, four at a time: energy and first derivatives. Private to that file.
+/* The hinge of frame.c, four hinges at a time: energy and first derivatives. Private to that file.
  *
- * Derivatives are with respect to the edge vectors, frames being carried along
- * without turning about themselves, and to that turn. They are exact; the second
- * ones are made symmetric, which they are where no spin is out of balance. Each
- * part of b is g phi/sin(phi) q with q = (m_a . t_b - m_b . t_a)/2, g the gain. */
+ * The unknowns are the edge vectors, with frames carried along without turning about their own
+ * tangents, and that turn (the spin). First derivatives are exact. Second derivatives are made
+ * symmetric; they are symmetric by themselves where all spins are in equilibrium. Each component of
+ * b is g phi/sin(phi) q with q = (m_a . t_b - m_b . t_a)/2 and g the gain. */
 #ifndef SW_FORCE_FRAME_FIRST_H
 #define SW_FORCE_FRAME_FIRST_H
 
@@ -19,20 +19,20 @@ typedef struct frame {
   vec t, m1;
 } frame;
 
-/* Parts to compute; all others are left out. */
+/* Terms to compute; the others are left out. */
 typedef enum kind {
-  TWISTED, /* straight at rest, one stiffness: twist is all that bend.c does not know */
+  TWISTED, /* straight at rest, one stiffness: bend.c has all but the twist */
   CURVED,  /* one stiffness, bent at rest */
   TWO      /* two stiffnesses */
 } kind;
 
 typedef struct frame_args {
-  double EI; /* what bend has [N m2] */
+  double EI; /* stiffness in bend.c [N m2] */
   double EI_axis[2];
   double GJ; /* [N m2] */
 } frame_args;
 
-/* A derivative with respect to both edges and both spins. */
+/* Derivative with respect to both edges and both spins. */
 typedef struct slope {
   vec e1, e2;
   lane s1, s2;
@@ -43,15 +43,15 @@ typedef struct hinge {
   lane ra, rb; /* 1/length of the edges [1/m] */
   lane over_length, twist;
   lane rest[2], rest_twist;
-  lane excess[2], twist_stiffness; /* over bend's; [N m] */
+  lane excess[2], twist_stiffness; /* excess: above bend.c's; [N m] */
   lane push[2], torque;            /* d energy / d bend, d energy / d twist [N m] */
   lane cosine, s, w, third;
   lane gain, gain_slope, gain_curve;
   vec ma[2], mb[2];       /* material axes */
-  vec across_a, across_b; /* the other tangent's part across this one */
+  vec across_a, across_b; /* part of the other tangent across this one */
   lane over;              /* 1/(1 + cosine) */
   lane q[2], energy, bending;
-  slope gq[2], gc, gb[2], gm; /* of q, cosine, bend without gain, twist */
+  slope gq[2], gc, gb[2], gm; /* of q, cosine, bend without gain, and twist */
 } hinge;
 
 typedef struct blocks {
@@ -93,19 +93,19 @@ FLAT slope scale_slope(const slope *g, lane f) {
                                                                     (u) * (13 *       \
                                                                            SW_FIT_W13)))))))))))))
 
-/* a where a is larger, else b. */
+/* Returns the larger of a and b in each lane. */
 FLAT lane larger(lane a, lane b) {
   const wide yes = a > b;
   return (lane)((yes & (wide)a) | (~yes & (wide)b));
 }
 
-/* The largest of all in every lane. */
+/* Returns the largest item of x, in every lane. */
 FLAT lane largest_lane(lane x) {
   const lane a = larger(__builtin_shufflevector(x, x, 2, 3, 0, 1), x);
   return larger(__builtin_shufflevector(a, a, 1, 0, 3, 2), a);
 }
 
-/* 1/(1 + cosine), bounded where edges fold back: about 177 degrees. */
+/* Returns 1/(1 + cosine), bounded where edges fold back (beyond about 177 degrees). */
 FLAT lane over_sum(lane cosine) { return 1.0 / larger(1.0 + cosine, all(1e-3)); }
 
 FLAT void set_angle(hinge *h) {
@@ -127,7 +127,7 @@ FLAT void set_angle(hinge *h) {
   }
 }
 
-/* The gain by series below this [rad]. */
+/* Below this twist the gain comes from a series [rad]. */
 static const double SMALL_TWIST = 0.5;
 
 FLAT void set_gain(hinge *h) {
@@ -154,7 +154,7 @@ FLAT void set_gain(hinge *h) {
 
 /* --- energy and first derivatives ----------------------------------------------- */
 
-/* From frames, lengths, twist and rest to energy and generalised forces. */
+/* Computes energy and generalised forces from frames, lengths, twist and rest values. */
 FLAT void set_hinge(hinge *h, const frame_args *args, kind what) {
   const lane off = h->twist - h->rest_twist;
   h->twist_stiffness = args->GJ * h->over_length;
@@ -182,7 +182,7 @@ FLAT void set_hinge(hinge *h, const frame_args *args, kind what) {
   h->energy = h->bending + 0.5 * h->torque * off;
 }
 
-/* Slopes of the cosine, of q and of the twist. */
+/* Computes the slopes of the cosine, of q and of the twist. */
 FLAT void set_slopes(hinge *h, kind what) {
   const vec a = h->a.t, b = h->b.t;
   const lane c = h->cosine, zero = all(0.0);
@@ -195,14 +195,14 @@ FLAT void set_slopes(hinge *h, kind what) {
   for (int j = 0; j < 2; j++) {
     const vec ma = h->ma[j], mb = h->mb[j];
     const vec pa = madd(mb, a, -dot(mb, a)), pb = madd(ma, b, -dot(ma, b));
-    const double sign = j == 0 ? 0.5 : -0.5; /* turning takes m1 to m2, m2 to -m1 */
+    const double sign = j == 0 ? 0.5 : -0.5; /* a spin turns m1 to m2 and m2 to -m1 */
     h->gq[j] = (slope){scale(madd(pa, ma, c), -0.5 * h->ra), scale(madd(pb, mb, c), 0.5 * h->rb),
                        sign * dot(h->ma[1 - j], b), -sign * dot(h->mb[1 - j], a)};
     h->gb[j] = add_slopes(&h->gq[j], h->s, &h->gc, -h->w * h->q[j]);
   }
 }
 
-/* Sum of push times bend without gain, the factor of the gain's derivatives. */
+/* Returns the sum of push times bend without gain: the factor of the gain's derivatives. */
 FLAT lane pushed(const hinge *h) { return h->s * (h->push[0] * h->q[0] + h->push[1] * h->q[1]); }
 
 FLAT slope gradient(const hinge *h, kind what) {

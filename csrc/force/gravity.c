@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Weight: f_i = m_i g with lumped masses, which is also what consistent masses
- * give for a uniform field. Potential energy -m g.x, zero at the origin. */
+/* Weight: f_i = m_i g with lumped masses; consistent masses give the same in a uniform field.
+ * Potential energy -m g.x, zero at the origin. */
 #include "base/simd.h"
 #include "base/spread.h"
 #include "force/force.h"

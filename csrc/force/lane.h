@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Four hinges at a time, one in each lane. Whoever includes this keeps them inside one
- * file, so how functions pass them does not matter. */
+/* Vectors of four hinges, one hinge in each lane. All users keep these types inside one file, so
+ * the calling convention of vector arguments does not matter. */
 #ifndef SW_FORCE_LANE_H
 #define SW_FORCE_LANE_H
 

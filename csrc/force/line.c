@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A dead force spread evenly over the wire's length: f_i = q l_i with l_i the
- * length that belongs to node i. */
+/* A dead force spread evenly over the wire's length: f_i = q l_i, l_i being the length that belongs
+ * to node i. */
 #include <math.h>
 #include <stddef.h>
 

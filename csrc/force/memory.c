@@ -6,7 +6,9 @@
 #include "force/slip.h"
 
 enum { SLOT = 6, FIRST = 1 };
-static const double CAUTIOUS_SHARE = 0.5; /* steps then overshoot a kink no more than twofold [-] */
+/* Share of the slip that reduces cautious stiffness: iterations overshoot a kink at most twofold
+ * [-]. */
+static const double CAUTIOUS_SHARE = 0.5;
 
 size_t sw_memory_size(const sw_plan *p) { return FIRST + SLOT * (p->nodes + p->clamp_count); }
 
@@ -26,7 +28,7 @@ static sw_slip_law law_of(const sw_memory_law *law, double length) {
                        law->limit};
 }
 
-/* The hinge of a node; at the wire's ends both tangents are the only edge's. */
+/* Returns the hinge of a node. At the wire's ends both tangents are those of the only edge. */
 static sw_slip_hinge node_hinge(const sw_field *f, size_t i) {
   const size_t before = i > 0 ? i - 1 : 0, after = i < f->plan->edges ? i : i - 1;
   return (sw_slip_hinge){{sw_field_tangent(f, before), sw_field_tangent(f, after)},
@@ -52,7 +54,7 @@ static void add_energy(sw_field *f, const sw_slip_answer *a) {
   f->bending += a->elastic;
 }
 
-/* Nothing slipped so far, and too little bent to slip now: phi <= pi sin(phi/2). */
+/* 1 if nothing has slipped and the hinge is bent too little to slip: phi <= pi sin(phi/2). */
 static int is_idle(const sw_slip_law *law, const sw_slip_memory *m, const sw_slip_hinge *h) {
   if (law->own > 0 || sw_norm2(m->slipped) > 0) return 0;
   return 0.5 * M_PI * law->k * sw_dist(h->t[0], h->t[1]) <= law->limit;
@@ -100,7 +102,7 @@ void sw_memory_commit(const sw_memory_law *law, const sw_field *f, double *histo
   }
 }
 
-/* The couple of the hinge's gradient on its edge. */
+/* Returns the couple that the hinge's gradient exerts on its edge. */
 sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *f,
                               const sw_clamp_hinge *c) {
   const sw_slip_law one = law_of(law, c->length);
@@ -114,15 +116,15 @@ sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *f,
 
 /* --- another plan ------------------------------------------------------------ */
 
-/* Length of the clamp hinge on one side of a node, or 0. */
+/* Returns the length of the clamp hinge on one side of a node, or 0. */
 static double clamp_length(const sw_plan *p, size_t node, int side) {
   for (size_t c = 0; c < p->clamp_count; c++)
     if (p->clamps[c].node == node && p->clamps[c].side == side) return p->clamps[c].length;
   return 0;
 }
 
-/* The stretch of wire whose bending a slot stands for: hinges' and clamp hinges'
- * lengths one after another. */
+/* Finds the stretch of wire whose bending a slot holds. The stretches of all hinges and clamp
+ * hinges lie one after another. */
 static void stretch_of(const sw_plan *p, size_t slot, double *from, double *to) {
   if (slot >= p->nodes) {
     const sw_clamp_hinge *c = &p->clamps[slot - p->nodes];
@@ -142,9 +144,9 @@ static void stretch_of(const sw_plan *p, size_t slot, double *from, double *to) 
   }
 }
 
-static const double SAME = 1e-9; /* of a stretch: rounding of its ends [-] */
+static const double SAME = 1e-9; /* rounding of a stretch's ends, over its length [-] */
 
-/* Slipped angle of the old plan between two arc lengths, in the plane across b. */
+/* Sums the old plan's slipped angle between two arc lengths, in the plane across b. */
 static sw_slip_memory collect(const sw_plan *old, const double *history, double from, double to,
                               sw_vec b) {
   sw_slip_memory sum = {sw_v(0, 0, 0), b};

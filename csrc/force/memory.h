@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The slipping hinges of a whole wire: where they are in a history, how they are evaluated,
- * committed and carried over to another plan. Shared by plastic and stick_slip. A history is
- * the work dissipated so far [J], then six numbers for each node and for each clamp hinge:
- * slipped angle [rad] and tangent [-]. Held nodes and ends have no hinge but keep the slip of
- * the hinge that was there. */
+/* The slipping hinges of a whole wire, shared by plastic and stick_slip: layout of the history,
+ * evaluation, commit, and transfer to another plan. A history is the work dissipated so far [J],
+ * then six numbers for each node and each clamp hinge: slipped angle [rad] and tangent [-]. Held
+ * nodes and ends have no hinge; they keep the slip of a hinge that was there before. */
 #ifndef SW_FORCE_MEMORY_H
 #define SW_FORCE_MEMORY_H
 
 #include "force/force.h"
 
-/* The law of a wire; a hinge of length w has k = stiffness / w and so on. */
+/* The law of a wire. A hinge of length w has k = stiffness / w, and so on. */
 typedef struct sw_memory_law {
   double stiffness; /* [N m2] */
-  double own;       /* the same when the spring itself is meant, else 0 [N m2] */
+  double own;       /* stiffness if this force is the whole spring; 0 if it corrects bend [N m2] */
   double hardening; /* [N m2] */
   double limit;     /* [N m] */
 } sw_memory_law;
@@ -22,13 +21,12 @@ void sw_memory_eval(const sw_memory_law *law, sw_field *field);
 void sw_memory_commit(const sw_memory_law *law, const sw_field *field, double *history);
 sw_vec sw_memory_clamp_moment(const sw_memory_law *law, const sw_field *field,
                               const sw_clamp_hinge *hinge);
-/* Fill history for field's plan from one of an older plan of the same wire: the
- * slipped angle per length is kept at its arc lengths, so that its sum stays. */
+/* Fills the history for field's plan from the history of an older plan of the same wire. The
+ * slipped angle per length is kept at its arc lengths, so the total slip stays. */
 void sw_memory_inherit(const sw_plan *old, const double *from, const sw_field *field,
                        double *history);
 
-/* What such a force evaluates, commits and tells of a clamp: eval, commit and clamp_moment, by
- * law_of(args, plan). */
+/* Defines eval, commit and clamp_moment of such a force; law_of(args, plan) gives its law. */
 #define SW_MEMORY_FORCE(law_of)                                                                  \
   static sw_status eval(const void *args, sw_field *f, sw_error *err) {                          \
     const sw_memory_law law = law_of(args, f->plan);                                             \

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A couple at one arc length about an axis fixed in space, of fixed size M. Its
- * work is M times the angle by which the wire's direction turns about the axis,
- * E = -M theta with theta the azimuth of the edge vector e about the axis:
- * gradient and second derivative of an azimuth are exact and symmetric. It bends;
- * it does not twist the wire (its part along the wire does no work). Undefined
- * where the wire lies along the axis; the energy is known up to whole turns. */
+/* A couple of fixed size M about an axis fixed in space, at one arc length. Its work is M times the
+ * angle by which the wire's direction turns about the axis: E = -M theta, theta being the azimuth
+ * of the edge vector e about the axis. Gradient and second derivative of the azimuth are exact and
+ * symmetric. The couple bends but does not twist the wire (its component along the wire does no
+ * work). Undefined where the wire lies along the axis; the energy is known up to whole turns. */
 #include <math.h>
 #include <stddef.h>
 
@@ -23,16 +22,16 @@ static const sw_param rows[] = {
      "the couple, fixed in world axes; it bends, it does not twist"},
 };
 
-/* Below this share of its length across the axis an edge has no azimuth [-]. */
+/* An edge whose part across the axis is below this share of its length has no azimuth [-]. */
 static const double LEAST_ACROSS = 1e-6;
 
-/* The couple's share on one edge. */
+/* Adds the couple's share on one edge. */
 static void on_edge(const sw_vec *axis, double M, size_t e, sw_field *f) {
   const sw_vec edge = sw_sub(sw_vec_at(f->x, e + 1), sw_vec_at(f->x, e));
   const sw_vec across = sw_madd(edge, *axis, -sw_dot(edge, *axis));
   const double r2 = sw_norm2(across), least = LEAST_ACROSS * f->plan->rest[e];
   if (!(r2 > least * least)) return;
-  const sw_vec round = sw_cross(*axis, across); /* as long as across */
+  const sw_vec round = sw_cross(*axis, across); /* has the length of across */
   if (f->want & SW_WANT_ENERGY) {
     const sw_vec zero = sw_perpendicular(*axis), ninety = sw_cross(*axis, zero);
     f->energy -= M * atan2(sw_dot(across, ninety), sw_dot(across, zero));
@@ -45,7 +44,7 @@ static void on_edge(const sw_vec *axis, double M, size_t e, sw_field *f) {
     for (int j = i; j < 3; j++, at++) f->own[at][e] += M * (p[i] * q[j] + q[i] * p[j]) / (r2 * r2);
 }
 
-/* The edges whose middles s lies between share the couple by their distance. */
+/* Shares the couple between the two edges whose middles enclose s, by distance. */
 static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   const moment_args *a = args;
   const sw_plan *plan = f->plan;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solid elements between the particles of a web: the compressible neo-Hookean body of
- * force/solid.h, prisms and hexahedra. Its second derivative is exact; iterations that would not
- * converge take one without negative eigenvalues. Steps are kept so short that no element turns
- * inside out; one that was put so is pushed back. */
+/* Solid elements between the particles of a web: prisms and hexahedra of the compressible
+ * neo-Hookean body of force/solid.h. The second derivative is exact; iterations that do not
+ * converge use one without negative eigenvalues. largest_share keeps iterations so short that no
+ * element turns inside out; an element that starts inverted is pushed back. */
 #include <math.h>
 
 #include "base/each.h"
@@ -15,8 +15,8 @@ static void gather(const sw_web_solid *s, const double *x, double *out) {
     for (size_t k = 0; k < 3; k++) out[3 * i + k] = x[3 * (size_t)s->node[i] + k];
 }
 
-/* Elements list a pair's particles in the order of the slots, j before i; the particle with the
- * larger number has the rows. */
+/* Adds an element's stiffness. Pairs (i, j), j before i, come in the order of the slots. A block's
+ * rows belong to the particle with the larger number. */
 SW_HOT
 static void add_stiffness(const sw_web_solid *s, const double *H, const size_t *slot, sw_field *f) {
   const size_t n = 3 * s->count, stride = f->block_stride;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plane strain: a stiff spring keeps each node or particle at its arc length along a line, so that
- * nothing moves along it and sections deform across it only: E = 1/2 k l (d.(x - at) - s)^2, with l
- * the length of wire that the particle stands for. A slice of a long wire between plates. Unless
- * told where, the line is the one that the wire lies on when the force is made. */
+/* Plane strain: a stiff spring keeps each node or particle at its arc length along a line. Nothing
+ * moves along the line, and sections deform only across it: E = 1/2 k l (d.(x - at) - s)^2, with l
+ * the length of wire that the particle stands for. This models a slice of a long wire between
+ * plates. Without arguments for it, the line is the one on which the wire lies when the force is
+ * made. */
 #include <math.h>
 #include <stddef.h>
 
@@ -24,7 +25,7 @@ static const sw_param rows[] = {
      "against motion, per length of wire (10000 EA/radius^2 when not given)"},
 };
 
-static const double STIFF = 1e4; /* over what a slice as thick as the wire's radius has [-] */
+static const double STIFF = 1e4; /* default, over a slice as thick as the wire's radius [-] */
 
 static double stiffness_of(const plane_strain_args *a, const sw_beam *b) {
   return isnan(a->stiffness) ? STIFF * b->EA / (b->radius * b->radius) : a->stiffness;
@@ -60,8 +61,8 @@ static sw_status check(const void *args, const sw_beam *beam, sw_error *err) {
   return sw_fail(err, SW_EINVAL, "force plane_strain: direction must not be zero");
 }
 
-/* Of a straight wire; it may lie a little bent, but not across. */
-static const double LARGEST_OFF = 0.02; /* over its length [-] */
+/* A wire may be slightly bent, but must lie along direction: */
+static const double LARGEST_OFF = 0.02; /* largest deviation over its length [-] */
 
 static sw_status place(void *args, size_t n, const double *x, const double *s, sw_error *err) {
   plane_strain_args *a = args;
@@ -77,7 +78,7 @@ static sw_status place(void *args, size_t n, const double *x, const double *s, s
     first = fmin(first, s[i]), last = fmax(last, s[i]);
   }
   for (size_t i = 0; i < n; i++) along += (s[i] - mean_s) * sw_dot(sw_vec_at(x, i), d);
-  if (along < 0) d = sw_scale(d, -1.0); /* drawn against the direction */
+  if (along < 0) d = sw_scale(d, -1.0); /* drawn against direction */
   for (size_t i = 0; i < n; i++) mean += (sw_dot(sw_vec_at(x, i), d) - s[i]) / (double)n;
   for (size_t i = 0; i < n; i++) most = fmax(most, fabs(sw_dot(sw_vec_at(x, i), d) - s[i] - mean));
   if (most > LARGEST_OFF * (last - first))

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elastic-plastic bending with a yield moment and linear kinematic hardening
- * (Prager), in both planes: the moment is EI (kappa - kappa_p), and
- * |EI (kappa - kappa_p) - hardening kappa_p| stays within the yield moment. The
- * wire's own bend gives 1/2 k phi^2; this force adds the difference, so that an
- * elastic wire pays nothing and `bend` needs no history (see slip.c). The plastic
- * curvature turns with the tangent but not about it: where a bent wire is spun
- * about its own axis, it stays behind. The section yields as one hinge, without
- * the gradual transition of a real section, and without regard to tension. */
+/* Elastic-plastic bending with a yield moment and linear kinematic hardening (Prager), in both
+ * planes: the moment is EI (kappa - kappa_p), and |EI (kappa - kappa_p) - hardening kappa_p| stays
+ * within the yield moment. The wire's own bend gives 1/2 k phi^2; this force adds the difference,
+ * so an elastic wire costs nothing and `bend` needs no history (see slip.c). The plastic curvature
+ * turns with the tangent but not about it: it does not follow a bent wire that spins about its own
+ * axis. The section yields as one hinge, without the gradual transition of a real section and
+ * independently of tension. */
 #include <math.h>
 #include <stddef.h>
 

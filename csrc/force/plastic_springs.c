@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Springs that yield: the length without load flows when a spring is strained beyond its yield
- * strain, either way. A spring of stiffness k and length l0 without load, longer by d, has the
- * force k (d - p) with p its plastic elongation, and with linear kinematic hardening (Prager)
- * |k (d - p) - h k p| <= k l0 yield. Beyond it further elongation meets the stiffness
- * k h/(1 + h): 0 without hardening.
+/* Springs that yield: the rest length changes when a spring is strained beyond its yield strain in
+ * either direction. A spring of stiffness k and rest length l0, elongated by d, has the force k (d
+ * - p) with p its plastic elongation. With linear kinematic hardening (Prager), |k (d - p) - h k p|
+ * <= k l0 yield. Beyond that, further elongation meets the stiffness k h/(1 + h): 0 without
+ * hardening.
  *
- * Backward Euler from the remembered p_o (radial return; Simo and Hughes 1998) in closed form,
- * with K = (1 + h) k, xi = k d - K p_o and o = max(0, |xi| - k l0 yield): p = p_o + sign(xi) o/K,
- * which is the minimum over p of
+ * Backward Euler from the remembered p_o (radial return; Simo and Hughes 1998) has a closed form.
+ * With K = (1 + h) k, xi = k d - K p_o and o = max(0, |xi| - k l0 yield): p = p_o + sign(xi) o/K,
+ * the minimum over p of
  *   1/2 k (d - p)^2 + 1/2 h k p^2 + k l0 yield |p - p_o|.
  * The spring itself (spring.c) gives 1/2 k d^2; this force adds the difference
  *   W = - k d p_o + 1/2 K p_o^2 - o^2/(2 K),
- * so that springs that never yielded cost no more than a look at their length. The stiffness is
- * W's second derivative, the consistent one. A web does not change, so that histories go over to
- * another plan of the same body as they are. */
+ * so a spring that never yielded costs only the check of its length. The stiffness is W's second
+ * derivative, the consistent tangent. A body's web does not change, so inherit copies histories. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -21,7 +20,7 @@
 #include "force/force.h"
 
 typedef struct yield_args {
-  double yield;     /* NAN: as the web's links have it [-] */
+  double yield;     /* NAN: the yield of the web's links [-] */
   double hardening; /* [-] */
 } yield_args;
 
@@ -32,20 +31,20 @@ static const sw_param rows[] = {
      "force gained per plastic elongation, of the spring's stiffness; lost in the other direction"},
 };
 
-/* Slipping found less by rounding than this share of the limit is none: solving starts with the
- * elastic side [-]. */
+/* An excess over the limit below this share of it is rounding and counts as no yield: solves start
+ * on the elastic side [-]. */
 static const double ON_LIMIT = 1e-10;
-static const double CAUTIOUS_SHARE = 0.5; /* share of the stiffness that flowing takes off [-] */
+static const double CAUTIOUS_SHARE = 0.5; /* share of the softening in cautious stiffness [-] */
 
 typedef struct spring {
   double k, harden, limit; /* [N/m], [N/m], [N] */
   double l, longer;        /* length, elongation [m] */
-  double t[3];             /* along it [-] */
+  double t[3];             /* unit vector along the spring [-] */
   double before, after;    /* plastic elongation [m] */
   double xi, over;         /* [N] */
 } spring;
 
-/* 0: it cannot yield. */
+/* Measures spring e; 0: it cannot yield. */
 static int measure(const yield_args *a, const sw_web *w, size_t e, const double *x,
                    const double *history, spring *s) {
   const sw_web_link *link = &w->link[e];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A dead force at one arc length: fixed direction and size, shared between the
- * edge's two nodes by its place between them. In a mesh of particles each of both rings
- * shares its part out by mass, so that the force acts at the middle of the section. */
+/* A dead force at one arc length, of fixed direction and size, shared between the edge's two nodes
+ * in proportion to its position. In a mesh of particles each of the two rings distributes its part
+ * by mass, so that the force acts at the section's centre. */
 #include <math.h>
 #include <stddef.h>
 

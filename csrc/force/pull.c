@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A spring from one place of a wire to a point, whose force is limited, as of a hand that does not
- * hold on harder: with d the distance, F the limit and d0 = F / k,
+/* A spring of limited force from one place of a wire to a point, like a hand that holds only so
+ * hard. With d the distance, F the limit and d0 = F / k:
  *   E = 1/2 k d^2 up to d0, F (d - d0 / 2) beyond: the force is k d, then F, towards the point.
- * It has no mass and no damping, and holds no direction of the wire. */
+ * It has no mass and no damping, and does not fix the wire's direction. */
 #include <math.h>
 #include <stddef.h>
 
@@ -31,10 +31,10 @@ static const sw_param rows[] = {
 
 typedef struct pulled {
   size_t i;        /* the place is between places i and i + 1 of the wire */
-  double part[2];  /* shares of both [-] */
-  sw_vec n;        /* from the point to the place, of length 1; or none [-] */
+  double part[2];  /* shares of the two places [-] */
+  sw_vec n;        /* unit vector from the point to the place, 0 if they coincide [-] */
   double distance; /* [m] */
-  double size;     /* of the force [N] */
+  double size;     /* force [N] */
 } pulled;
 
 static pulled pulled_of(const pull_args *a, const sw_field *f) {
@@ -49,7 +49,7 @@ static pulled pulled_of(const pull_args *a, const sw_field *f) {
   return p;
 }
 
-/* k I below the limit, F / d (I - n n') beyond, times w. */
+/* Stiffness times w: k I below the limit, F / d (I - n n') beyond. */
 static void stiffness_of(const pull_args *a, const pulled *p, double w, double K[9]) {
   const int limited = p->size >= a->force;
   const double across = w * (limited ? p->size / p->distance : a->stiffness);

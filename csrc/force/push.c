@@ -7,7 +7,7 @@
 
 typedef struct push_args {
   sw_force_some some;
-  sw_vec force; /* on all of them together [N] */
+  sw_vec force; /* on all particles together [N] */
 } push_args;
 
 static const sw_param rows[] = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Repelling force between neighbours of the string model: the axial spring for
- * l < l0 only, E = 1/2 (EA/l0)(l - l0)^2. */
+/* Repelling force between neighbouring nodes of the string model: the axial spring for l < l0 only,
+ * E = 1/2 (EA/l0)(l - l0)^2. */
 #include "force/axial.h"
 
 static sw_status eval(const void *args, sw_field *field, sw_error *err) {

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of a composite that slide on each other along the wire, with Coulomb friction. Each element
- * is two edges that face each other, one of each part, from one ring to the next (state/slide.h):
- * r between their middles, t along them, u = r.t, d = r - u t, n = d/|d|.
+ * is two facing edges, one of each part, from one ring to the next (state/slide.h): r is the offset
+ * between their middles, t the unit vector along them, u = r.t, d = r - u t, n = d/|d|.
  *
- * Across, E = 1/2 k (|d| - d0)^2: the shell encloses the cores, so that parting on one side is
- * pressing on the other. Along, a spring K (u - p) that slips: |K (u - p)| <= L = friction (grip +
- * |k (|d| - d0)|). The pressure in L is that of the last accepted state, so that L is constant
- * within a step, which makes it lag by one step. Backward Euler from the remembered p_o (radial
- * return; Simo and Hughes 1998) with xi = K (u - p_o), o = max(0, |xi| - L) is p = p_o +
+ * Across: E = 1/2 k (|d| - d0)^2 in both directions, because the shell encloses the cores: where
+ * they part on one side they press on the other. Along: a spring K (u - p) that slips, |K (u - p)|
+ * <= L = friction (grip + |k (|d| - d0)|). L uses the pressure of the last accepted state, so L is
+ * constant within a step and lags one step behind. Backward Euler from the remembered p_o (radial
+ * return; Simo and Hughes 1998), with xi = K (u - p_o) and o = max(0, |xi| - L), is p = p_o +
  * sign(xi) o/K, the minimum over p of
  *   1/2 K (u - p)^2 + L |p - p_o| = xi^2/(2 K) - o^2/(2 K).
- * Round the wire nothing resists but the springs across where they are inclined to each other.
+ * Around the wire only the springs across resist, where they are inclined to each other.
  *
- * With e the sum of the edges and l its length, and as functions of r and e,
+ * With e the sum of the edges and l its length, the derivatives with respect to r and e are
  *   u_r = t, u_e = d/l; |d|_r = n, |d|_e = -u n/l; with Q = I - t t' - n n',
  *   u_re = (I - t t')/l, u_ee = -(t d' + d t' + u (I - t t'))/l^2,
  *   |d|_rr = Q/|d|, |d|_re = -t n'/l - u Q/(l |d|),
  *   |d|_ee = (-|d| n n' + u (t n' + n t') + u^2 Q/|d|)/l^2.
- * Both depend on differences of places only and are the same after a rotation, so that forces
- * and moments add up to nothing. What faces what stays: valid while what has slid is short beside
- * the wire's radius of curvature. */
+ * Both depend only on differences of positions and are invariant under rotation, so forces and
+ * moments sum to zero. Edges stay paired: valid while the distance slid is short against the wire's
+ * radius of curvature. */
 #include "state/slide.h"
 
 #include <math.h>
@@ -27,20 +27,20 @@
 
 #include "force/force.h"
 
-/* Slipping found less by rounding than this share of the limit is none: solving starts with the
- * elastic side [-]. */
+/* An excess over the limit below this share of it is rounding and counts as no slip: solves start
+ * on the elastic side [-]. */
 static const double ON_LIMIT = 1e-10;
 
 typedef struct pair {
   sw_slide_place at;
   double press;         /* k (|d| - d0) [N] */
-  double stick;         /* the spring along; 0: nothing along [N/m] */
-  double limit;         /* of the force along [N] */
-  double before, after; /* slipped [m] */
+  double stick;         /* stiffness along; 0: nothing resists [N/m] */
+  double limit;         /* limit of the force along [N] */
+  double before, after; /* slip [m] */
   double xi, over;      /* [N] */
 } pair;
 
-/* history: of this pair, what has slipped and the pressure [m, N]. */
+/* Measures pair number. history: this pair's slip and pressure [m, N]. */
 static void measure(const sw_web *w, size_t number, const double *x, const double *history,
                     pair *p) {
   const sw_web_slide *s = &w->slide[number];
@@ -57,7 +57,7 @@ static void measure(const sw_web *w, size_t number, const double *x, const doubl
   if (p->over > 0) p->after += copysign(p->over / p->stick, p->xi);
 }
 
-/* Force along [N]. */
+/* Returns the force along the wire [N]. */
 static double along(const pair *p) { return p->over > 0 ? copysign(p->limit, p->xi) : p->xi; }
 
 static void add_force(const sw_web_slide *s, const pair *p, double *force) {
@@ -71,13 +71,15 @@ static void add_force(const sw_web_slide *s, const pair *p, double *force) {
   }
 }
 
-/* Second derivatives by r and r, r and e, e and e. */
+/* Second derivatives by r r, r e and e e, without the stiffness k of the spring across. */
 static void derive(const pair *p, int cautious, double H[3][9]) {
   const double *t = p->at.t, *n = p->at.n, l = p->at.l, u = p->at.u, d = p->at.apart;
-  /* slipping, the secant from where it stuck: an upper bound by which iterations come down */
+  /* A slipping pair's cautious stiffness is the secant to the slip limit: an upper bound from which
+   * iterations converge downwards. */
   const double slack = cautious ? p->limit / fabs(p->xi) : 0.0;
   const double K = p->over > 0 ? slack * p->stick : p->stick;
-  /* what forces themselves add would make the matrix indefinite: not where nothing converges */
+  /* The terms of the forces themselves make the matrix indefinite; cautious iterations omit
+   * them. */
   const double F = cautious ? 0.0 : along(p), N = cautious ? 0.0 : p->press;
   const double k = p->at.apart > 0 ? N / d : 0.0;
   for (int i = 0; i < 3; i++)
@@ -151,7 +153,8 @@ static void commit(const void *args, const sw_field *f, double *history) {
   }
 }
 
-/* Another mesh begins where it is. */
+/* Copies the history for the same mesh. Another mesh starts without slip and keeps the dissipated
+ * work. */
 static void inherit(const sw_plan *old, const double *from, const sw_field *f, double *history) {
   if (old->web == f->plan->web)
     memcpy(history, from, state_size(f->plan) * sizeof *history);

@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A spring k between the angle vector beta = s(c) t1 x t2 of a hinge (s =
- * phi/sin phi, c = t1.t2) and the slipped vector p, with kinematic hardening H:
- * |k (beta - p) - H p| <= limit. Backward Euler from the remembered p_o is the
- * minimum over p of
+/* A spring k between the angle vector beta = s(c) t1 x t2 of a hinge (s = phi/sin phi, c = t1.t2)
+ * and the slipped vector p, with kinematic hardening H: |k (beta - p) - H p| <= limit. Backward
+ * Euler from the remembered p_o is the minimum over p of
  *   1/2 k |beta - p|^2 + 1/2 H |p|^2 + limit |p - p_o|
- * (radial return; Simo and Hughes 1998), in closed form with K = k + H and
- * xi = k beta - K p_o:
- *   W = 1/2 k phi^2 - k D + 1/2 K |p_o|^2 - max(0, |xi| - limit)^2 / (2 K),
- * D = beta.p_o. Moment and tangent are W's first and second derivatives, so the
- * tangent is the consistent one and symmetric. p_o is carried from the old
- * tangent b_o to b = (t1 + t2)/|t1 + t2| by the smallest rotation (time-parallel
- * transport), p_o - (b.p_o)/(1 + b.b_o) (b + b_o), and that is differentiated
- * too. W depends on t1, t2 through five scalars that are linear or bilinear:
+ * (radial return; Simo and Hughes 1998). With K = k + H, D = beta.p_o and xi = k beta - K p_o it
+ * has the closed form
+ *   W = 1/2 k phi^2 - k D + 1/2 K |p_o|^2 - max(0, |xi| - limit)^2 / (2 K).
+ * Moment and tangent are W's first and second derivatives, so the tangent is consistent and
+ * symmetric. p_o is carried from the old tangent b_o to b = (t1 + t2)/|t1 + t2| by the smallest
+ * rotation (time-parallel transport), p_o - (b.p_o)/(1 + b.b_o) (b + b_o); this transport is
+ * differentiated too. W depends on t1, t2 through five scalars that are linear or bilinear,
  *   c, N = t1 x t2 . p_o, G = t1 x t2 . b_o, A = (t1 + t2).p_o, B = (t1 + t2).b_o,
- *   D = s(c) (N - A G / (|t1 + t2| + B)). */
+ * and D = s(c) (N - A G / (|t1 + t2| + B)). */
 #include "force/slip.h"
 
 #include <math.h>
@@ -36,12 +34,12 @@ static const double SERIES[] = {1.0,
                                 524288.0 / 2028117,
                                 4194304.0 / 16900975};
 enum { TERMS = sizeof SERIES / sizeof SERIES[0] };
-static const double SERIES_LIMIT = 0.04; /* of u: error below 1e-16 [-] */
-static const double SHARPEST = 0.999;    /* of u, as for bending [-] */
+static const double SERIES_LIMIT = 0.04; /* range of u; error below 1e-16 [-] */
+static const double SHARPEST = 0.999;    /* largest u, as for bending [-] */
 
-/* An accepted hinge that slipped lies on the limit but for rounding: from there it
- * may go either way, and solving starts with the elastic one. */
-static const double ON_LIMIT = 1e-10; /* of the limit [-] */
+/* An accepted hinge that slipped lies on the limit within rounding. From there it may slip on or
+ * unload; solves start on the elastic side. */
+static const double ON_LIMIT = 1e-10; /* over the limit [-] */
 
 static double excess(const sw_slip_law *law, double xi) {
   const double over = xi - law->limit;
@@ -77,7 +75,7 @@ static double half_angle2(const sw_slip_hinge *h) {
   return 0.25 * sw_norm2(sw_sub(h->t[1], h->t[0]));
 }
 
-/* Derivatives of D: value, first and second, as functions of the scalars. */
+/* D with its first and second derivatives as functions of the scalars. */
 typedef struct product {
   double value, d1[SCALARS], d2[SCALARS][SCALARS];
 } product;
@@ -108,8 +106,8 @@ static void differentiate(const double s[3], double c, const double z[SCALARS], 
   }
 }
 
-/* First and second derivatives of W with respect to the scalars; share = 1, or
- * less to count what slipping takes off by that much only. */
+/* First and second derivatives of W with respect to the scalars. share below 1: slipping reduces
+ * the stiffness by this share only. */
 static void potential(const sw_slip_law *law, const double s[3], double xi, double share,
                       const product *p, double w1[SCALARS], double w2[SCALARS][SCALARS]) {
   const double K = law->k + law->harden, over = share * excess(law, xi);
@@ -128,7 +126,7 @@ static void potential(const sw_slip_law *law, const double s[3], double xi, doub
   w2[C][C] -= wq * s[1];
 }
 
-/* Gradients of the scalars with respect to t[side]. */
+/* Computes the scalars' gradients with respect to t[side]. */
 static void scalar_gradients(const sw_slip_hinge *h, sw_vec p, sw_vec b, int side,
                              sw_vec out[SCALARS]) {
   const sw_vec other = h->t[1 - side];
@@ -153,7 +151,8 @@ static void add_upper(const double full[9], double out[6]) {
     for (int j = i; j < 3; j++, at++) out[at] += full[3 * i + j];
 }
 
-/* g: the scalars' gradients projected to the edges, total: raw sum of side. */
+/* Adds one edge's stiffness. g: the scalars' gradients with respect to the edge vectors; total: W's
+ * gradient with respect to t[side]. */
 static void edge_stiffness(const sw_slip_hinge *h, int side, sw_vec g[2][SCALARS], sw_vec total,
                            double w2[SCALARS][SCALARS], sw_slip_answer *out) {
   const sw_vec t = h->t[side];
@@ -176,7 +175,7 @@ static void edge_stiffness(const sw_slip_hinge *h, int side, sw_vec g[2][SCALARS
   add_upper(own, out->own[side]);
 }
 
-/* The bilinear scalars' own second derivative: w1 I - q x, between the edges. */
+/* Adds the second derivative of the bilinear scalars between the edges: w1 I - q x. */
 static void mixed_stiffness(const sw_slip_hinge *h, double w, sw_vec q, sw_slip_answer *out) {
   const sw_vec unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double rr = h->r[0] * h->r[1];

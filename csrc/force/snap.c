@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a clip's lips take out of a wire that snaps in: on their inner flank and in the seat a
- * dashpot against moving inwards, f = -c u' for u' < 0, spread over the width as the clip is.
- * With c = 2 retention time / out, out being the length of that flank, the lips' own pull moves
- * the wire by the flank within about `time`; without it a light wire would arrive at
- * metres per second, bounce, and come out again, which wires in clips of plastic do not. Nothing
- * acts outwards, on the outer flank, or at rest: the forces of insertion and of retention are the
- * clip's alone. The time is a choice, not a measurement. */
+/* Energy loss of a wire that snaps into a clip. On the lips' inner flank and in the seat a dashpot
+ * resists inward motion, f = -c u' for u' < 0, spread over the width like the clip. With c = 2
+ * retention time / out, out being the length of that flank, the lips' own pull moves the wire along
+ * the flank within about `time`. Without it a light wire would arrive at metres per second, bounce
+ * and come out again, which wires in plastic clips do not do. Outward motion, the outer flank and a
+ * wire at rest see no force: insertion and retention forces are the clip's alone. The time is
+ * chosen, not measured. */
 #include <math.h>
 #include <stddef.h>
 
@@ -13,7 +13,7 @@
 #include "force/force.h"
 
 typedef struct snap_args {
-  sw_clip_args clip; /* stiffness is the time [s] */
+  sw_clip_args clip; /* its stiffness holds the time [s] */
 } snap_args;
 
 static const sw_param rows[] = {
@@ -22,7 +22,8 @@ static const sw_param rows[] = {
      offsetof(sw_clip_args, stiffness), "that the lips take to pull the wire in"},
 };
 
-/* Share of the dashpot at height u: all of it from the middle of the flank on [-]. */
+/* Returns the share of the dashpot that acts at height u: all of it below the middle of the flank
+ * [-]. */
 static double share_at(const sw_clip_law *l, double u) {
   const double x = 2.0 * (l->out - u) / l->out;
   return x <= 0 ? 0.0 : x >= 1 ? 1.0 : x * x * (3.0 - 2.0 * x);

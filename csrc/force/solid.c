@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Evaluation in the reduced coordinates y: the three columns of F and the amplitudes q, each a
- * sum over the particles. Their derivatives are small and dense; two products with the rows
- * bring them to the particles. Eight numbers side by side, one for each particle or each y,
- * are a vector. */
+/* Evaluation of a solid element in the reduced coordinates y: the three columns of F and the
+ * amplitudes q, each a sum over the particles. The derivatives with respect to y are small and
+ * dense; two products with the rows transfer them to the particles. Eight numbers, one per particle
+ * or per y, form a vector. */
 #include "force/solid.h"
 
 #include <math.h>
@@ -15,13 +15,13 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define FLAT static inline __attribute__((always_inline))
 typedef double lane __attribute__((vector_size(32), aligned(8)));
-typedef struct row8 { /* two halves: compilers spill vectors wider than the registers */
+typedef struct row8 { /* in two halves: compilers spill vectors wider than registers */
   lane a, b;
 } row8;
 
 static const double CONTINUED = 0.1; /* J below which the energy is a polynomial [-] */
 
-enum { PAIRS = 6 }; /* of components: xx xy xz yy yz zz */
+enum { PAIRS = 6 }; /* pairs of components: xx xy xz yy yz zz */
 static const int first[PAIRS] = {0, 0, 0, 1, 1, 2}, second[PAIRS] = {0, 1, 2, 1, 2, 2};
 
 FLAT lane load4(const double *p) { return *(const lane *)(const void *)p; }
@@ -44,20 +44,20 @@ sw_solid_volumetric sw_solid_of_J(double mu, double lambda, double J) {
 
 /* State of one element. */
 typedef struct work {
-  sw_vec F[3], A[3];                     /* columns of F [-]; derivatives of J by them [-] */
+  sw_vec F[3], A[3];                     /* columns of F; derivatives of J by these [-] */
   sw_vec q[SW_SOLID_MODES];              /* [m] */
   double e[SW_SOLID_STIFF];              /* [m] */
   double s[SW_SOLID_STIFF];              /* K e [N] */
   sw_vec pull[3];                        /* sum over the patterns of s_i q [N m] */
   sw_solid_volumetric f;                 /* times volume [J] */
-  double h[PAIRS][SW_SOLID_ROWS][8];     /* second derivatives by y, for pairs of components */
+  double h[PAIRS][SW_SOLID_ROWS][8];     /* second derivatives by y, for each pair of components */
   double by[SW_SOLID_STIFF][3][8];       /* derivatives of e by y */
-  double stressed[SW_SOLID_STIFF][3][8]; /* K times these */
+  double stressed[SW_SOLID_STIFF][3][8]; /* K times by */
 } work;
 
 FLAT void reduce(const sw_solid *e, const double *x, int nodes, int modes, work *w) {
   sw_vec y[SW_SOLID_ROWS] = {{0, 0, 0}};
-  const sw_vec origin = sw_load(x); /* rows sum to 0: keeps digits far from the origin */
+  const sw_vec origin = sw_load(x); /* rows sum to 0: a local origin keeps digits */
   for (int a = 1; a < nodes; a++) {
     const sw_vec p = sw_sub(sw_load(x + 3 * a), origin);
     for (int m = 0; m < 3 + modes; m++) y[m] = sw_madd(y[m], p, e->rows[m][a]);
@@ -67,7 +67,7 @@ FLAT void reduce(const sw_solid *e, const double *x, int nodes, int modes, work 
   for (int i = 0; i < 3; i++) w->A[i] = sw_cross(w->F[(i + 1) % 3], w->F[(i + 2) % 3]);
 }
 
-/* e, s and the energy of both parts. */
+/* Fills e and s; returns the energy of both parts. */
 FLAT double energy_of(const sw_solid *e, int modes, work *w) {
   const double J = sw_dot(w->F[0], w->A[0]);
   double F2 = 0, bent = 0;
@@ -94,7 +94,8 @@ FLAT void pull_of(int modes, work *w) {
   }
 }
 
-/* e_i = det(F with q for column i), so that its derivative by column j is eps_ijk F_k x q. */
+/* e_i = det(F with column i replaced by q), so its derivative with respect to column j is eps_ijk
+ * F_k x q. */
 FLAT void gradient_of(const sw_solid *e, int nodes, int modes, const work *w, double *g) {
   sw_vec r[SW_SOLID_ROWS];
   for (int j = 0; j < 3; j++) {
@@ -122,7 +123,7 @@ FLAT void set_by(double by[3][8], int m, sw_vec v) {
   by[2][m] = v.z;
 }
 
-/* de'K de */
+/* Adds de'K de. */
 FLAT void add_bending(const sw_solid *e, int modes, work *w) {
   memset(w->by, 0, sizeof w->by);
   for (int m = 0; m < modes; m++)
@@ -151,14 +152,14 @@ FLAT void add_bending(const sw_solid *e, int modes, work *w) {
       }
 }
 
-/* Block (m, n) plus the matrix -[v]x, block (n, m) plus its transpose. */
+/* Adds -[v]x to block (m, n) and its transpose to block (n, m). */
 FLAT void add_turning(work *w, int m, int n, sw_vec v) {
   w->h[1][m][n] += v.z, w->h[1][n][m] -= v.z;
   w->h[2][m][n] -= v.y, w->h[2][n][m] += v.y;
   w->h[4][m][n] += v.x, w->h[4][n][m] -= v.x;
 }
 
-/* s'd2e, and the same of J: d2 det(F) by columns i and j is -eps_ijk [F_k]x. */
+/* Adds s'd2e and the same term of J: d2 det(F) by columns i and j is -eps_ijk [F_k]x. */
 FLAT void add_geometric(int modes, int bending, work *w) {
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -171,7 +172,7 @@ FLAT void add_geometric(int modes, int bending, work *w) {
   }
 }
 
-/* 1/2 mu F.F + f(J) without geometry. */
+/* Adds the second derivative of 1/2 mu F.F + f(J) without its geometric part. */
 FLAT void add_material(const sw_solid *e, work *w) {
   double a[3][3];
   for (int i = 0; i < 3; i++) sw_store(a[i], w->A[i]);

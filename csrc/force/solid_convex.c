@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Eigenvalues of the second derivative of mu/2 F.F + f(J) by the singular values of F = U S V':
- * with dF = U M V', d2J = 2 sum over pairs of s_k (M_ii M_jj - M_ij M_ji), k being the third. So
- * turns and shears of a pair are directions of their own with mu + f' s_k and mu - f' s_k, and
- * the three stretches are coupled. (Smith, de Goes, Kim 2019.) */
+/* Eigenvalues of the second derivative of mu/2 F.F + f(J), from the singular values of F = U S V'.
+ * With dF = U M V', d2J = 2 sum over pairs of s_k (M_ii M_jj - M_ij M_ji), k being the third index.
+ * Turn and shear of a pair are therefore eigenvectors with mu + f' s_k and mu - f' s_k; the three
+ * stretches are coupled. (Smith, de Goes, Kim 2019.) */
 #include <math.h>
 
 #include "base/vec.h"
 #include "force/solid_inner.h"
 
-enum { SWEEPS = 12 }; /* of Jacobi's rotations, at most; 3 to 5 are usual [-] */
+enum { SWEEPS = 12 }; /* most sweeps of Jacobi rotations; 3 to 5 are usual [-] */
 
-/* Eigenvectors of the symmetric a into the columns of v; a becomes diagonal. */
+/* Finds the eigenvectors of the symmetric matrix a (columns of v); a becomes diagonal. */
 static void jacobi(double a[3][3], double v[3][3]) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) v[i][j] = i == j;
@@ -36,7 +36,7 @@ static void jacobi(double a[3][3], double v[3][3]) {
   }
 }
 
-/* F = U S V', U and V turn only: the last singular value has the sign of J. */
+/* F = U S V' with proper rotations U and V: the last singular value has the sign of J. */
 static void singular(const double F[3][3], sw_vec u[3], sw_vec v[3], double sigma[3]) {
   double C[3][3], V[3][3];
   for (int i = 0; i < 3; i++)
@@ -63,7 +63,7 @@ static void singular(const double F[3][3], sw_vec u[3], sw_vec v[3], double sigm
   for (int t = 0; t < 3; t++) sigma[t] = sw_dot(u[t], Fv[t]);
 }
 
-/* out += m u v', by columns */
+/* out += m u v', stored by columns */
 static void outer(double out[3][3], double m, sw_vec u, sw_vec v) {
   const double along[3] = {v.x, v.y, v.z};
   for (int i = 0; i < 3; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The element at rest: mean gradients, patterns of displacements that these do not see, and the
- * stiffness of the patterns, from which enhanced strains are condensed (Simo and Rifai 1990).
- * Their mean over the element is 0, so that homogeneous strains do no work on them. */
+/* The solid element at rest: mean gradients, patterns of displacement with zero mean gradient, and
+ * the patterns' stiffness, from which enhanced strains are condensed (Simo and Rifai 1990). The
+ * enhanced strains have mean 0 over the element, so homogeneous strains do no work on them. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 enum { POINTS = 8, ENHANCED = 12, STRAINS = 6, MODES = SW_SOLID_MODES, NODES = SW_SOLID_NODES };
 static const double FLATTEST = 1e-9; /* volume over the cube of the size [-] */
 
-/* One kind of element in its own coordinates (r, s, t), t along the wire. */
+/* An integration point of an element in its own coordinates (r, s, t), t along the wire. */
 typedef struct point {
   double at[3], weight; /* [-] */
   sw_vec slope[NODES];  /* of the shape functions by r, s, t; then by x, y, z [1/m] */
@@ -26,7 +26,7 @@ typedef struct shape {
   double displaced[MODES][NODES]; /* displacements with zero mean gradient [-] */
 } shape;
 
-/* Slopes by r, s, t of the prism's shape functions (1 -+ t)/2 times (1 - r - s, r, s). */
+/* Slopes by r, s, t of the prism's shape functions: (1 -+ t)/2 times (1 - r - s, r, s). */
 static void prism_slopes(const double at[3], sw_vec *slope) {
   const double area[3] = {1 - at[0] - at[1], at[0], at[1]};
   const double dr[3] = {-1, 1, 0}, ds[3] = {-1, 0, 1};
@@ -47,7 +47,7 @@ static void hex_slopes(const double at[3], sw_vec *slope) {
 }
 
 /* Three points in the triangle times two along: exact for the prism's volume and linear strains.
- * Patterns: what is linear across the triangle and odd along the wire. */
+ * The patterns are linear across the triangle and odd along the wire. */
 static void make_prism(shape *s) {
   static const double a[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6}, b[3] = {1.0 / 6, 1.0 / 6, 2.0 / 3};
   static const double across[2][3] = {{-1, 1, 0}, {-1, -1, 2}};
@@ -75,7 +75,7 @@ static void make_hex(shape *s) {
   hex_slopes(middle, s->middle);
 }
 
-/* Gradients G of the coordinates r, s, t in space; returns the Jacobian. */
+/* Computes the gradients G of the coordinates r, s, t in space; returns the Jacobian. */
 static double coordinates(const double *rest, const sw_vec *slope, int nodes, sw_vec G[3]) {
   sw_vec t[3] = {{0, 0, 0}};
   for (int a = 0; a < nodes; a++) {
@@ -90,7 +90,7 @@ static double coordinates(const double *rest, const sw_vec *slope, int nodes, sw
   return jacobian;
 }
 
-/* Slopes in space, volumes of the points, mean gradients. */
+/* Computes slopes in space, volumes of the points and mean gradients. */
 static sw_status integrate(shape *s, const double *rest, sw_solid *e) {
   double size = 0;
   for (int a = 1; a < s->nodes; a++)
@@ -122,7 +122,8 @@ static double sum_of(const double *a, const double *b, int n) {
   return sum;
 }
 
-/* Solves a x = b for m right sides by elimination with pivots; b (n rows of m) becomes x. */
+/* Solves a x = b for m right-hand sides by elimination with pivoting; x replaces b (n rows of m).
+ * 0: a is singular. */
 static int solve(double *a, int n, double *b, int m) {
   for (int k = 0; k < n; k++) {
     int pivot = k;
@@ -149,10 +150,10 @@ static int solve(double *a, int n, double *b, int m) {
   return 1;
 }
 
-/* Displacements without mean gradient, and rows that read their amplitudes and see no
- * homogeneous strain. For displacements p and sums c: c = pattern - sum_i (pattern.x_i) mean_i
- * kills what is linear; p = pattern - sum_i (mean_i.pattern) x_i has no mean gradient; rows are
- * the c mixed so that rows.p = 1. */
+/* Makes displacements without mean gradient, and rows that measure their amplitudes and ignore
+ * homogeneous strain: c = pattern - sum_i (pattern.x_i) mean_i ignores linear displacements, p =
+ * pattern - sum_i (mean_i.pattern) x_i has no mean gradient, and the rows are the c mixed so that
+ * rows.p = 1. 0: singular. */
 static int make_patterns(shape *s, const double *rest, sw_solid *e) {
   const int n = s->nodes, m = s->modes;
   double x[3][NODES], c[MODES * NODES], mixed[MODES * MODES];
@@ -176,7 +177,7 @@ static int make_patterns(shape *s, const double *rest, sw_solid *e) {
 
 /* --- stiffness of the patterns ------------------------------------------------------- */
 
-/* xx yy zz xy yz zx of the displacement gradient a b' times factor */
+/* Strain xx yy zz xy yz zx of the displacement gradient a b' times factor. */
 static void strain(double out[STRAINS], sw_vec a, sw_vec b, double factor) {
   out[0] = factor * a.x * b.x;
   out[1] = factor * a.y * b.y;
@@ -188,10 +189,10 @@ static void strain(double out[STRAINS], sw_vec a, sw_vec b, double factor) {
 
 static const sw_vec unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/* Enhanced strains at a point: G are the coordinates' gradients at the middle, ratio the Jacobian
- * there to that at the point, which makes strains across the section have no mean. Those along
- * the wire are without it: a bent prism's shear is the same all over its section, whatever the
- * section's shape. */
+/* Enhanced strains at a point. G: gradients of the coordinates at the element's middle; ratio: the
+ * Jacobian there over that at the point, which gives strains across the section zero mean. Strains
+ * along the wire are not scaled by it: a bent prism's shear is uniform over its section, whatever
+ * the section's shape. */
 static void enhance(const shape *s, const point *p, const sw_vec G[3], double ratio,
                     double out[ENHANCED][STRAINS]) {
   const double r = p->at[0], c = p->at[1], t = p->at[2];
@@ -211,7 +212,7 @@ static void enhance(const shape *s, const point *p, const sw_vec G[3], double ra
   }
 }
 
-/* a'D b of two strains [Pa] */
+/* Returns a'D b of two strains [Pa]. */
 static double work_of(const double a[STRAINS], const double b[STRAINS], double mu, double lambda) {
   const double volume = lambda * (a[0] + a[1] + a[2]) * (b[0] + b[1] + b[2]);
   const double normal = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -220,7 +221,8 @@ static double work_of(const double a[STRAINS], const double b[STRAINS], double m
 
 enum { ALL = SW_SOLID_STIFF + ENHANCED };
 
-/* Strains of patterns and enhanced strains at each point, the latter without their mean. */
+/* Computes the strains of patterns and the enhanced strains at each point; the mean of the enhanced
+ * strains is subtracted. 0: inverted at the middle. */
 static int strains(const shape *s, const double *rest, const sw_solid *e,
                    double B[POINTS][ALL][STRAINS]) {
   const int own = 3 * s->modes, n = own + s->enhanced;

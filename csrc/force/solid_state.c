@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a solid element tells about a state: stress, and how far it may move. */
+/* State of a solid element: its stress, and how far it may move. */
 #include <math.h>
 
 #include "base/vec.h"
 #include "force/solid.h"
 #include "force/solid_inner.h"
 
-static const double LEFT = 0.2; /* share of J that a step must leave [-] */
-enum { HALVINGS = 40 };         /* of the interval in which a share is [-] */
+static const double LEFT = 0.2; /* share of J that a move must leave [-] */
+enum { HALVINGS = 40 };         /* of the interval that contains the share [-] */
 
 static void columns(const sw_solid *e, const double *x, sw_vec F[3]) {
   for (int i = 0; i < 3; i++) {
@@ -23,13 +23,13 @@ static double cubic(const double c[4], double t) {
   return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
 }
 
-/* Where the cubic's slope changes its sign, in order; such places only. */
+/* Finds the places, in order, where the cubic's slope changes sign. Returns their number. */
 static int turns(const double c[4], double at[2]) {
   const double a = 3 * c[3], b = c[2], d = b * b - a * c[1]; /* a t^2 + 2 b t + c1 */
   if (!(d > 0)) return 0;
   const double root = -(b + copysign(sqrt(d), b));
   const double one = root / a, two = c[1] / root;
-  at[0] = fmin(one, two); /* of an infinite one and a number both are right */
+  at[0] = fmin(one, two); /* also right if one is infinite (a = 0) */
   at[1] = fmax(one, two);
   return 2;
 }
@@ -52,7 +52,7 @@ double sw_solid_step(const sw_solid *e, const double *x, const double *dx) {
   for (int k = 1; k <= 1 + n; k++) {
     if (!(at[k] > low) || at[k] > 1) continue;
     if (!(cubic(c, at[k]) > 0)) {
-      double high = at[k]; /* monotone in between */
+      double high = at[k]; /* the cubic is monotone here */
       for (int i = 0; i < HALVINGS; i++) {
         const double middle = 0.5 * (low + high);
         if (cubic(c, middle) > 0)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Springs between the particles of a web: E = 1/2 k (l - l0)^2, force T = k (l - l0) along the
- * spring, stiffness k t t' + (T/l)(I - t t'). As for the edges of a rod, the T of the geometric
- * part is the solver's own unknown (see system/stage.c). Springs under pressure have that part
- * too, for in a bent section those pulled and pushed must cancel; only iterations that would
- * not converge leave it out. Hooke's law in the change of length: valid while springs are not
- * squeezed to a point. */
+ * spring, stiffness k t t' + (T/l)(I - t t'). As for a rod's edges, the geometric part uses the T
+ * that is the solver's own unknown (see system/stage.c). Springs in compression have this part too,
+ * because in a bent section tension and compression must cancel; only iterations that do not
+ * converge omit it. Hooke's law in the change of length: valid while no spring is squeezed to zero
+ * length. */
 #include <math.h>
 
 #include "base/each.h"
@@ -23,8 +23,8 @@ static inline __attribute__((always_inline)) void add_stiffness(const sw_web_lin
   sw_field_add_pair(f, link->a, link->b, slot, K);
 }
 
-/* How much longer than unstressed a spring is [m], its direction [-] and 1 / length [1/m], 0 of one
- * without. */
+/* Returns the elongation of a spring [m]; fills its direction [-] and 1 / length [1/m] (0 if it has
+ * none). */
 static inline __attribute__((always_inline)) double stretch_of(const sw_web_link *link,
                                                                const double *x, double t[3],
                                                                double *reciprocal) {

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strands that rub on one another: beside the wire's own EI, which is that of
- * slipping strands, a spring of stiffness EI_stick - EI that carries at most the
- * friction moment (elastic-perfectly plastic, in both planes; see slip.c). From
- * rest the moment rises with EI_stick up to kappa_f = friction_moment /
- * (EI_stick - EI) and with EI beyond; a cycle to +-kappa_max costs 4
- * friction_moment (kappa_max - kappa_f) per length. All strands slip at once, at
- * a moment that does not depend on tension. */
+/* Strands that rub on each other. The wire's own EI is that of slipping strands; this force adds a
+ * spring of stiffness EI_stick - EI that carries at most the friction moment (elastic-perfectly
+ * plastic, in both planes; see slip.c). From rest the moment rises with EI_stick up to kappa_f =
+ * friction_moment / (EI_stick - EI) and with EI beyond. A cycle to +-kappa_max dissipates 4
+ * friction_moment (kappa_max - kappa_f) per length. All strands slip at once, at a moment that does
+ * not depend on tension. */
 #include <math.h>
 #include <stddef.h>
 
@@ -44,7 +43,7 @@ static sw_memory_law law_of(const void *args, const sw_plan *plan) {
 
 SW_MEMORY_FORCE(law_of)
 
-/* As for bending, with both stiffnesses together. */
+/* The limit of bending with both stiffnesses together. */
 static double stable_dt(const void *args, const sw_plan *plan) {
   const double EI = ((const stick_slip_args *)args)->EI_stick;
   double smallest = HUGE_VAL;

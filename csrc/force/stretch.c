@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Resistance to elongation: E = 1/2 (EA/l0)(l - l0)^2 for each edge; with
- * tension_only just for l > l0. Holds for small axial strain (a few per cent),
- * as Hooke's law does. */
+/* Resistance to elongation: E = 1/2 (EA/l0)(l - l0)^2 for each edge; with tension_only for l > l0
+ * only. Valid for small axial strain (a few per cent), like Hooke's law. */
 #include "force/axial.h"
 
 static sw_status eval(const void *args, sw_field *field, sw_error *err) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tie to a fixed point: pulls one place of a wire towards it where they are further apart than
- * its slack, E = 1/2 k (d - slack)^2, until it is pulled harder than it bears and breaks. It holds
- * no direction and pushes nothing away. Valid while its own mass does not matter; a tie that goes
- * round the wire leaves that free to turn and to slide through, which this one does not. */
+/* A tie to a fixed point. It pulls one place of a wire towards the point where they are further
+ * apart than its slack, E = 1/2 k (d - slack)^2, until the pull exceeds its strength and it breaks.
+ * It fixes no direction and never pushes. Valid while its own mass does not matter. A real tie
+ * round the wire lets it turn and slide through; this one does not. */
 #include <math.h>
 #include <stddef.h>
 
@@ -26,7 +26,8 @@ static const sw_param rows[] = {
     SW_TIE_ROWS(tether_args),
 };
 
-/* BORNE: its last pull; EVENED: 1: that is not the one of its length now. */
+/* BORNE: pull at the last commit. EVENED: 1 = BORNE was evened over both stages of the step and is
+ * not the pull at the present length. */
 enum { DISSIPATED, BORNE, EVENED, FATE, HISTORY = FATE + SW_TIE_FATE };
 
 static size_t state_size(const sw_plan *plan) {
@@ -34,11 +35,11 @@ static size_t state_size(const sw_plan *plan) {
   return HISTORY;
 }
 
-/* Where the tied place is: between places i and i + 1 of the wire. */
+/* The tied place, between places i and i + 1 of the wire. */
 typedef struct tied {
   size_t i;
-  double part[2];  /* shares of both [-] */
-  sw_vec apart;    /* from the point to it [m] */
+  double part[2];  /* shares of the two places [-] */
+  sw_vec apart;    /* from the point to the tied place [m] */
   double distance; /* [m] */
   double pull;     /* [N] */
 } tied;
@@ -55,7 +56,7 @@ static tied tied_of(const tether_args *a, const sw_field *f) {
   return t;
 }
 
-/* Force on it [N]. */
+/* Returns the force on the tied place [N]. */
 static sw_vec force_of(const tied *t, double pull) {
   return sw_scale(sw_unit_or(t->apart, sw_v(0, 0, 0)), -pull);
 }
@@ -80,8 +81,9 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* Its pull, of methods that find pulls that only hold against turning too large or too small;
- * before: the last one, or NULL. */
+/* Returns the tie's pull at the step's end. Some two-stage methods find a pull that only holds
+ * against turning alternately too large and too small; it is then evened over both stages
+ * (sw_even_force). before: the previous pull, or NULL. */
 static double borne(const tether_args *a, const sw_field *f, const double *before, double pull) {
   if (!f->first.x) return pull;
   sw_field first = *f;
@@ -111,7 +113,7 @@ static void inherit(const sw_plan *old, const double *from, const sw_field *f, d
   for (size_t k = 0; k < HISTORY; k++) h[k] = from[k];
 }
 
-/* As those of join:read. */
+/* The same as those of join:read. */
 static const char *const outputs[] = {
     "distance",     "tension", "peak",    "broken",  "broken_time",
     "broken_force", "force_x", "force_y", "force_z", NULL};

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Twist of a straight wire with equal bending stiffness in all directions,
- * quasi-static: torsional waves are much faster than anything a wire does in
- * handling, so the twist spreads evenly over the span between two holds,
- * E = 1/2 (GJ/L) tau^2 with the span's total twist tau [rad] (Kirchhoff; Bergou
- * et al. 2008, section 5). tau is kept by the system: it changes by the holds'
- * turning and by the wire's writhing. Its slope with respect to the two edges of
- * a hinge is kb/(2 l), kb = 2 t1 x t2/(1 + t1.t2). The second derivative is a
- * block part, tau GJ/L times that of tau, and a part of rank one that the system
- * adds (twist_stiffness). Valid while a step turns no span by more than pi. */
+/* Quasi-static twist of a straight wire with equal bending stiffness in all directions. Torsional
+ * waves are much faster than anything a wire does in handling, so the twist is uniform over the
+ * span between two holds: E = 1/2 (GJ/L) tau^2 with the span's total twist tau [rad] (Kirchhoff;
+ * Bergou et al. 2008, section 5). The system keeps tau, which changes with the holds' turning and
+ * the wire's writhing. Its slope with respect to the two edges of a hinge is kb/(2 l), kb = 2 t1 x
+ * t2/(1 + t1.t2). The second derivative has a block part, tau GJ/L times that of tau, and a
+ * rank-one part that the system adds (twist_stiffness). Valid while a step turns no span by more
+ * than pi. */
 #include <math.h>
 
 #include "base/simd.h"
@@ -17,7 +16,7 @@ typedef struct twist_args {
   double GJ; /* [N m2] */
 } twist_args;
 
-/* What a hinge between tangents t1, t2 contributes. */
+/* Contribution of a hinge between tangents t1, t2. */
 typedef struct corner {
   double kb[3], mean[3]; /* mean = (t1 + t2)/(1 + t1.t2) */
 } corner;
@@ -44,7 +43,7 @@ static const double *director(const sw_field *f, const sw_clamp_hinge *h) {
   return f->hold_directors + 3 * sw_clamp_place(h);
 }
 
-/* A clamp's part of the slope on its edge, and of the block second derivative. */
+/* Adds a clamp's part of the slope on its edge, and of the block second derivative. */
 static void clamp_part(sw_field *f, const sw_clamp_hinge *h, double torque) {
   const size_t e = h->edge;
   double t[3];
@@ -58,7 +57,7 @@ static void clamp_part(sw_field *f, const sw_clamp_hinge *h, double torque) {
       f->own[at][e] += w * (c.kb[i] * (t[j] + c.mean[j]) + (t[i] + c.mean[i]) * c.kb[j]);
 }
 
-/* kb and 1/(1 + t1.t2) of hinges first + 1 .. last into scratch 0..3. */
+/* Fills scratch 0..3 with kb and 1/(1 + t1.t2) of hinges first + 1 .. last. */
 SW_HOT
 static void corners(size_t first, size_t last, const double *restrict tx, const double *restrict ty,
                     const double *restrict tz, double *restrict kx, double *restrict ky,
@@ -174,8 +173,8 @@ static sw_status eval(const void *args, sw_field *f, sw_error *err) {
   return SW_OK;
 }
 
-/* The torque at the held end, about the mean of director and edge. A positive
- * twist turns the span's end against its start. */
+/* Returns the torque at the held end, about the mean of director and edge. A positive twist turns
+ * the span's end relative to its start. */
 static sw_vec clamp_moment(const void *args, const sw_field *f, const sw_clamp_hinge *h) {
   const double GJ = ((const twist_args *)args)->GJ;
   for (size_t k = 0; f->twist && k < f->plan->span_count; k++) {

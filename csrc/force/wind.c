@@ -4,12 +4,12 @@
  *   1/2 rho d (Cn |u_n| u_n + pi Ct |u_t| u_t)
  * (Morison's drag by the cross-flow principle; Hoerner, Fluid-Dynamic Drag, 1965, chapters 2, 3).
  * Cn = 1.2 is that of a smooth cylinder at Reynolds numbers from 1e3 to 2e5, about right from 200
- * on; slower streams drag by more. Ct = 0.02 is friction of the surface. The wind is
- * velocity + gust sin(2 pi frequency t), the same everywhere. Lift, added mass and the lee of other
- * things are left out.
- * The stiffness has what velocities change. What the wire's directions change is left out: its
- * symmetric part, the only one that would fit in, vanishes but for the wire's ends. In statics,
- * where nothing else holds a slack wire, iterations then go to and fro; see hold_back. */
+ * on; slower streams have more drag. Ct = 0.02 is surface friction. The wind is velocity + gust
+ * sin(2 pi frequency t), the same everywhere. Lift, added mass and shelter by other bodies are left
+ * out. The stiffness contains the derivatives by velocity. The derivatives by the wire's directions
+ * are left out: their symmetric part, the only one that the matrix can hold, vanishes except at the
+ * wire's ends. In statics, where nothing else holds a slack wire, iterations then oscillate; see
+ * hold_back. */
 #include <math.h>
 #include <stddef.h>
 
@@ -21,7 +21,7 @@ typedef struct wind_args {
   double frequency;      /* [Hz] */
   double density;        /* [kg/m3] */
   double normal, tangential;
-  double diameter; /* NAN: the wire's [m] */
+  double diameter; /* NAN: the wire's diameter [m] */
 } wind_args;
 
 #define AT(field) offsetof(wind_args, field)
@@ -50,8 +50,8 @@ typedef struct stream {
   int force, stiff; /* what is wanted */
 } stream;
 
-/* The force on half of an edge with the tangent t, at a node of velocity v; its change with the
- * velocity, which is cn (|un| P + un un'/|un|) + 2 ct |ut| t t', P across t. */
+/* Returns the force on half of an edge of tangent t, at a node of velocity v. Fills K, its
+ * derivative by velocity: cn (|un| P + un un'/|un|) + 2 ct |ut| t t', P across t. */
 static sw_vec on_half(const stream *s, sw_vec t, sw_vec v, double length, double K[9]) {
   const sw_vec u = sw_sub(s->wind, v);
   const double along = sw_dot(u, t), a[3] = {t.x, t.y, t.z};
@@ -65,12 +65,12 @@ static sw_vec on_half(const stream *s, sw_vec t, sw_vec v, double length, double
   return sw_scale(sw_madd(sw_scale(un, s->cn * across), t, s->ct * fabs(along) * along), length);
 }
 
-/* A turn of a wire by one radian changes the force across it by C = cn |u|^2 per length at most.
- * Where a wire hangs by its tension T alone, iterations without this part change a turn by up to
- * -C a / T of it each time, a being the length that T bears: it is T over what pulls along the wire
- * per length, at most all of the wire. A tension C a more than there is damps that. Strings blown
- * beyond 45 degrees from the vertical still find no rest so: settle says it, a run in time gets
- * there. */
+/* Adds the stiffness of an extra tension C a, to damp iterations in statics. Turning a wire by one
+ * radian changes the force across it by at most C = cn |u|^2 per length. Where a wire hangs by its
+ * tension T alone, an iteration without this term changes a turn by up to -C a / T times itself. a
+ * is the length that T bears: T over the pull along the wire per length, at most the whole wire.
+ * Strings blown beyond 45 degrees from the vertical still do not settle: settle reports it, a run
+ * in time gets there. */
 static void hold_back(const stream *s, sw_field *f, size_t e, sw_vec t) {
   const sw_plan *p = f->plan;
   const double along = sw_dot(s->wind, t), weight = sw_dot(sw_load(f->gravity), t);

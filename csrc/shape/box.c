@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Box centred on the origin. Outside, the nearest place is the point with each
- * coordinate limited to the box; inside, it lies on the nearest face. */
+/* Box centred on the origin. Outside, the nearest place is the point with each coordinate limited
+ * to the box. Inside, it lies on the nearest face. */
 #include "shape/shape_class.h"
 
 typedef struct box {
@@ -21,7 +21,8 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   return SW_OK;
 }
 
-/* Base-3 number of a face, edge or corner: digits 0, 1, 2 for -, between, +. */
+/* Base-3 number of a face, edge or corner: digits 0, 1, 2 for the negative side, between, the
+ * positive side. */
 enum { X_DIGIT = 1, Y_DIGIT = 3, Z_DIGIT = 9, MIDDLE = X_DIGIT + Y_DIGIT + Z_DIGIT };
 
 static inline int on_face(sw_vec p, sw_vec half, int axis, double gap, sw_closest *out) {
@@ -65,23 +66,23 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
   return sw_v(copysign(half.x, n.x), copysign(half.y, n.y), copysign(half.z, n.z));
 }
 
-/* -1, 0 or 1: a place is on that side of an axis, or between them. */
+/* Returns -1 or 1 for the side of an axis that a place is on, or 0 if it is between the sides. */
 static int side(double normal, double place, double half) {
-  const double leans = 1e-6, on_side = 1e-9; /* [-] */
+  const double leans = 1e-6, on_side = 1e-9; /* of a normal; of half the size [-] */
   if (fabs(normal) > leans) return normal < 0 ? -1 : 1;
   return fabs(place) < half * (1 - on_side) ? 0 : place < 0 ? -1 : 1;
 }
 
-/* A segment's nearest place on an edge is one, though what was looked at just beside it, perhaps
- * over a face, has named it. */
+/* Names the feature of a segment's contact by its normal and point. The point query just beside an
+ * edge may have named a face. */
 static void name_feature(sw_vec half, sw_closest *c) {
   const sw_vec n = c->normal, p = c->point;
   c->feature = MIDDLE + X_DIGIT * side(n.x, p.x, half.x) + Y_DIGIT * side(n.y, p.y, half.y) +
                Z_DIGIT * side(n.z, p.z, half.z);
 }
 
-/* The place on a segment that is nearest to an edge along axis k: nearest in the plane of j and i.
- * Returns 0 if it is not on this edge. */
+/* Finds the segment's place nearest to an edge along axis k, i.e. nearest in the plane of i and j.
+ * 0: it is not over such an edge. */
 static int over_edge(const double half[3], const double a[3], const double d[3], int k,
                      double *at) {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -100,8 +101,8 @@ static int over_edge(const double half[3], const double a[3], const double d[3],
   return 0;
 }
 
-/* As sw_convex_segment, of which the search takes long. A distance that is least along the segment
- * in the room of an edge is least of all. */
+/* Like sw_convex_segment, but faster where the nearest feature is an edge: a local minimum of the
+ * distance within an edge's region is the global one, because the distance is convex. */
 static int nearest(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
   const sw_vec half = ((const box *)shape)->half, d = sw_sub(b, a);
   const double h[3] = {half.x, half.y, half.z}, from[3] = {a.x, a.y, a.z}, way[3] = {d.x, d.y, d.z};
@@ -141,7 +142,7 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
 static const signed char quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                         {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
 
-/* Corner k: bit 0 of k tells the side along x, bit 1 that along y, bit 2 that along z. */
+/* Returns corner k: bits 0, 1 and 2 of k give the sides along x, y and z. */
 static sw_vec corner(const box *self, int k) {
   const sw_vec h = self->half;
   return sw_v(k & 1 ? h.x : -h.x, k & 2 ? h.y : -h.y, k & 4 ? h.z : -h.z);
@@ -194,7 +195,8 @@ static sw_sharp sharp(const sw_shape *shape, int feature, sw_vec *along) {
   return between >= 2 ? SW_SHARP_NOT : between ? SW_SHARP_EDGE : SW_SHARP_CORNER;
 }
 
-/* Is an edge or corner of this sign along axis k within the bounds there? 0: it goes along k. */
+/* 1 if an edge or corner on the side `sign` of axis k is within the bounds there. sign 0: the edge
+ * runs along k. */
 static int within(const double half[3], const double low[3], const double high[3], int k,
                   int sign) {
   if (!sign) return low[k] <= half[k] && high[k] >= -half[k];

@@ -24,7 +24,7 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   return SW_OK;
 }
 
-/* Which part a place on the axis belongs to: side, top ball, bottom ball. */
+/* Part for a place on the axis: 0 = side, 1 = top ball, 2 = bottom ball. */
 static inline int part_of(double z, double half) { return z >= half ? 1 : z <= -half ? 2 : 0; }
 
 static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
@@ -43,8 +43,8 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
   return sw_madd(sw_v(0, 0, n.z >= 0 ? self->half : -self->half), n, self->radius);
 }
 
-/* The direction away from the axis for a segment that crosses it: across both,
- * to the side where the segment's ends are. */
+/* Returns the direction away from the axis for a segment that crosses it: perpendicular to both,
+ * towards the side of the segment's ends. */
 static sw_vec across(sw_vec a, sw_vec b, sw_vec d) {
   const sw_vec z = sw_v(0, 0, 1);
   const sw_vec n = sw_unit_or(sw_cross(d, z), sw_perpendicular(sw_unit_or(d, z)));
@@ -55,7 +55,7 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   const capsule *self = (const capsule *)shape;
   const sw_vec low = sw_v(0, 0, -self->half), axis = sw_v(0, 0, 2 * self->half);
   const sw_vec d = sw_sub(b, a);
-  const double length = sw_norm(d), touching = 1e-12; /* part of the size taken as 0 [-] */
+  const double length = sw_norm(d), touching = 1e-12; /* share of the size taken as 0 [-] */
   double at, t;
   sw_pair_segments(a, d, low, axis, &at, &t);
   if (!(at > 0 && at < 1)) return 0;

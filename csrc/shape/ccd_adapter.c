@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Only the intersection test is used. Depths were measured against the exact
- * distance for capsules of radius 0.05 touching a unit cube (450 shallow cases):
- * MPR is off by more than 1 % of the radius in 10 % of them and by 41 % at worst
- * whatever its tolerance; EPA is in 35 % of them at its usual tolerance 1e-4, in
- * none at 1e-7, but then takes 2.3 us and allocates on every call, where the
- * exact search over the hull's triangles takes 0.1 to 0.3 us. */
+/* Only libccd's intersection test is used. Its depths were compared with the exact distance for
+ * capsules of radius 0.05 touching a unit cube (450 shallow cases). MPR is off by more than 1 % of
+ * the radius in 10 % of the cases, by 41 % at worst, at any tolerance. EPA is off in 35 % of them
+ * at its usual tolerance 1e-4, in none at 1e-7; it then takes 2.3 us and allocates on every call,
+ * while the exact search over the hull's triangles takes 0.1 to 0.3 us. */
 #include "shape/ccd_adapter.h"
 
 #include <ccd/ccd.h>
 
-/* One of the two bodies of a query, in units of the hull's size around its
- * centre: libccd's tolerances are absolute. */
+/* One of the two bodies of a query, centred and scaled by the hull's size, because libccd's
+ * tolerances are absolute. */
 typedef struct body {
   const double *vertices; /* n x 3, scaled on the fly [m] */
   size_t n;
   sw_vec centre;
   double scale;  /* 1 / size [1/m] */
-  double radius; /* around the vertices' hull, in units of size [-] */
+  double radius; /* of the margin around the vertices' hull, over size [-] */
 } body;
 
 static void furthest(const void *thing, const ccd_vec3_t *way, ccd_vec3_t *out) {
@@ -36,7 +35,7 @@ static void furthest(const void *thing, const ccd_vec3_t *way, ccd_vec3_t *out) 
 int sw_ccd_apart(const double *vertices, size_t n, sw_vec centre, double size,
                  const sw_vec *corners, int corner_count, double reach) {
   enum { MOST_CORNERS = 4 };
-  const double slack = 1e-3;      /* grown by this part of the size against false "apart" [-] */
+  const double slack = 1e-3;      /* extra margin over size, against a false "apart" [-] */
   const unsigned long most = 100; /* iterations; polytopes need about 10 [-] */
   double flat[3 * MOST_CORNERS];
   ccd_t setup;

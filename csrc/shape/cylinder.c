@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solid cylinder with flat ends, along z and centred: a rectangle in the half
- * plane of (distance from the axis, z). */
+/* Solid cylinder with flat ends, centred and along z: a rectangle in the half plane of (distance
+ * from the axis, z). */
 #include "shape/shape_class.h"
 
 typedef struct cylinder {
@@ -54,7 +54,7 @@ static sw_vec support(const sw_shape *shape, sw_vec n) {
   return sw_v(self->radius * away.x, self->radius * away.y, copysign(self->half, n.z));
 }
 
-/* Shorten the part to where the line is within the round side. */
+/* Shortens the part to where the line is within the round side. */
 static void clip_round(double radius, sw_vec a, sw_vec d, double part[2]) {
   const double dd = d.x * d.x + d.y * d.y, ad = a.x * d.x + a.y * d.y;
   const double inside = ad * ad - dd * (a.x * a.x + a.y * a.y - radius * radius);
@@ -86,7 +86,7 @@ static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out)
   return sw_revolve(rings, 2, -self->half, self->half, around, out);
 }
 
-/* The middle line of the capsule inside: rims stick out of it. */
+/* Visits the middle line of the inscribed capsule; the cylinder's rims lie outside the capsule. */
 static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   const cylinder *self = (const cylinder *)shape;
   const sw_vec low = sw_v(0, 0, -fmax(0, self->half - self->radius)), high = sw_neg(low);

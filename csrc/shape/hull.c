@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Convex hull of points: qhull makes the polytope, libccd tells early that
- * something is out of reach, the mesh code gives the exact answers. */
+/* Convex hull of points. qhull makes the polytope, libccd rejects distant queries early, the mesh
+ * code gives the exact answers. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -21,7 +21,7 @@ typedef struct hull {
 } hull;
 
 typedef struct hull_args {
-  char none; /* everything comes from the source */
+  char none; /* all input comes from the source */
 } hull_args;
 
 static const char object[] = "obstacle hull";
@@ -95,8 +95,7 @@ static int apart(const hull *self, const sw_vec *corners, int count, double reac
                       count, reach);
 }
 
-/* Edges and corners first; a segment that has gone in deeper than reach is
- * answered by the convex search. */
+/* Edges and corners are tried first. The convex search handles a segment deeper than reach. */
 static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
   const hull *self = (const hull *)shape;
   const sw_vec ends[2] = {a, b};
@@ -105,7 +104,7 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
   return count > 0 ? count : sw_convex_segment(shape, a, b, reach, out);
 }
 
-/* All that the segment sweeps over lies in the hull of its four end places. */
+/* The swept region lies in the hull of the segment's four end places. */
 static int sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
   const hull *self = (const hull *)shape;
   const sw_vec ends[4] = {path->a0, path->b0, path->a1, path->b1};

@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 
-enum { MESSAGE_SIZE = 4096 }; /* of qhull's text, of which the first line is used [B] */
+enum { MESSAGE_SIZE = 4096 }; /* size of qhull's text; its first line is used [B] */
 
 static sw_vec centre_of(const double *points, size_t n) {
   sw_vec sum = {0, 0, 0};
@@ -16,9 +16,8 @@ static sw_vec centre_of(const double *points, size_t n) {
   return sum;
 }
 
-/* The points around their centre with the largest coordinate 1: qhull's
- * tolerances and ours do not depend on the units then. Returns that largest
- * coordinate [m]. */
+/* Centres the points and scales their largest coordinate to 1, so that qhull's tolerances and ours
+ * do not depend on units. Returns the largest coordinate before [m]. */
 static double to_unit(const double *points, size_t n, double *unit) {
   const sw_vec centre = centre_of(points, n);
   double largest = 0;
@@ -31,7 +30,8 @@ static double to_unit(const double *points, size_t n, double *unit) {
   return largest;
 }
 
-/* Point numbers of a triangular facet, counter-clockwise seen from outside. */
+/* Finds the point numbers of a triangular facet, anticlockwise seen from outside. 0: not a
+ * triangle. */
 static int facet_corners(qhT *qh, facetT *facet, const double *unit, int corner[3]) {
   vertexT *vertex, **vertexp;
   int k = 0;
@@ -80,8 +80,7 @@ static sw_status refused(const char *object, int code, char *message, sw_error *
   return sw_fail(err, SW_EINVAL, "%s: no hull could be made (%s)", object, message);
 }
 
-/* Receives qhull's output: its messages, and now and then its progress, where it can be
- * stopped. */
+/* Receives qhull's output: its messages, and progress reports, at which it can be stopped. */
 typedef struct listener {
   qhT *qh;
   char message[MESSAGE_SIZE];
@@ -89,14 +88,14 @@ typedef struct listener {
   int stopped; /* 1: the user wants to stop */
 } listener;
 
-static const char PROGRESS[] = "\nAt "; /* how it begins */
+static const char PROGRESS[] = "\nAt "; /* start of a progress report */
 
 static ssize_t listen(void *cookie, const char *text, size_t size) {
   listener *l = cookie;
   if (size >= sizeof PROGRESS - 1 && memcmp(text, PROGRESS, sizeof PROGRESS - 1) == 0) {
     if (!sw_interrupted()) return (ssize_t)size;
     l->stopped = 1;
-    l->qh->STOPadd = 1; /* no further point */
+    l->qh->STOPadd = 1; /* add no further point */
     return (ssize_t)size;
   }
   const size_t room = sizeof l->message - 1 - l->length, part = size < room ? size : room;
@@ -107,7 +106,7 @@ static ssize_t listen(void *cookie, const char *text, size_t size) {
 
 static sw_status run(const char *object, double *unit, size_t n, int **indices,
                      size_t *triangle_count, sw_error *err) {
-  char command[] = "qhull Qt TF500"; /* to be heard of every 500 facets */
+  char command[] = "qhull Qt TF500"; /* TF500: report progress every 500 facets */
   qhT state, *qh = &state;
   listener l = {.qh = qh};
   int left = 0, total = 0;

@@ -5,8 +5,8 @@
 
 #include "shape/shape.h"
 
-/* Triangles (point numbers, outward winding) of the hull of n >= 4 finite
- * points; *indices is for sw_free. Flat sets of points are refused. */
+/* Makes the triangles (point numbers, outward winding) of the hull of n >= 4 finite points. Free
+ * *indices with sw_free. Flat sets of points are refused. */
 sw_status sw_hull_triangles(const char *object, const double *points, size_t n, int **indices,
                             size_t *triangle_count, sw_error *err);
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Triangle mesh. A closed one is solid inside; an open one is a sheet whose
- * back counts as inside for places nearer to its triangles than to its border,
- * and within its bounds or within reach. */
+/* Triangle mesh. A closed mesh is solid. An open mesh is a sheet: its back counts as inside for
+ * places nearer to its triangles than to its border, within its bounds or within reach. */
 #include "base/alloc.h"
 #include "shape/mesh_read.h"
 #include "shape/meshed.h"

@@ -12,15 +12,15 @@
 #include "base/vec.h"
 #include "shape/mesh_read.h"
 
-/* --- the one file there is ------------------------------------------------ */
+/* --- a file system of one file -------------------------------------------------- */
 
-/* Assimp's own memory reader would look for materials and buffers on the disk;
- * this one knows a single name. */
+/* Assimp's own memory reader would look for materials and buffers on the disk; this one has a
+ * single file. */
 typedef struct memory_file {
   const char *bytes;
   size_t size, at; /* [B] */
   char name[32];
-  int starved; /* memory ran out while opening */
+  int starved; /* 1: out of memory while opening */
 } memory_file;
 
 static size_t file_read(struct aiFile *file, char *out, size_t size, size_t count) {
@@ -43,7 +43,7 @@ static void file_flush(struct aiFile *file) { (void)file; }
 static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin origin) {
   memory_file *f = (memory_file *)(void *)file->UserData;
   const size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? f->at : f->size;
-  const size_t to = from + offset; /* Assimp passes negative offsets as wrapped ones */
+  const size_t to = from + offset; /* Assimp passes negative offsets wrapped around */
   if (to > f->size) return aiReturn_FAILURE;
   f->at = to;
   return aiReturn_SUCCESS;
@@ -76,7 +76,8 @@ static void count(const struct aiScene *scene, size_t *vertices, size_t *triangl
   }
 }
 
-/* 0 when a face has a corner that is not there: Assimp does not look at all formats' numbers. */
+/* Copies a mesh. 0: a face has a corner that does not exist; Assimp does not check the indices of
+ * all formats. */
 static int add_mesh(const struct aiMesh *mesh, sw_mesh_data *out) {
   const int first = (int)out->vertex_count;
   for (unsigned v = 0; v < mesh->mNumVertices; v++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Has a mesh file all that it declares? Each format is checked just closely enough to find a
- * file that was cut off; the rest is up to the reader. */
+/* Checks that a mesh file has all the data it declares. Each format is checked just closely enough
+ * to find a truncated file; the reader checks the rest. */
 #include "base/vec.h"
 #include "shape/mesh_ply.h"
 #include "shape/mesh_read.h"
@@ -15,8 +15,8 @@ sw_mesh_reader sw_mesh_get_reader(void) { return reader; }
 
 enum { STL_HEAD = 84, STL_TRIANGLE = 50 }; /* [B] */
 
-/* Where the text begins for the last time, whatever its case; NULL when it is not there. text is
- * in small letters. */
+/* Returns the last occurrence of text in the file, ignoring case; NULL if there is none. text is in
+ * lower case. */
 static const char *last_of(const sw_mesh_file *file, const char *text) {
   const size_t n = strlen(text);
   for (size_t at = file->byte_count >= n ? file->byte_count - n + 1 : 0; at-- > 0;) {
@@ -56,14 +56,15 @@ static sw_status check_stl(const sw_mesh_file *file, sw_error *err) {
 
 /* --- OFF ------------------------------------------------------------------ */
 
-/* The next line that is no comment. */
+/* Gets the next line that is not a comment. */
 static int line_of(sw_words *from, sw_words *line) {
   while (sw_words_line(from, line))
     if (*line->at != '#') return 1;
   return 0;
 }
 
-/* Has the line as many words as it takes: 3 numbers, or a count and as many numbers? */
+/* 1 if the line has enough words: 3 numbers for a point, a count and that many numbers for a
+ * face. */
 static int is_whole(sw_words line, int face) {
   sw_words word;
   size_t need = 3;
@@ -103,7 +104,7 @@ static sw_status check_off(const sw_mesh_file *file, sw_error *err) {
 static sw_status check_glb(const sw_mesh_file *file, sw_error *err) {
   enum { HEAD = 12 }; /* [B] */
   const size_t size = file->byte_count, whole = size >= HEAD ? sw_words_u32(file->bytes + 8) : HEAD;
-  if (size >= HEAD && memcmp(file->bytes, "glTF", 4) != 0) return SW_OK; /* the reader says it */
+  if (size >= HEAD && memcmp(file->bytes, "glTF", 4) != 0) return SW_OK; /* the reader reports it */
   if (size >= whole && size >= HEAD) return SW_OK;
   return sw_fail(err, SW_EFORMAT,
                  "%s: data is not readable as glb: it is cut off or damaged: it declares %zu bytes "
@@ -116,5 +117,5 @@ sw_status sw_mesh_check(const sw_mesh_file *file, sw_error *err) {
   if (strcmp(file->format, "ply") == 0) return sw_mesh_check_ply(file, err);
   if (strcmp(file->format, "off") == 0) return check_off(file, err);
   if (strcmp(file->format, "glb") == 0) return check_glb(file, err);
-  return SW_OK; /* obj and gltf declare nothing that could be compared */
+  return SW_OK; /* obj and gltf declare no counts */
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A header lists elements (a name, how many, properties of each); after it come the items, one
- * after the other, as words or as bytes. A property is a value, or a count and as many values. */
+/* Checks a PLY file. Its header lists elements (name, count, properties of each). The items follow,
+ * one after another, as words or bytes. A property is a single value, or a list: a count and that
+ * many values. */
 #include "shape/mesh_ply.h"
 
 #include "base/each.h"
@@ -9,15 +10,15 @@
 enum { MOST_ELEMENTS = 16, MOST_PROPERTIES = 64 };
 
 typedef struct property {
-  int size;  /* of a value [B] */
-  int count; /* of the number of values before them, 0 for a single value [B] */
+  int size;  /* size of a value [B] */
+  int count; /* size of the list's count, 0 for a single value [B] */
 } property;
 
 typedef struct element {
   sw_words name;
   size_t count;      /* items [-] */
-  int first, number; /* its properties */
-  size_t fixed;      /* of an item, what is not in lists [B] */
+  int first, number; /* first and number of its properties */
+  size_t fixed;      /* size of an item's single values [B] */
   int lists;         /* properties that are lists */
 } element;
 
@@ -80,8 +81,7 @@ static int read_format(header *h, sw_words line) {
   return 0;
 }
 
-/* From the file's start to behind the header's last line. 0 when it cannot be read or is not all
- * there. */
+/* Reads from the file's start to the end of the header. 0: unreadable or truncated. */
 static int read_header(header *h, sw_words *from) {
   sw_words line, word;
   *h = (header){0};
@@ -101,7 +101,7 @@ static int read_header(header *h, sw_words *from) {
   return 0;
 }
 
-/* --- items: how many of an element are whole ------------------------------- */
+/* --- items: count the complete ones of an element ------------------------------- */
 
 static int text_item(const header *h, const element *e, sw_words *from) {
   sw_words word;

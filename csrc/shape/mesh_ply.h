@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Is a PLY file as long as its header says? */
+/* Checks that a PLY file has all the data that its header declares. */
 #ifndef SW_SHAPE_MESH_PLY_H
 #define SW_SHAPE_MESH_PLY_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mesh files: what is looked at before one is read, and who reads it. */
+/* Mesh files: checks before reading, and the choice of the reader. */
 #ifndef SW_SHAPE_MESH_READ_H
 #define SW_SHAPE_MESH_READ_H
 
@@ -21,19 +21,19 @@ typedef struct sw_mesh_data {
   size_t vertex_count, triangle_count;
 } sw_mesh_data;
 
-/* Makes triangles of a file. On failure nothing is held. */
+/* Makes triangles from a file. On failure nothing is allocated. */
 typedef sw_status (*sw_mesh_reader)(const sw_mesh_file *file, sw_mesh_data *out, sw_error *err);
 
-/* Is all there that the file says it has? Looks at what the format declares: counts of points and
- * triangles, lengths, closing words. A file that was cut off is found here, before anything is
- * made as large as it says. Not every damage shows; SW_OK promises nothing. */
+/* Checks that a file has all the data it declares: counts of points and triangles, lengths, closing
+ * words. This finds truncated files before memory of the declared size is allocated. Not all damage
+ * is found: SW_OK promises nothing. */
 sw_status sw_mesh_check(const sw_mesh_file *file, sw_error *err);
 
-/* By Assimp in this process, which a damaged file may end. Nothing else is opened, whatever the
- * file refers to. */
+/* Reads a file by Assimp in this process; a damaged file may crash the process. No other file is
+ * opened, whatever the file refers to. */
 sw_status sw_mesh_read(const sw_mesh_file *file, sw_mesh_data *out, sw_error *err);
 
-/* Who reads the mesh files from now on; sw_mesh_read when nobody was set. */
+/* Sets the reader of mesh files; NULL restores sw_mesh_read, the default. */
 void sw_mesh_set_reader(sw_mesh_reader reader);
 sw_mesh_reader sw_mesh_get_reader(void);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines, words and counts in the bytes of a mesh file; nothing is copied. */
+/* Splits the bytes of a mesh file into lines, words and counts; nothing is copied. */
 #ifndef SW_SHAPE_MESH_WORDS_H
 #define SW_SHAPE_MESH_WORDS_H
 
@@ -12,7 +12,7 @@ typedef struct sw_words {
 
 static inline int sw_words_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/* The next line that is not empty, without its end. 0 when there is none. */
+/* Gets the next line that is not empty, without its line end. 0: no more lines. */
 static inline int sw_words_line(sw_words *from, sw_words *line) {
   while (from->at < from->end && sw_words_space(*from->at)) from->at++;
   if (from->at == from->end) return 0;
@@ -35,7 +35,7 @@ static inline int sw_words_are(sw_words word, const char *text) {
   return (size_t)(word.end - word.at) == n && memcmp(word.at, text, n) == 0;
 }
 
-/* A count in decimal digits; 0 when the word is no count, or beyond 1e18. */
+/* Reads a count in decimal digits. 0: the word is no count, or has more than 18 digits. */
 static inline int sw_words_count(sw_words *from, size_t *count) {
   sw_words word;
   *count = 0;
@@ -47,7 +47,7 @@ static inline int sw_words_count(sw_words *from, size_t *count) {
   return 1;
 }
 
-/* Four bytes, the least first. */
+/* Reads four bytes, least significant first. */
 static inline size_t sw_words_u32(const char *at) {
   const unsigned char *b = (const unsigned char *)at;
   return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shapes whose surface is a mesh of triangles: what shape_class.h asks of them, by trimesh.h. */
+/* Shapes whose surface is a triangle mesh: functions of shape_class.h that call those of
+ * trimesh.h. */
 #ifndef SW_SHAPE_MESHED_H
 #define SW_SHAPE_MESHED_H
 
 #include "shape/trimesh.h"
 
-/* Such a shape begins with it. */
+/* First member of such a shape. */
 typedef struct sw_meshed {
   sw_shape base;
   sw_trimesh mesh;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Surfaces of triangles that are drawn: their lists, and bodies of revolution. */
+/* Triangle surfaces for drawing: their lists, and bodies of revolution. */
 #include "base/alloc.h"
 #include "shape/shape_class.h"
 
@@ -25,7 +25,7 @@ sw_ring *sw_ring_arc(sw_ring *to, double radius, double z, double from, double e
   return to;
 }
 
-/* Vertices: the lower pole, the rings from below, the upper pole. */
+/* Order of the vertices: lower pole, rings from below, upper pole. */
 sw_status sw_revolve(const sw_ring *rings, size_t count, double bottom, double top, int around,
                      sw_triangles *out) {
   const size_t n = (size_t)around, last = n * count + 1;

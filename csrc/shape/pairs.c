@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "shape/pairs.h"
 
-/* Where the segment goes through the triangle; 0 when it does not. */
+/* Finds where the segment goes through the triangle; 0: it does not. */
 static int pierced(const sw_triangle *tri, sw_vec a, sw_vec b, sw_closest *out) {
   const double above = sw_dot(tri->n, sw_sub(a, tri->v[0]));
   const double below = sw_dot(tri->n, sw_sub(b, tri->v[0]));

@@ -6,7 +6,7 @@
 #include "base/segments.h"
 #include "shape/shape_class.h"
 
-/* Where on a triangle: inside, on side k (corner k to k + 1), at corner k. */
+/* Part of a triangle: inside, side k (corner k to k + 1), corner k. */
 enum { SW_ON_FACE = 0, SW_ON_SIDE = 1, SW_ON_CORNER = 4 };
 
 typedef struct sw_triangle {
@@ -14,7 +14,7 @@ typedef struct sw_triangle {
   sw_vec n;    /* unit normal [-] */
 } sw_triangle;
 
-/* The nearest place of the triangle to p, and which part of it that is. */
+/* Returns the nearest place of the triangle to p, and its part of the triangle. */
 static inline sw_vec sw_pair_triangle(const sw_triangle *tri, sw_vec p, int *part) {
   sw_vec best = tri->v[0];
   double best2 = INFINITY;
@@ -36,9 +36,9 @@ static inline sw_vec sw_pair_triangle(const sw_triangle *tri, sw_vec p, int *par
   return sw_madd(p, tri->n, -sw_dot(tri->n, sw_sub(p, tri->v[0])));
 }
 
-/* The nearest place of the segment a-b to the triangle (an sw_triangle). The
- * gap is unsigned, the normal points to the segment; a segment that pierces the
- * triangle has gap 0 and the triangle's normal. */
+/* Finds the nearest place of the segment a-b to the triangle (an sw_triangle). The gap is unsigned
+ * and the normal points to the segment. A segment that pierces the triangle has gap 0 and the
+ * triangle's normal. */
 void sw_triangle_nearest(const void *triangle, sw_vec a, sw_vec b, sw_closest *out);
 
 #endif

@@ -37,7 +37,7 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
   return 1;
 }
 
-/* The distance is linear along a segment: never a minimum inside. */
+/* The distance is linear along a segment, so it has no minimum between the ends. */
 static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_closest *out) {
   (void)shape, (void)a, (void)b, (void)reach, (void)out;
   return 0;

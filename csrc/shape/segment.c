@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The nearest place inside a segment to a convex shape. The signed distance to
- * a convex set is convex, so its slope along the segment, normal . (b - a), only
- * rises: the minimum is where it changes sign. At a kink (inside the solid,
- * where the nearest face changes) the normal is the mixture of both sides'
- * normals that is perpendicular to the segment, which is the direction of the
- * edge that cuts in. */
+/* The nearest place inside a segment to a convex shape. The signed distance to a convex set is
+ * convex, so its slope along the segment, normal . (b - a), only rises, and the minimum is where
+ * the slope changes sign. Inside the solid the nearest face may change there (a kink). The normal
+ * is then the mixture of both sides' normals that is perpendicular to the segment: the direction of
+ * the edge that cuts in. */
 #include "shape/shape_class.h"
 
 typedef struct probe {
   sw_closest c;
-  double slope; /* of the gap per unit of `at` [m] */
+  double slope; /* change of the gap per unit of `at` [m] */
 } probe;
 
 typedef struct line {
   const sw_shape *shape;
-  sw_vec a, d; /* first end and the way to the second [m] */
+  sw_vec a, d; /* first end, vector to the second end [m] */
   double length;
-  double level; /* slopes below this size count as none [m] */
+  double level; /* smaller slopes count as zero [m] */
 } line;
 
 static void look(const line *on, double at, probe *out) {
@@ -25,8 +24,8 @@ static void look(const line *on, double at, probe *out) {
   out->slope = sw_dot(out->c.normal, on->d);
 }
 
-/* The shape lies behind the planes at both probes: no gap between them is below
- * the height where the two meet. */
+/* Returns the height where the planes of both probes meet, and its place. The shape lies behind
+ * both planes, so no gap between the probes is smaller. */
 static double meet(const probe *left, const probe *right, double *at) {
   const double run = right->c.at - left->c.at;
   const double rise = right->c.gap - left->c.gap;
@@ -34,22 +33,22 @@ static double meet(const probe *left, const probe *right, double *at) {
   return left->c.gap + left->slope * (*at - left->c.at);
 }
 
-/* Where to look next: in turn where the planes meet (exact for flat faces), at
- * the slope's secant (fast on round ones) and in the middle (always halves). */
+/* Chooses the next place to probe, in turn: where the planes meet (exact for flat faces), the
+ * secant of the slope (fast on round shapes), the middle (always halves the interval). */
 static double next_place(const probe *left, const probe *right, double where_met, int turn) {
   const double run = right->c.at - left->c.at;
-  const double edge = 0.01; /* keep this part of the interval from its ends [-] */
+  const double edge = 0.01; /* least distance from the ends, over the interval [-] */
   double at = where_met;
   if (turn % 3 == 1) at = left->c.at - left->slope * run / (right->slope - left->slope);
   if (turn % 3 == 2) at = left->c.at + run / 2;
   return sw_limit(at, left->c.at + edge * run, right->c.at - edge * run);
 }
 
-/* Narrow the interval whose ends have slopes below and above zero. Returns 0
- * when no place in it can be nearer than reach. */
+/* Narrows an interval whose ends have slopes below and above zero. 0: no place in it is nearer than
+ * reach. */
 static int narrow(const line *on, probe *left, probe *right, double reach) {
-  const int most = 60;        /* a third of them halve: below 1e-6 even then */
-  const double sharp = 1e-15; /* of the length: gap known as well as numbers allow [-] */
+  const int most = 60;        /* every third one halves: below 1e-6 at worst */
+  const double sharp = 1e-15; /* error of the gap over the length, about rounding [-] */
   const double width = 1e-13; /* narrowest interval [-] */
   for (int turn = 0; turn < most; turn++) {
     double at;
@@ -68,19 +67,19 @@ static int narrow(const line *on, probe *left, probe *right, double reach) {
   return 1;
 }
 
-/* The contact between two probes that close in on the minimum. */
+/* Makes the contact from two probes that enclose the minimum. */
 static void settle(const line *on, const probe *left, const probe *right, sw_closest *out) {
-  const double opposed = 1e-6; /* mixed normal shorter than this: faces back to back [-] */
-  const double smooth = 1e-6;  /* squared difference of normals that is no kink [-] */
+  const double opposed = 1e-6; /* squared mixed normal below this: opposite faces [-] */
+  const double smooth = 1e-6;  /* squared difference of normals below this: no kink [-] */
   const double rise = right->slope - left->slope;
   *out = left->c.gap <= right->c.gap ? left->c : right->c;
   if (!(rise > 0)) return;
-  const double share = right->slope / rise; /* of the left normal [-] */
+  const double share = right->slope / rise; /* weight of the left normal [-] */
   const sw_vec mixed = sw_lerp(right->c.normal, left->c.normal, share);
   if (!(sw_norm2(mixed) > opposed)) return;
   const sw_vec n = sw_unit_or(mixed, out->normal);
   double at;
-  meet(left, right, &at); /* exact at a kink, however far apart the probes are */
+  meet(left, right, &at); /* exact at a kink, even for distant probes */
   if (sw_norm2(sw_sub(left->c.normal, right->c.normal)) < smooth)
     at = right->c.at + share * (left->c.at - right->c.at);
   const sw_vec p = sw_madd(on->a, on->d, at);
@@ -89,7 +88,7 @@ static void settle(const line *on, const probe *left, const probe *right, sw_clo
 }
 
 static line line_of(const sw_shape *shape, sw_vec a, sw_vec b) {
-  const double none = 1e-12; /* slope taken as zero [-] */
+  const double none = 1e-12; /* slope over length taken as zero [-] */
   const sw_vec d = sw_sub(b, a);
   const double length = sw_norm(d);
   return (line){shape, a, d, length, none * length};
@@ -111,7 +110,7 @@ int sw_convex_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, s
 
 int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, const double part[2],
                      sw_closest *out) {
-  const double same_part = 1e-6, level = 1e-9; /* of the length [-] */
+  const double same_part = 1e-6, level = 1e-9; /* over the length [-] */
   const sw_vec d = sw_sub(b, a);
   const double length = sw_norm(d);
   const sw_closest lone = out[0];
@@ -130,7 +129,7 @@ int sw_convex_bridge(const sw_shape *shape, sw_vec a, sw_vec b, double reach, co
     out[count++] = found;
   }
   if (as_near < 2) return count;
-  out[0] = out[2]; /* level: the lone contact was just any place between the two */
+  out[0] = out[2]; /* level: the single contact was an arbitrary place between the two */
   return 2;
 }
 

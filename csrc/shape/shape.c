@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by all shapes: making, counting references, sending queries on. */
+/* Functions shared by all shapes: making, reference counting, dispatch of queries. */
 #include "shape/shape.h"
 
 #include <stdint.h>
@@ -131,7 +131,7 @@ int sw_shape_points_out(const sw_shape *shape, const sw_ridge *ridge, sw_vec n, 
 
 /* --- files ------------------------------------------------------------------ */
 
-/* A count of 0 on the tape: it was made without them. */
+/* Puts a source on a tape. A count of 0 means that the shape has no such input. */
 static void tape_source(sw_tape *t, sw_shape_source *source) {
   void *points = (void *)(uintptr_t)source->points, *bytes = (void *)(uintptr_t)source->bytes;
   sw_tape_count(t, &source->point_count, 3 * sizeof(double));
@@ -173,7 +173,7 @@ int sw_shape_meets(const sw_shape *shape, sw_vec a, sw_vec b, double reach) {
   return sw_bounds_meet(&near, &shape->bounds);
 }
 
-/* Sum of the coordinates' sizes; NaN stays NaN [m] */
+/* Returns the sum of the coordinates' absolute values; NaN stays NaN [m]. */
 static inline double size_of(sw_vec p) { return fabs(p.x) + fabs(p.y) + fabs(p.z); }
 
 int sw_shape_point(const sw_shape *shape, sw_vec p, double reach, sw_closest *out) {
@@ -192,7 +192,7 @@ int sw_shape_segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach,
 
 int sw_shape_sweep(const sw_shape *shape, sw_vec a0, sw_vec b0, sw_vec a1, sw_vec b1, double margin,
                    sw_closest *out, double *when) {
-  const double relative = 1e-10; /* tolerance in parts of the largest coordinate [-] */
+  const double relative = 1e-10; /* tolerance over the largest coordinate [-] */
   const double size = fmax(fmax(size_of(a0), size_of(b0)), fmax(size_of(a1), size_of(b1)));
   const double all = size_of(a0) + size_of(b0) + size_of(a1) + size_of(b1);
   if (!(all < SW_SHAPE_FAR) || !(margin >= 0 && margin < SW_SHAPE_FAR)) return 0;

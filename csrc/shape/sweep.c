@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When a moving segment first comes near a thing, by conservative
- * advancement: from the gap now follows a time before which nothing can happen;
- * go there, look again. Two such times are known and the later one is taken:
- * no point moves faster than the faster end, and a convex thing stays behind
- * the plane through its nearest place, which the segment cannot reach before
- * one of its ends does. */
+/* First touch of a moving segment by conservative advancement: the present gap gives a time before
+ * which no touch can happen; go there and look again. Two such times are known and the later one is
+ * taken: no point moves faster than the faster end, and a convex thing stays behind the plane
+ * through its nearest place, which one of the segment's ends must reach first. */
 #include "shape/shape_class.h"
 
-/* Time at which an end, now at p and moving by v per unit of time, gets within
- * level of the plane. */
+/* Returns the time at which an end, at p at time `now` with velocity v, comes within level of the
+ * plane. */
 static double end_arrival(double now, sw_vec p, sw_vec v, sw_vec normal, double plane,
                           double level) {
   const double speed = -sw_dot(normal, v);
@@ -19,7 +17,7 @@ static double end_arrival(double now, sw_vec p, sw_vec v, sw_vec normal, double 
 int sw_sweep_advance(sw_nearest_function nearest, const void *thing, const sw_sweep *path,
                      const sw_closest *start, double level, double limit, sw_closest *out,
                      double *when) {
-  const int most = 300; /* looks before a graze is called a touch [-] */
+  const int most = 300; /* looks after which a graze counts as a touch [-] */
   const sw_vec va = sw_sub(path->a1, path->a0), vb = sw_sub(path->b1, path->b0);
   const double speed = fmax(sw_norm(va), sw_norm(vb));
   sw_vec a = path->a0, b = path->b0;
@@ -45,7 +43,7 @@ static void shape_nearest(const void *thing, sw_vec a, sw_vec b, sw_closest *out
 }
 
 int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
-  const double end = 1 + 1e-12; /* the last moment still counts */
+  const double end = 1 + 1e-12; /* counts a touch at time 1 despite rounding */
   sw_closest start;
   sw_convex_nearest(shape, path->a0, path->b0, &start);
   const double level = sw_sweep_level(path, start.gap);
@@ -54,7 +52,7 @@ int sw_convex_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out
   return 1;
 }
 
-/* --- what need not be convex ------------------------------------------------- */
+/* --- shapes that need not be convex ------------------------------------------------- */
 
 static void any_nearest(const sw_shape *shape, sw_vec a, sw_vec b, sw_closest *out) {
   sw_closest end, inner[SW_CLOSEST_MAX];
@@ -67,7 +65,7 @@ static void any_nearest(const sw_shape *shape, sw_vec a, sw_vec b, sw_closest *o
 }
 
 int sw_any_sweep(const sw_shape *shape, const sw_sweep *path, sw_closest *out, double *when) {
-  const int most = 3000; /* looks before a graze is called a touch [-] */
+  const int most = 3000; /* looks after which a graze counts as a touch [-] */
   const sw_vec va = sw_sub(path->a1, path->a0), vb = sw_sub(path->b1, path->b0);
   const double speed = fmax(sw_norm(va), sw_norm(vb));
   any_nearest(shape, path->a0, path->b0, out);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edges and corners of a mesh: which triangles meet there, the normals that
- * tell inside from outside (the sum over the faces, at corners weighted by
- * their angle), and which of them stick out. */
+/* Edges and corners of a mesh: their triangles, their normals that separate inside from outside
+ * (the sum over the faces, at corners weighted by angle), and the flag of those that stick out. */
 #include <stdlib.h>
 
 #include "base/alloc.h"
@@ -10,7 +9,7 @@
 
 typedef struct half_edge {
   int low, high; /* vertices */
-  int tri, side; /* whose side it is */
+  int tri, side; /* the triangle and its side */
 } half_edge;
 
 static int compare(const void *one, const void *two) {
@@ -27,14 +26,15 @@ static half_edge side_of(const sw_trimesh *mesh, size_t i) {
   return (half_edge){from < to ? from : to, from < to ? to : from, (int)tri, (int)k};
 }
 
-/* In order: counted by their lower vertex (first: vertices + 1 zeros), then sorted at each. */
+/* Lists all sides in order: a counting sort by lower vertex (first: vertices + 1 zeros), then a
+ * sort at each vertex. */
 static sw_status list_sides(const sw_trimesh *mesh, half_edge *halves, size_t *first) {
   const size_t n = 3 * mesh->triangle_count, vertices = mesh->vertex_count;
   for (size_t i = 0; i < n; i++) first[side_of(mesh, i).low + 1]++;
   for (size_t v = 0; v < vertices; v++) first[v + 1] += first[v];
   for (size_t i = n; i-- > 0;) {
     const half_edge h = side_of(mesh, i);
-    halves[--first[h.low + 1]] = h; /* becomes the first one's place */
+    halves[--first[h.low + 1]] = h; /* ends as the place of the first one */
   }
   for (size_t v = 0; v < vertices; v++) {
     const size_t begin = first[v + 1], end = v + 2 <= vertices ? first[v + 2] : n;
@@ -44,7 +44,7 @@ static sw_status list_sides(const sw_trimesh *mesh, half_edge *halves, size_t *f
   return SW_OK;
 }
 
-/* Across the edge from v into the triangle whose side it is. */
+/* Returns the unit vector across a side into its triangle. */
 static sw_vec into_triangle(const sw_trimesh *mesh, int tri, int side) {
   const sw_triangle t = sw_trimesh_triangle(mesh, tri);
   const sw_vec along = sw_sub(t.v[(side + 1) % 3], t.v[side]);
@@ -55,10 +55,10 @@ static int runs_up(const sw_trimesh *mesh, const half_edge *h) {
   return mesh->indices[3 * (size_t)h->tri + (size_t)h->side] == h->low;
 }
 
-/* One edge from the count sides that lie on it. Returns 1 when two triangles
- * run along it in the same direction. */
+/* Makes one edge from the `count` sides on it. Returns 1 if two triangles run along it in the same
+ * direction. */
 static int make_edge(sw_trimesh *mesh, const half_edge *h, int count) {
-  const double bent = 1e-6; /* sine of the angle below which faces are level [-] */
+  const double bent = 1e-6; /* sine of the angle below which faces are flat [-] */
   const int number = (int)mesh->edge_count++;
   sw_trimesh_edge *edge = &mesh->edges[number];
   *edge = (sw_trimesh_edge){.v = {h->low, h->high}, .tri = {h[0].tri, -1}};
@@ -117,7 +117,7 @@ static void add_corner_normals(sw_trimesh *mesh) {
   }
 }
 
-/* The edges at every corner, one list after the other. */
+/* Lists the edges at every corner, one list after another. */
 static void list_corner_edges(sw_trimesh *mesh) {
   for (size_t e = 0; e < mesh->edge_count; e++)
     for (int k = 0; k < 2; k++) mesh->corners[mesh->edges[e].v[k]].count++;
@@ -134,9 +134,10 @@ static void list_corner_edges(sw_trimesh *mesh) {
     }
 }
 
-/* A corner sticks out when all its edges fall away from its normal. */
+/* Normalises a corner and sets its flags. It sticks out if all its edges fall away from its
+ * normal. */
 static void finish_corner(sw_trimesh *mesh, int v) {
-  const double bent = 1e-6; /* sine of the slope below which an edge is level [-] */
+  const double bent = 1e-6; /* sine of the slope below which an edge is flat [-] */
   sw_trimesh_corner *corner = &mesh->corners[v];
   const sw_vec fallback =
       corner->owner < 0 ? sw_v(0, 0, 1) : sw_load(mesh->normals + 3 * (size_t)corner->owner);
@@ -153,7 +154,8 @@ static void finish_corner(sw_trimesh *mesh, int v) {
   }
 }
 
-/* Everything once the sides are listed; *twisted counts edges of opposed faces. */
+/* Makes edges and corners from the listed sides; *twisted counts edges whose faces face opposite
+ * ways. */
 static sw_status fill(sw_trimesh *mesh, const half_edge *halves, size_t *twisted) {
   const size_t edges = count_edges(halves, 3 * mesh->triangle_count);
   SW_TRY(SW_ALLOC_ALL(SW_ROOM(mesh->edges, edges), SW_ROOM(mesh->corner_edges, 2 * edges),

@@ -2,10 +2,10 @@
 /* Ring: all places within `tube` of a circle of radius R around z, R > tube. With rho the distance
  * from z, the gap is |(rho - R, z)| - tube; exact everywhere.
  *
- * Along a segment a + t d half the slope of (gap + tube)^2 is h = d.(a + t d) - R rho', and
- * rho = |(m, D (t - t0))| with D the part of d across z. h' = d.d - R D^2 m^2/rho^3 is negative
- * only between two places the same way off t0, so h falls between them and rises before and after:
- * there is at most one minimum of the gap on either side. */
+ * Along a segment a + t d, half the slope of (gap + tube)^2 is h = d.(a + t d) - R rho', and rho =
+ * |(m, D (t - t0))| with D the length of d across z. h' = d.d - R D^2 m^2/rho^3 is negative only in
+ * an interval centred on t0. So h falls inside it and rises before and after: there is at most one
+ * minimum of the gap on either side. */
 #include "shape/shape_class.h"
 
 typedef struct torus {
@@ -32,7 +32,7 @@ static sw_status create(sw_shape *shape, const void *args, const sw_shape_source
   return SW_OK;
 }
 
-/* The place of the circle that is nearest to p. */
+/* Returns the place of the circle nearest to p. */
 static sw_vec on_circle(const torus *self, sw_vec p) {
   const double rho = sqrt(p.x * p.x + p.y * p.y);
   return sw_scale(sw_direction(sw_v(p.x, p.y, 0), rho, sw_v(1, 0, 0)), self->radius);
@@ -51,11 +51,11 @@ static int distance(const sw_shape *shape, sw_vec p, double reach, sw_closest *o
 /* --- segments ----------------------------------------------------------------- */
 
 typedef struct line {
-  sw_vec a, d;   /* first end and the way to the second [m] */
+  sw_vec a, d;   /* first end, vector to the second end [m] */
   double radius; /* of the circle [m] */
   double across; /* D [m] */
   double middle; /* t0 [-] */
-  double past;   /* m: how far it passes z by [m] */
+  double past;   /* m: signed least distance of the line from z [m] */
 } line;
 
 static line line_of(const torus *self, sw_vec a, sw_vec b) {
@@ -70,14 +70,14 @@ static line line_of(const torus *self, sw_vec a, sw_vec b) {
                 a.x * (d.y / D) - a.y * (d.x / D)};
 }
 
-/* h at t, of the size of a length squared; at z itself it jumps: side -1 before, 1 after. */
+/* Returns h at t [m2]. On the axis itself h jumps: side -1 = before, 1 = after. */
 static double slope(const line *on, double t, int side) {
   const double u = on->across * (t - on->middle), rho = sqrt(on->past * on->past + u * u);
   const double outwards = rho > 0 ? u / rho : side; /* rho' / D */
   return sw_dot(sw_madd(on->a, on->d, t), on->d) - on->radius * on->across * outwards;
 }
 
-/* Where h rises through 0 in [from, to]; 0: nowhere inside. Halving, with the secant in turn. */
+/* Finds where h rises through 0 in [from, to], alternating halving and secant. 0: nowhere. */
 static int rise(const line *on, double from, double to, int side, double *at) {
   const double width = 1e-15; /* narrowest interval [-] */
   double low = slope(on, from, side), high = slope(on, to, side);
@@ -95,7 +95,7 @@ static int rise(const line *on, double from, double to, int side, double *at) {
   return 1;
 }
 
-/* Half of the width of h's falling part, around t0 [-]. */
+/* Returns half the width of h's falling part, which is centred on t0 [-]. */
 static double falling(const line *on) {
   const double D2 = on->across * on->across, m2 = on->past * on->past;
   if (!(on->across > 0)) return 0;
@@ -103,14 +103,15 @@ static double falling(const line *on) {
   return sqrt(fmax(0, rho * rho - m2)) / on->across;
 }
 
-/* Away from the circle for a segment that crosses it: across both. */
+/* Returns the direction away from the circle for a segment that crosses it: perpendicular to
+ * both. */
 static sw_vec across(sw_vec c, sw_vec d) {
   const sw_vec along = sw_v(-c.y, c.x, 0);
   return sw_unit_or(sw_cross(d, along), sw_v(0, 0, 1));
 }
 
 static int touch(const torus *self, const line *on, double at, double reach, sw_closest *out) {
-  const double touching = 1e-12; /* part of the size taken as 0 [-] */
+  const double touching = 1e-12; /* share of the size taken as 0 [-] */
   const sw_vec p = sw_madd(on->a, on->d, at), c = on_circle(self, p), w = sw_sub(p, c);
   const double r = sw_norm(w), gap = r - self->tube, length = sw_norm(on->d);
   if (!(at > 0 && at < 1 && gap < reach)) return 0;
@@ -144,7 +145,7 @@ static int segment(const sw_shape *shape, sw_vec a, sw_vec b, double reach, sw_c
 
 static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out) {
   const torus *self = (const torus *)shape;
-  const size_t n = (size_t)around, m = n / 2; /* around z, around the tube */
+  const size_t n = (size_t)around, m = n / 2; /* numbers around z and around the tube */
   const double full = 4 * SW_HALF_PI;
   SW_TRY(sw_triangles_new(n * m, 2 * n * m, out));
   int *to = out->indices;
@@ -161,7 +162,7 @@ static sw_status triangles(const sw_shape *shape, int around, sw_triangles *out)
   return SW_OK;
 }
 
-/* Chords of the circle, as thick as stays inside of the ring. */
+/* Visits chords of the circle, with the largest skin that stays inside the ring. */
 static void bones(const sw_shape *shape, sw_bone_visit visit, void *user) {
   enum { CHORDS = 64 };
   const torus *self = (const torus *)shape;

@@ -10,7 +10,7 @@
 typedef struct builder {
   sw_box_tree *tree;
   const sw_bounds *boxes;
-  const double *centres; /* of the things, x 3 [m] */
+  const double *centres; /* (count x 3) centres of the things [m] */
   int *order;            /* their numbers, sorted in place */
   int stopped;           /* 1: the user wants to stop */
 } builder;
@@ -24,7 +24,7 @@ static inline void swap(int *order, int i, int j) {
   order[i] = order[j], order[j] = kept;
 }
 
-/* Reorder [low, high] so that no key before `middle` is above one after it. */
+/* Reorders [low, high] so that no key before `middle` is above any key after it. */
 static void select_middle(const builder *b, int low, int high, int middle, int axis) {
   while (low < high) {
     const double pivot = key(b, low + (high - low) / 2, axis);

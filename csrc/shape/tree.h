@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tree of bounding boxes over things that have boxes: a mesh's triangles, a scene's obstacles.
- * Halves by count along the longest axis of the centres, so that its depth is the count's
- * logarithm. */
+/* Tree of bounding boxes over things with boxes: a mesh's triangles, a scene's obstacles. Each node
+ * is halved by count along the longest axis of the centres, so the depth grows with the logarithm
+ * of the count. */
 #ifndef SW_SHAPE_TREE_H
 #define SW_SHAPE_TREE_H
 
@@ -9,33 +9,34 @@
 
 enum {
   SW_TREE_LEAF = 4,  /* most things in a leaf [-] */
-  SW_TREE_DEPTH = 64 /* more than any tree's depth [-] */
+  SW_TREE_DEPTH = 64 /* above the depth of any tree [-] */
 };
 
 typedef struct sw_tree_node {
   sw_bounds bounds;
-  int first; /* leaf: first thing; else the right child (the left one follows) */
-  int count; /* things of a leaf; 0 for an inner node */
+  int first; /* leaf: first thing; inner node: right child (the left one follows) */
+  int count; /* things in a leaf; 0 for an inner node */
 } sw_tree_node;
 
 typedef struct sw_box_tree {
   sw_tree_node *nodes; /* (2 count) the root first */
   size_t node_count;
-  int *order; /* (count) numbers of the things, in the order of the leaves */
+  int *order; /* (count) numbers of the things, in leaf order */
   size_t count;
 } sw_box_tree;
 
-/* Over things with these boxes (count), by their centres (count x 3), or by those of the boxes
- * where NULL is given. All must be finite. SW_ENOMEM, SW_EINTR: nothing is left behind. */
+/* Makes a tree of things with these boxes (count), split by their centres (count x 3); centres
+ * NULL: the boxes' centres. All must be finite. On SW_ENOMEM or SW_EINTR nothing stays
+ * allocated. */
 sw_status sw_box_tree_new(const sw_bounds *boxes, const double *centres, size_t count,
                           sw_box_tree *out);
 void sw_box_tree_free(sw_box_tree *tree);
 
-/* The things have other boxes now. */
+/* Updates the tree to new boxes of the same things. */
 void sw_box_tree_refit(sw_box_tree *tree, const sw_bounds *boxes);
 
-/* Numbers of the things whose boxes meet this one, in no order; out has room for all. Returns how
- * many; adds to *looks the boxes that were looked at. */
+/* Finds the things whose boxes meet `near`, in no order; out has room for all of them. Returns
+ * their number; adds the number of boxes tested to *looks. */
 size_t sw_box_tree_find(const sw_box_tree *tree, const sw_bounds *boxes, const sw_bounds *near,
                         int *out, size_t *looks);
 

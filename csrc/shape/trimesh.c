@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cleaning of a triangle surface and the order of its building. */
+/* Cleaning of a triangle surface, and the sequence of its build. */
 #include "shape/trimesh.h"
 
 #include <stdint.h>
@@ -8,25 +8,25 @@
 #include "base/alloc.h"
 #include "base/interrupt.h"
 
-/* Vertices nearer than this part of the largest extent are one: float files
- * round their coordinates to 6e-8 of their size [-] */
+/* Vertices nearer than this share of the largest extent are joined. Files with floats round
+ * coordinates to 6e-8 of their size [-]. */
 static const double weld_part = 2e-7;
-/* A triangle is dropped when its height is below this part of its longest side [-] */
+/* A triangle is dropped if its height over its longest side is below this [-]. */
 static const double flat_part = 1e-9;
 
 typedef struct welder {
   double cell; /* side of the hash grid's cells [m] */
-  double near; /* vertices nearer than this are one [m] */
+  double near; /* vertices nearer than this are joined [m] */
   sw_vec origin;
-  int *head, *next; /* chains of kept vertices by hash; -1 ends */
+  int *head, *next; /* chains of kept vertices with equal hash; -1 = end */
   size_t mask;
-  double *kept; /* vertices so far, x 3 [m] */
+  double *kept; /* (x 3) vertices kept so far [m] */
   int count;
 } welder;
 
 static size_t slot_of(const welder *w, const int64_t at[3]) {
   uint64_t hash = 0;
-  const uint64_t mix = 0x9e3779b97f4a7c15u; /* odd, bits well spread (golden ratio) */
+  const uint64_t mix = 0x9e3779b97f4a7c15u; /* odd, with well spread bits (golden ratio) */
   for (int i = 0; i < 3; i++) {
     hash = (hash ^ (uint64_t)at[i]) * mix;
     hash ^= hash >> 29;
@@ -47,7 +47,7 @@ static void cell_of(const welder *w, sw_vec p, int64_t at[3]) {
   at[2] = (int64_t)floor(q.z / w->cell);
 }
 
-/* The number of the kept vertex at p, new or old. */
+/* Returns the number of the kept vertex at p, new or old. */
 static int weld(welder *w, sw_vec p) {
   const sw_vec step = sw_v(w->near, w->near, w->near);
   int64_t low[3], high[3], at[3];
@@ -88,7 +88,7 @@ static sw_status measure(sw_trimesh *mesh, const char *object, const double *ver
   return SW_OK;
 }
 
-/* Keep the triangle unless it has no area. */
+/* Keeps the triangle unless it has no area. */
 static void keep_triangle(sw_trimesh *mesh, const int corner[3]) {
   sw_vec v[3];
   double longest2 = 0;
@@ -121,7 +121,7 @@ static sw_status weld_all(sw_trimesh *mesh, welder *w, const double *vertices, s
 static sw_status clean(sw_trimesh *mesh, const char *object, const double *vertices,
                        size_t vertex_count, const int *indices, size_t triangle_count,
                        sw_error *err) {
-  const double cells = 8; /* cell side in weld distances: few vertices look in two cells [-] */
+  const double cells = 8; /* cell side over weld distance; few vertices search two cells [-] */
   size_t slots = 1;
   SW_TRY(measure(mesh, object, vertices, vertex_count, err));
   while (slots < 2 * vertex_count) slots *= 2;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A triangle surface with what exact signed queries need: neighbours, normals
- * of faces, edges and corners, and a tree of bounding boxes. Flat arrays, built
- * once; queries allocate nothing. Meshes and hulls share it. */
+/* A triangle surface with the data for exact signed queries: neighbours, normals of faces, edges
+ * and corners, and a tree of bounding boxes. Flat arrays, built once; queries allocate nothing.
+ * Shared by meshes and hulls. */
 #ifndef SW_SHAPE_TRIMESH_H
 #define SW_SHAPE_TRIMESH_H
 
@@ -10,25 +10,25 @@
 
 enum { SW_TRIMESH_MOST = 1 << 24 }; /* most triangles or vertices [-] */
 
-/* Kinds of edges and corners, as flags. */
+/* Flags of edges and corners. */
 enum {
-  SW_CONVEX = 1, /* sticks out: may touch a segment's inside */
+  SW_CONVEX = 1, /* sticks out: may touch a segment between its ends */
   SW_RIM = 2     /* on the border of an open surface */
 };
 
 typedef struct sw_trimesh_edge {
   int v[2];   /* vertices, the smaller number first */
-  int tri[2]; /* triangles on it; the second is -1 on a border */
+  int tri[2]; /* adjacent triangles; the second is -1 on a border */
   int flags;
   double sine;    /* of the angle between its faces [-] */
-  sw_vec normal;  /* unit mean of its faces' normals [-] */
+  sw_vec normal;  /* unit mean of the normals of its faces [-] */
   sw_vec into[2]; /* unit vectors across the edge into both faces [-] */
 } sw_trimesh_edge;
 
 typedef struct sw_trimesh_corner {
   sw_vec normal; /* mean of the face normals, weighted by angle [-] */
   sw_vec into;   /* unit mean direction into the surface [-] */
-  int owner;     /* the triangle that speaks for it */
+  int owner;     /* the one triangle that reports it in queries */
   int flags;
   int first; /* its edges start here in corner_edges */
   int count;
@@ -37,7 +37,7 @@ typedef struct sw_trimesh_corner {
 typedef struct sw_trimesh {
   size_t vertex_count, triangle_count, edge_count, node_count;
   double *vertices;           /* vertex_count x 3 [m] */
-  int *indices;               /* triangle_count x 3, in the order of the tree's leaves */
+  int *indices;               /* triangle_count x 3, in leaf order of the tree */
   int *sides;                 /* triangle_count x 3: the edge from corner k to k + 1 */
   double *normals;            /* triangle_count x 3, unit [-] */
   sw_trimesh_edge *edges;     /* edge_count */
@@ -48,8 +48,8 @@ typedef struct sw_trimesh {
   double size; /* largest extent [m] */
 } sw_trimesh;
 
-/* Take over cleaned copies of the triangles: vertices that coincide are joined,
- * triangles without area dropped. object is for error texts. */
+/* Builds a mesh from cleaned copies of the triangles: coinciding vertices are joined, triangles
+ * without area are dropped. object is for error texts. */
 sw_status sw_trimesh_build(sw_trimesh *mesh, const char *object, const double *vertices,
                            size_t vertex_count, const int *indices, size_t triangle_count,
                            sw_error *err);
@@ -59,8 +59,8 @@ void sw_trimesh_free(sw_trimesh *mesh);
 sw_status sw_trimesh_tree(sw_trimesh *mesh);
 sw_status sw_trimesh_topology(sw_trimesh *mesh, const char *object, sw_error *err);
 
-/* Call visit for every triangle in leaves whose box the segment a-b, widened by
- * reach on all sides, meets. */
+/* Calls visit for every triangle in leaves whose box, widened by reach on all sides, meets the
+ * segment a-b. */
 typedef void (*sw_trimesh_visit)(void *context, int tri);
 void sw_trimesh_near(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
                      sw_trimesh_visit visit, void *context);
@@ -70,13 +70,13 @@ int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_close
 int sw_trimesh_segment(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach, sw_closest *out);
 int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when);
 
-/* Copies for drawing, and its corners and edges. */
+/* Copies the triangles for drawing; visits corners and edges as bones. */
 sw_status sw_trimesh_triangles(const sw_trimesh *mesh, sw_triangles *out);
 void sw_trimesh_bones(const sw_trimesh *mesh, sw_bone_visit visit, void *user);
 
-/* 1: some of its edges are so blunt that they are there for what is round. */
+/* 1: some edges are so blunt that they approximate a round surface. */
 int sw_trimesh_faceted(const sw_trimesh *mesh);
-/* As sw_shape_sharp, sw_shape_ridges and sw_shape_points_out. */
+/* Like sw_shape_sharp, sw_shape_ridges and sw_shape_points_out. */
 sw_sharp sw_trimesh_sharp(const sw_trimesh *mesh, int feature, sw_vec *along);
 void sw_trimesh_ridges(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
                        sw_ridge_visit visit, void *user);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Signed distance of a point from a mesh: the nearest triangle by branch and
- * bound, the sign by the normal of the face, edge or corner that is nearest. */
+/* Signed distance of a point from a mesh: the nearest triangle by branch and bound, the sign by the
+ * normal of the nearest face, edge or corner. */
 #include "shape/trimesh.h"
 
 typedef struct nearest {
@@ -28,7 +28,8 @@ static void search_leaf(const sw_trimesh *mesh, const sw_tree_node *leaf, sw_vec
   }
 }
 
-/* best->d2 is the squared limit; best->tri stays -1 when nothing is nearer. */
+/* Finds the nearest triangle. best->d2 is the squared limit on entry; best->tri stays -1 if no
+ * triangle is nearer. */
 static void search(const sw_trimesh *mesh, sw_vec p, nearest *best) {
   struct {
     int node;
@@ -56,15 +57,15 @@ static void search(const sw_trimesh *mesh, sw_vec p, nearest *best) {
   }
 }
 
-/* Beyond the border of an open surface there is no inside: the sign there is
- * plus unless p is nearly straight above or below the border. */
+/* 1 if p is beyond the border of an open surface. There is no inside there: the sign is plus unless
+ * p is nearly straight above or below the border. */
 static int off_the_rim(int flags, sw_vec into, sw_vec w, double d) {
   const double beside = -0.2; /* cosine between w and the surface [-] */
   return (flags & SW_RIM) && sw_dot(into, w) < beside * d;
 }
 
 static void sign(const sw_trimesh *mesh, sw_vec p, const nearest *best, sw_closest *out) {
-  const double touching = 1e-11; /* part of the size in which w has no direction [-] */
+  const double touching = 1e-11; /* share of the size below which w has no direction [-] */
   const size_t tri = (size_t)best->tri;
   const sw_vec w = sw_sub(p, best->q);
   const double d = sqrt(best->d2);
@@ -92,7 +93,7 @@ static void sign(const sw_trimesh *mesh, sw_vec p, const nearest *best, sw_close
 int sw_trimesh_distance(const sw_trimesh *mesh, sw_vec p, double reach, sw_closest *out) {
   const double outside2 = box_distance2(&mesh->bounds, p);
   if (outside2 > 0 && (!(reach > 0) || outside2 >= reach * reach)) return 0;
-  /* Outside the bounds nothing can be deep inside, so reach limits the search. */
+  /* A point outside the bounds cannot be deep inside, so reach limits the search. */
   const double limit2 = outside2 > 0 ? reach * reach : HUGE_VAL;
   nearest best = {limit2, p, -1, SW_ON_FACE};
   search(mesh, p, &best);

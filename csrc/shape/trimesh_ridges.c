@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The convex edges and corners of a mesh, for what meets them as lines and points. */
+/* The convex edges and corners of a mesh, as lines and points for contact. */
 #include "shape/trimesh.h"
 
-/* Sines of the angle between the faces at an edge: below the first one the faces are one, which a
- * file has rounded; below the second one (25 degrees) they stand for what is round [-]. */
+/* Sine of the angle between an edge's faces. Below LEVEL the faces are one face, rounded by the
+ * file. Below BLUNT (25 degrees) they approximate a round surface [-]. */
 static const double LEVEL = 0.01, BLUNT = 0.42;
 
 static int sticks_out(const sw_trimesh_edge *edge) {
@@ -47,7 +47,7 @@ static void show_edge(const tour *t, int number) {
   t->visit(t->user, &r);
 }
 
-/* Those that this triangle speaks for. */
+/* Visits the edges and corners that this triangle owns. */
 static void show(void *context, int tri) {
   const tour *t = context;
   for (size_t i = 3 * (size_t)tri; i < 3 * (size_t)tri + 3; i++) {
@@ -68,7 +68,8 @@ void sw_trimesh_ridges(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
   sw_trimesh_near(mesh, a, b, reach, show, &t);
 }
 
-/* The border of an open surface is met from both of its sides. */
+/* 1 if n points away from the edge's faces. A border of an open surface can be touched from both
+ * sides. */
 static int off_edge(const sw_trimesh_edge *edge, sw_vec n, double share) {
   const double most = share * edge->sine;
   if (!(sw_dot(n, edge->into[0]) <= most)) return 0;

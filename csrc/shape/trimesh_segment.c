@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contacts of a segment's inside with the convex edges and corners of a mesh:
- * pairs of nearest places whose direction lies in the edge's or corner's cone of
- * normals, i.e. points away from everything that meets there. */
+/* Contacts of a segment, between its ends, with the convex edges and corners of a mesh: pairs of
+ * nearest places whose direction lies in the cone of normals of the edge or corner, i.e. points
+ * away from all faces and edges that meet there. */
 #include "shape/trimesh.h"
 
 typedef struct query {
@@ -14,15 +14,15 @@ typedef struct query {
   sw_closest *out;
 } query;
 
-/* Tilt out of the cone, in parts of the angle between the faces, up to which an
- * edge still counts: the two edges of a bridged face hand over smoothly [-] */
+/* Largest tilt out of the cone, over the angle between the faces, at which an edge still counts.
+ * The two edges of a bridged face thus hand over smoothly [-]. */
 static const double hand_over = 0.05;
-/* The same for corners, as a cosine [-] */
+/* The same tilt for corners, as a cosine [-]. */
 static const double corner_slack = 1e-6;
-/* Places nearer to the segment's ends than this are the ends' business [-] */
+/* Places nearer to the segment's ends are left to the ends' own queries [-]. */
 static const double inside = 1e-9;
 
-/* --- which triangles ------------------------------------------------------ */
+/* --- triangles near a segment -------------------------------------------------- */
 
 static int passes(const sw_bounds *box, sw_vec a, sw_vec d, double reach) {
   double from = 0, to = 1;
@@ -50,7 +50,7 @@ void sw_trimesh_near(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach,
 
 /* --- collecting contacts -------------------------------------------------- */
 
-/* The gaps at the segment's ends, looked up when first needed. */
+/* Finds the gaps at the segment's ends, once, when first needed. */
 static void look_at_ends(query *q) {
   sw_closest end;
   if (q->have_ends) return;
@@ -60,7 +60,7 @@ static void look_at_ends(query *q) {
 }
 
 static int known(const query *q, const sw_closest *c) {
-  const double same_place = 1e-6, same_way = 1e-6; /* of the length; of the cosine [-] */
+  const double same_place = 1e-6, same_way = 1e-6; /* over the length; in the cosine [-] */
   for (int i = 0; i < q->count; i++)
     if (fabs(q->out[i].at - c->at) < same_place &&
         sw_dot(q->out[i].normal, c->normal) > 1 - same_way)
@@ -68,7 +68,7 @@ static int known(const query *q, const sw_closest *c) {
   return 0;
 }
 
-/* Keep the SW_CLOSEST_MAX nearest, in order. */
+/* Keeps the SW_CLOSEST_MAX nearest, in order. */
 static void insert(query *q, const sw_closest *c) {
   if (q->count == SW_CLOSEST_MAX && q->out[SW_CLOSEST_MAX - 1].gap <= c->gap) return;
   int place = q->count < SW_CLOSEST_MAX ? q->count++ : SW_CLOSEST_MAX - 1;
@@ -83,18 +83,17 @@ static void offer(query *q, const sw_closest *c) {
   insert(q, c);
 }
 
-/* Where the line x + t d is 0, else the given place; within the segment. */
+/* Returns where the line x + t d is 0, limited to the segment; `otherwise` if d is 0. */
 static double zero_of(double x, double d, double otherwise) {
   return d != 0 ? sw_limit(-x / d, 0, 1) : otherwise;
 }
 
-/* Is the segment cut by this edge, or does it only see it through the solid?
- * Half way between the planes of the edge's two faces these must be about as
- * near as the surface is at all; a border cuts when the segment pierces its
- * face. w leads from the edge to the segment's first end. */
+/* 1 if this edge cuts the segment, 0 if the solid lies between them. Where the segment is half way
+ * between the planes of the edge's two faces, these planes must be about the nearest surface. A
+ * border cuts if the segment pierces its face. w leads from the edge to the segment's first end. */
 static int cut(const query *q, const sw_trimesh_edge *edge, sw_vec w, double at) {
-  const double nearest = 0.5;   /* allows for a third face near the edge's ends [-] */
-  const double touching = 1e-9; /* part of the size [-] */
+  const double nearest = 0.5;   /* allows a third face near the edge's ends [-] */
+  const double touching = 1e-9; /* share of the size [-] */
   const sw_vec one = sw_load(q->mesh->normals + 3 * (size_t)edge->tri[0]);
   sw_closest there;
   if (edge->tri[1] < 0) {
@@ -119,7 +118,7 @@ static int in_edge_cone(const sw_trimesh_edge *edge, sw_vec n) {
 
 static void try_edge(query *q, int number) {
   const double parallel = 1e-6; /* sine of the angle taken as 0 [-] */
-  const double ends = 1e-9;     /* slack in parts of the edge [-] */
+  const double ends = 1e-9;     /* slack at the ends, over the edge's length [-] */
   const sw_trimesh_edge *edge = &q->mesh->edges[number];
   const sw_vec p = sw_trimesh_vertex(q->mesh, edge->v[0]);
   const sw_vec v = sw_sub(sw_trimesh_vertex(q->mesh, edge->v[1]), p);
@@ -134,7 +133,7 @@ static void try_edge(query *q, int number) {
   if (edge->tri[1] < 0 ? gap < 0 : sw_dot(n, edge->normal) < 0) n = sw_neg(n), gap = -gap;
   if (!in_edge_cone(edge, n)) n = sw_neg(n), gap = -gap;
   if (!in_edge_cone(edge, n)) return;
-  /* A cutting edge is the way out even when its end is passed by the depth. */
+  /* A cutting edge is the way out even if the place is beyond its end by about the depth. */
   const double past = ends + (gap < 0 ? -2 * gap / sqrt(vv) : 0);
   if (!(t >= -past && t <= 1 + past)) return;
   const sw_closest c = {gap, at, n, sw_madd(p, v, t), sw_trimesh_edge_feature(q->mesh, number)};
@@ -154,7 +153,7 @@ static int in_corner_cone(const sw_trimesh *mesh, int v, sw_vec n) {
 }
 
 static void try_corner(query *q, int v) {
-  const double touching = 1e-11; /* part of the size in which w has no direction [-] */
+  const double touching = 1e-11; /* share of the size below which w has no direction [-] */
   const sw_vec p = sw_trimesh_vertex(q->mesh, v);
   const double at = sw_dot(q->d, sw_sub(p, q->a)) / (q->length * q->length);
   if (!(at > inside && at < 1 - inside)) return;
@@ -164,12 +163,12 @@ static void try_corner(query *q, int v) {
   const sw_vec along = sw_scale(q->d, 1 / q->length), up = q->mesh->corners[v].normal;
   sw_vec n = sw_unit_or(sw_madd(up, along, -sw_dot(up, along)), sw_perpendicular(along));
   if (gap > touching * q->mesh->size) n = sw_scale(w, 1 / gap);
-  if (!in_corner_cone(q->mesh, v, n)) return; /* what cuts in is an edge */
+  if (!in_corner_cone(q->mesh, v, n)) return; /* only edges cut in */
   const sw_closest c = {gap, at, n, p, sw_trimesh_corner_feature(q->mesh, v)};
   offer(q, &c);
 }
 
-/* Try the edges and corners that this triangle speaks for. */
+/* Tries the edges and corners that this triangle owns. */
 static void try_triangle(void *context, int tri) {
   query *q = context;
   const sw_trimesh *mesh = q->mesh;

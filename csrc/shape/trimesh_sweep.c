@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* First touch of a moving segment and a mesh: each triangle near the swept
- * region is a convex thing by itself. Gaps are unsigned here, so that sheets
- * without thickness stop a segment as well as solids do. */
+/* First touch of a moving segment and a mesh. Each triangle near the swept region is treated as a
+ * convex thing. Gaps are unsigned here, so sheets without thickness stop a segment like solids
+ * do. */
 #include "shape/trimesh.h"
 
 typedef struct moving {
@@ -19,8 +19,8 @@ typedef struct moving {
 typedef struct start {
   const sw_trimesh *mesh;
   sw_vec a, b; /* [m] */
-  double gap;  /* smallest so far, unsigned [m] */
-  int tri;     /* whose, -1 = none */
+  double gap;  /* smallest unsigned gap so far [m] */
+  int tri;     /* its triangle, -1 = none */
 } start;
 
 static void look_at_start(void *context, int tri) {
@@ -37,7 +37,7 @@ static start look(const sw_trimesh *mesh, sw_vec a, sw_vec b, double reach) {
   return s;
 }
 
-/* --- the way -------------------------------------------------------------- */
+/* --- the path ------------------------------------------------------------- */
 
 static sw_bounds triangle_bounds(const sw_triangle *t) {
   const sw_bounds two = sw_bounds_of(t->v[0], t->v[1], 0);
@@ -83,10 +83,10 @@ static void visit_all(moving *m) {
   }
 }
 
-/* Move the whole path by a few tolerances off the triangle it starts on, so
- * that its gap has a side. */
+/* Shifts the whole path by a few tolerances off the triangle it starts on, so that it starts on a
+ * definite side. */
 static void step_off(const sw_trimesh *mesh, int tri, sw_sweep *path) {
-  const double steps = 8; /* tolerances [-] */
+  const double steps = 8; /* shift over the tolerance [-] */
   const sw_vec n = sw_load(mesh->normals + 3 * (size_t)tri);
   const sw_vec off = sw_scale(n, steps * path->tolerance);
   path->a0 = sw_add(path->a0, off), path->b0 = sw_add(path->b0, off);
@@ -94,8 +94,8 @@ static void step_off(const sw_trimesh *mesh, int tri, sw_sweep *path) {
 }
 
 int sw_trimesh_sweep(const sw_trimesh *mesh, const sw_sweep *path, sw_closest *out, double *when) {
-  const double touching = 4;     /* start gaps below this many tolerances are none [-] */
-  const double last = 1 + 1e-12; /* the last moment still counts */
+  const double touching = 4;     /* start gaps below this many tolerances count as 0 [-] */
+  const double last = 1 + 1e-12; /* counts a touch at time 1 despite rounding */
   sw_sweep moved = *path;
   const double tolerance = path->tolerance;
   start s = look(mesh, path->a0, path->b0, path->margin + touching * tolerance);

@@ -12,7 +12,7 @@ static sw_bounds box_of(const sw_triangle *t) {
       sw_v(fmax(fmax(a.x, b.x), c.x), fmax(fmax(a.y, b.y), c.y), fmax(fmax(a.z, b.z), c.z))};
 }
 
-/* Put the triangles themselves into the order of the leaves. */
+/* Puts the triangles into leaf order. */
 static void reorder(sw_trimesh *mesh, const int *order, int *indices, double *normals) {
   for (size_t i = 0; i < mesh->triangle_count; i++) {
     memcpy(indices + 3 * i, mesh->indices + 3 * (size_t)order[i], 3 * sizeof *indices);

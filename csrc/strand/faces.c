@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces of a section of springs, by which it is seen whether it has folded through itself: springs
- * know lengths only, and a section pressed too far turns some of its faces over and pushes less
- * instead of more. */
+/* Faces of a section of springs, which show whether the section has folded through itself. Springs
+ * only know lengths: a section pressed too far turns some faces over and pushes back less instead
+ * of more. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -31,7 +31,7 @@ static void around_axis(sw_strand_maker *m, uint32_t axis, size_t first, size_t 
     put(m, axis, (uint32_t)(first + k), (uint32_t)(first + (k + 1) % n));
 }
 
-/* The particle at a place of the section, or their number. */
+/* Returns the particle at a place of the section, or the number of particles if there is none. */
 static size_t particle_at(const sw_lattice *l, double x, double y, double near) {
   size_t i = 0;
   while (i < l->particles && hypot(l->at[3 * i] - x, l->at[3 * i + 1] - y) > near) i++;
@@ -58,7 +58,7 @@ static void voxel_faces(sw_strand_maker *m) {
 static void find(sw_strand_maker *m) {
   const int mesh = sw_calibrate_mesh(m->plan->mesh);
   m->web->faces = 0;
-  if (m->lattice->solids) return; /* steps are kept from turning elements over */
+  if (m->lattice->solids) return; /* steps never turn solid elements over */
   if (mesh == SW_LATTICE_TUBE && m->plan->lattice.tube.core)
     around_axis(m, (uint32_t)m->plan->lattice.tube.particles, 0,
                 (size_t)m->plan->lattice.tube.particles);
@@ -79,7 +79,7 @@ sw_status sw_strand_find_faces(sw_strand_maker *m) {
   return SW_OK;
 }
 
-/* Area of a face of the undeformed section, twice. */
+/* Returns twice the area of a face of the undeformed section. */
 static double rest_area(const sw_web *w, const uint32_t *face) {
   const double *a = w->section + 2 * (size_t)face[0], *b = w->section + 2 * (size_t)face[1];
   const double *c = w->section + 2 * (size_t)face[2];

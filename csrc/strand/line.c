@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines of particles between the meshed parts of a strand: a rod that stretches and bends, lumped
- * in particles, without twist. Where a line meets a ring, its first particle is a lever: springs
- * to the ring's particles hold it straight before the section, and the line's last hinge lies
- * there, between the line and the section, with the compliance of half the edge and of the lever.
- */
+/* Lines of particles between the ringed parts of a strand: a rod that stretches and bends, lumped
+ * in particles, without twist. Where a line meets a ring, its first particle is a lever: springs to
+ * the ring's particles hold it straight in front of the section. The line's last hinge is there,
+ * between line and section, with the compliance of half the edge and the lever. */
 #include <math.h>
 
 #include "strand/maker.h"
 
-/* The lever gives way by so little, of one slice's bending [-]. */
+/* Stiffness of the lever over the bending stiffness of one slice [-]. */
 static const double RIGID = 200.0;
 
 static double gap(const sw_strand_maker *m, size_t r) { return m->mesh->s[r + 1] - m->mesh->s[r]; }
@@ -17,10 +16,10 @@ static const double *outline_at(const sw_strand_maker *m, size_t k) {
   return m->lattice->at + 3 * (size_t)m->around[k];
 }
 
-/* Springs from a ring to the particle of a line that is d away from its plane. */
+/* Adds springs from a ring to the particle of a line at distance d from its plane. */
 static void add_lever(sw_strand_maker *m, size_t ring, size_t line, double d) {
   const sw_lattice *p = m->lattice;
-  double sum = 0; /* what unit springs do against turning [m2] */
+  double sum = 0; /* turning stiffness for unit springs [m2] */
   for (size_t i = 0; i < p->particles; i++) {
     const double *at = p->at + 3 * i, R2 = at[0] * at[0] + at[1] * at[1];
     sum += 0.5 * p->share[i] * d * d * R2 / (d * d + R2);
@@ -36,12 +35,12 @@ static void add_lever(sw_strand_maker *m, size_t ring, size_t line, double d) {
   }
 }
 
-/* The hinge at a lever, between the line's next particle and the section. */
+/* Adds the hinge at a lever, between the line's next particle and the section. */
 static void add_section_hinge(sw_strand_maker *m, size_t line, size_t next, size_t ring, double d,
                               double edge) {
   const size_t count = m->around_count;
   const double moment = m->beam->EI / (0.5 * edge + d);
-  const double sum = 0.5 * (double)count; /* of cosines squared round the ring */
+  const double sum = 0.5 * (double)count; /* sum of squared cosines round the ring */
   for (size_t k = 0; k < count; k++) {
     const double *at = outline_at(m, k);
     const size_t i = m->first[ring] + m->around[k];

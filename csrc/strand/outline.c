@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Widths of an outline between parallel lines, and how far it is out of round. Only the convex
- * hull counts: the least width has one of the hull's sides on a line, the largest is the distance
- * of two of its corners. */
+/* Widths of an outline between parallel lines, and its ovalisation. Only the convex hull counts:
+ * the least width has one of the hull's sides on a line, the largest is the distance of two of its
+ * corners. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -17,12 +17,12 @@ static int before(const void *a, const void *b) {
   return p->y < q->y ? -1 : p->y > q->y;
 }
 
-/* Twice the area of o, p, q; positive when they go anticlockwise. */
+/* Returns twice the area of o, p, q; positive if they run anticlockwise. */
 static double turn(point o, point p, point q) {
   return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
 }
 
-/* One side of the hull of sorted points, from the first to the last of them. */
+/* Makes one side of the hull of sorted points, from the first to the last. */
 static size_t chain(const point *p, size_t n, int up, point *out) {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
@@ -33,11 +33,11 @@ static size_t chain(const point *p, size_t n, int up, point *out) {
   return count;
 }
 
-/* The hull, anticlockwise; out has room for 2 n. */
+/* Makes the hull, anticlockwise; out has room for 2 n. Returns its number of points. */
 static size_t hull_of(point *p, size_t n, point *out) {
   qsort(p, n, sizeof *p, before);
   size_t count = chain(p, n, 1, out);
-  if (count > 1) count--; /* the last one begins the other side */
+  if (count > 1) count--; /* the last point begins the other side */
   count += chain(p, n, 0, out + count);
   return count > 1 ? count - 1 : count;
 }
@@ -48,7 +48,7 @@ static sw_vec way(double x, double y, sw_vec u, sw_vec v) {
   return sw_unit_or(sw_madd(sw_scale(u, x), v, y), u);
 }
 
-/* Widths of points in axes u and v, which are sorted; hull: room for 2 n. */
+/* Returns the widths of points given in axes u and v, and sorts these; hull: room for 2 n. */
 static sw_widths widths(point *p, size_t count, point *hull, sw_vec u, sw_vec v) {
   sw_widths out = {.least = HUGE_VAL, .least_way = u, .largest_way = u};
   const size_t n = hull_of(p, count, hull);
@@ -85,11 +85,11 @@ sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent)
   return widths(p, count, hull, u, v);
 }
 
-/* --- out of round ------------------------------------------------------------------- */
+/* --- ovalisation ---------------------------------------------------------------------- */
 
 enum { FINE = 128 }; /* least points of the smooth curve: 1 - cos(pi / 128) is 3e-4 [-] */
 
-/* Are the undeformed outline's points those of a regular polygon? */
+/* 1 if the undeformed outline is a regular polygon. */
 static int is_round(const sw_web *w) {
   const size_t n = w->around_count;
   const double *p = w->section + 2 * (size_t)w->around[0], r = hypot(p[0], p[1]);
@@ -102,12 +102,13 @@ static int is_round(const sw_web *w) {
   return n > 2;
 }
 
-/* Points of the curve of least waves through n even points, times as many; returns their number. */
+/* Interpolates n evenly spaced points by the trigonometric curve of lowest order; makes `times` as
+ * many points and returns their number. */
 static size_t smooth(const point *p, size_t n, size_t times, point *out) {
   const size_t all = n * times;
   double weight[FINE + 2 * SW_OUTLINE];
   for (size_t m = 0; m < all; m++) {
-    const double t = M_PI * (double)m / (double)all; /* half the way from a point, as an angle */
+    const double t = M_PI * (double)m / (double)all; /* half the angle from a point */
     const double wave = n % 2 ? 1.0 / sin(t) : 1.0 / tan(t);
     weight[m] = m == 0 ? 1.0 : m % times == 0 ? 0.0 : sin((double)n * t) * wave / (double)n;
   }
@@ -130,12 +131,13 @@ double sw_outline_ovalisation(const sw_web *w, const double *outline, sw_vec tan
   flatten(outline, n, u, v, p);
   const size_t all = smooth(p, n, times, fine);
   const sw_widths wide = widths(fine, all, hull, u, v);
-  /* the curve goes beyond its points as a circle does */
+  /* a circle reaches beyond the chords between its points */
   const double least = wide.least / (times > 1 ? cos(M_PI / (double)all) : 1.0);
   return fmax(0.0, wide.largest - least) / (wide.largest + least + 4.0 * (w->skin - w->proud));
 }
 
-/* Two waves round the section over one: about the ovalisation, at little cost. */
+/* Returns the second harmonic of the section over the first: approximately the ovalisation, at
+ * little cost. */
 static double out_of_round(const sw_web *w, const double *outline, sw_vec tangent) {
   point p[SW_OUTLINE];
   const sw_vec u = sw_perpendicular(tangent), v = sw_cross(tangent, u);
@@ -165,7 +167,7 @@ sw_extreme sw_strand_ovalisation(const sw_web *w, const double *x) {
                       .s = w->s[w->first[ring]]};
 }
 
-/* Distance of p from the side from a to b [m]. */
+/* Returns the distance of p from the side a-b [m]. */
 static double from_side(point p, point a, point b) {
   const double x = b.x - a.x, y = b.y - a.y, l2 = x * x + y * y;
   const double along = l2 > 0 ? ((p.x - a.x) * x + (p.y - a.y) * y) / l2 : 0.0;
@@ -188,7 +190,7 @@ double sw_strand_walls_apart(const sw_web *w, const double *x, double s) {
   const sw_vec tangent = sw_strand_facing(w, x, r), u = sw_perpendicular(tangent);
   flatten(outline, n, u, sw_cross(tangent, u), p);
   for (size_t i = 0; i < n; i++)
-    for (size_t away = n / 4 + 1; away + n / 4 + 1 < n; away++) { /* beyond what bends at a fold */
+    for (size_t away = n / 4 + 1; away + n / 4 + 1 < n; away++) { /* beyond the bend of a fold */
       const size_t j = (i + away) % n;
       const point a = p[i], b = p[(i + 1) % n], c = p[j], d = p[(j + 1) % n];
       least = fmin(least, sides_cross(a, b, c, d) ? 0.0 : from_side(a, c, d));
@@ -212,7 +214,7 @@ void sw_strand_outline(const sw_web *w, const double *x, size_t ring, double *ou
     for (size_t k = 0; k < w->around_count; k++) sw_store(out + 3 * k, sw_vec_at(at, w->around[k]));
     return;
   }
-  /* the undeformed section, turned anyhow */
+  /* a line's particle: the undeformed section, at an arbitrary rotation */
   const sw_vec t = sw_strand_facing(w, x, ring), u = sw_perpendicular(t), v = sw_cross(t, u);
   for (size_t k = 0; k < w->around_count; k++) {
     const double *rest = w->section + 2 * (size_t)w->around[k];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rings of a mesh of particles: where they are, and which way they face. */
+/* Positions and directions of the rings of a mesh of particles. */
 #include "strand/ring.h"
 
 #include <math.h>
@@ -21,8 +21,8 @@ sw_vec sw_strand_middle(const sw_web *w, const double *x, size_t ring) {
   return sw_load(at);
 }
 
-/* Direction of a line of particles at one of them: of both parts beside it, the shorter one's
- * counting more. */
+/* Returns the direction of a line of particles at one of them: the mean of the two adjacent edges,
+ * the shorter edge weighing more. */
 static sw_vec line_direction(const sw_web *w, const double *x, size_t ring) {
   const sw_vec at = sw_strand_middle(w, x, ring);
   sw_vec before = sw_v(0, 0, 0), after = before;

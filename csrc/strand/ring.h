@@ -8,36 +8,37 @@
 #include "state/mesh.h"
 #include "state/web.h"
 
-/* Rings between the arc lengths s1 and s2, at least the one nearest to their middle; sets s1 and s2
- * to the first and the last of them [m]. */
+/* Sets s1 and s2 to the first and last ring between them, or to the ring nearest their middle if
+ * there is none between [m]. */
 void sw_strand_rings(const sw_mesh *mesh, double *s1, double *s2);
-/* Middle of ring number r of particles at x, and the direction across the area that its surface
- * encloses [m], [-]. */
+/* Returns the centre of ring number r for particles at x [m], and the normal of the area that its
+ * surface encloses [-]. */
 sw_vec sw_strand_middle(const sw_web *web, const double *x, size_t ring);
 sw_vec sw_strand_facing(const sw_web *web, const double *x, size_t ring);
-/* The angle by which the outline of a ring is turned about its tangent against u, in which the
- * undeformed section has its x: of the rotation that brings it nearest [rad]. */
+/* Returns the angle by which a ring's outline is rotated about its tangent relative to u, the x
+ * axis of the undeformed section: the angle of the best-fitting rotation [rad]. */
 double sw_strand_turned(const sw_web *web, const double *x, size_t ring, sw_vec tangent, sw_vec u);
-/* How wide an outline (count x 3) is across the tangent. */
+/* Widths of an outline (count x 3) across the tangent. */
 typedef struct sw_widths {
   double least, largest;         /* [m] */
   sw_vec least_way, largest_way; /* [-] */
 } sw_widths;
 enum { SW_OUTLINE = SW_CELL_PARTICLES }; /* most points of an outline [-] */
 sw_widths sw_outline_widths(const double *outline, size_t count, sw_vec tangent);
-/* See sw_section_shape; and for all rings at once, of the one that is out of round most [-]. */
+/* Ovalisation, see sw_section_shape: of one outline, and of the ring of a wire that is most out of
+ * round [-]. */
 double sw_outline_ovalisation(const sw_web *web, const double *outline, sw_vec tangent);
 sw_extreme sw_strand_ovalisation(const sw_web *web, const double *x);
-/* Of a hollow section of one layer at s: how far walls that face each other are apart, 0 when they
- * cross; others: infinite [m]. */
+/* For a hollow section of one layer at s: returns the least distance of facing walls, 0 if they
+ * cross; for other sections infinity [m]. */
 double sw_strand_walls_apart(const sw_web *web, const double *x, double s);
-/* How far the worst face of a section of springs is turned over: minus its area over that at rest,
- * above 0 when it is [-]. */
+/* Returns, over all faces of the sections, the largest value of minus the area over the area at
+ * rest: above 0 if a face is turned over [-]. */
 sw_extreme sw_strand_folding(const sw_web *web, const double *x);
-/* Points of the outline (count x 3) moved outwards by skin. */
+/* Moves the points of the outline (count x 3) outwards by skin. */
 void sw_outline_widen(const double *outline, size_t count, sw_vec tangent, double skin,
                       double *out);
-/* The outline of ring number r [m]. */
+/* Fills the outline of ring number r [m]. */
 void sw_strand_outline(const sw_web *web, const double *x, size_t ring, double *out);
 
 #endif

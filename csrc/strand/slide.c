@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds the parts of a sliding composite to each other: elements of the force slide, one for
- * each pair of particles that face each other and each slice. */
+/* Elements of the force slide, which hold the parts of a sliding composite together: one for each
+ * pair of facing particles and each slice. */
 #include "state/slide.h"
 
 #include <math.h>
 
 #include "strand/maker.h"
 
-/* Stiffness along of the parts of one core together, before they slip, times the slice's length
- * over what shell and core have in series: what they bear is handed on within three slices, and
- * what sticks gives way by 0.1 % in bending. Stiffer ones make stick and slip alternate in every
- * iteration [-]. */
+/* Stiffness along the wire, before slip, of all elements of one core, over the series stiffness of
+ * shell and core per slice. At this value the parts' forces pass from one to the other within three
+ * slices, and sticking parts reduce the bending stiffness by 0.1 %. Larger values make stick and
+ * slip alternate in every iteration [-]. */
 static const double HANDED_ON = 0.1;
 
-/* Where the elements' particles are without load: as the wire is drawn, or straight and twisted
- * at rest. */
+/* Returns the unloaded places of an element's particles: as drawn, or straight with the twist at
+ * rest. */
 static sw_slide_place at_rest(const sw_strand_maker *m, const sw_slide *pair, size_t r) {
   double place[SW_SLIDE_NODES][3];
   const double *at[SW_SLIDE_NODES];
@@ -29,13 +29,13 @@ static sw_slide_place at_rest(const sw_strand_maker *m, const sw_slide *pair, si
   return sw_slide_measure(at);
 }
 
-/* The core that has a particle of the slice; cores: the shell has it. */
+/* Returns the core that a particle of the slice belongs to; c->cores: the shell. */
 static size_t core_of(const sw_composite *c, uint32_t particle) {
   return particle < c->ring ? c->cores : (particle - c->ring) / c->each;
 }
 
-/* A pair's share of the pressure and grip of one core: the same for each of its pairs; between two
- * cores the mean [-]. */
+/* Returns a pair's share of the pressure and grip of one core. All pairs of a core have the same
+ * share; a pair between two cores has the mean of both [-]. */
 static double share_of(const sw_composite *c, const sw_slide *pair) {
   const size_t core[2] = {core_of(c, pair->from), core_of(c, pair->to)};
   double sum = 0, cores = 0;
@@ -50,7 +50,7 @@ static double share_of(const sw_composite *c, const sw_slide *pair) {
   return sum / cores;
 }
 
-/* Across as a bar of the shell's modulus. */
+/* Sets one element. Across it acts like a bar of the shell's modulus. */
 static void set_element(const sw_strand_maker *m, const sw_slide *pair, size_t r,
                         sw_web_slide *out) {
   const sw_composite *c = &m->strand->calibrated->calibration.composite;

@@ -8,9 +8,10 @@
 #include "state/hinge.h"
 #include "strand/maker.h"
 
-/* Particles at a surface are this far inside of it, so that what touches them has a side; of the
- * radius [-]. Solid elements have their section's own size, and the thinnest skin that keeps a
- * particle out of what it touches; the ring of a composite's shell lies in its wall. */
+/* SKIN: depth of surface particles below the surface, over the radius, so that a touching body has
+ * a side to be on [-]. Solid elements have the section's full size and the thinnest skin (THINNEST)
+ * that keeps particles out of touching bodies; the ring of a composite's shell lies within its
+ * wall. */
 static const double SKIN = 0.1, THINNEST = 0.03;
 
 static double inset(const sw_strand_plan *p) {
@@ -18,7 +19,7 @@ static double inset(const sw_strand_plan *p) {
   return whole ? 0.0 : SKIN;
 }
 
-/* How far the surface is outside of the outermost particles. */
+/* Returns the distance of the surface from the outermost particles. */
 static double skin_of(const sw_lattice *l, double radius) {
   double most = 0;
   for (size_t i = 0; i < l->particles; i++)
@@ -28,7 +29,8 @@ static double skin_of(const sw_lattice *l, double radius) {
 
 enum { DIRECTIONS = 720 };
 
-/* Mean over all directions of how far out the section goes: of a polygon less than its corners. */
+/* Returns the section's mean reach over all directions. A polygon's is below that of its
+ * corners. */
 static double mean_reach(const sw_lattice *l) {
   const double step = 2.0 * M_PI / DIRECTIONS;
   double sum = 0;
@@ -42,15 +44,15 @@ static double mean_reach(const sw_lattice *l) {
   return sum / DIRECTIONS;
 }
 
-/* The same of the section that was asked for. */
+/* Returns the mean reach of the requested section. */
 static double own_reach(const sw_strand_plan *p, double radius) {
   const sw_cubic_args *a = &p->lattice.cubic;
   const int flat = strcmp(p->mesh, "cubic") == 0 && a->section == SW_SECTION_RECTANGLE;
   return flat ? (a->width + a->height) / M_PI : radius;
 }
 
-/* How far the surface of solid elements is outside of the section's own, on the average: to be as
- * stiff as a round section a polygon reaches further out, and it has a skin. */
+/* Returns the mean distance of solid elements' surface outside the section's own. A polygon must
+ * reach further out to be as stiff as a round section, and it has a skin. */
 static double proud_of(const sw_strand_plan *p, const sw_lattice *l, double skin, double radius) {
   if (p->body != SW_BODY_SOLID) return 0;
   return fmax(0.0, mean_reach(l) + skin - own_reach(p, radius));
@@ -58,8 +60,8 @@ static double proud_of(const sw_strand_plan *p, const sw_lattice *l, double skin
 
 /* --- the wall along the wire --------------------------------------------------------- */
 
-/* Most of the wire's EI that its wall has by itself, whose ring has the rest; that of a wall of a
- * third of the radius. Thicker ones do not buckle [-]. */
+/* Largest share of the wire's EI that its wall may have by itself; the ring has the rest. It is the
+ * share of a wall a third of the radius thick; thicker walls do not buckle [-]. */
 static const double MOST_ALONG = 0.02;
 
 static double round_of(const sw_beam *beam) {
@@ -67,7 +69,7 @@ static double round_of(const sw_beam *beam) {
 }
 
 double sw_strand_wall_along(const sw_strand_plan *p, const sw_beam *beam) {
-  /* folds that are a little bent at rest would not know which way */
+  /* folds slightly bent at rest have no defined direction */
   if (isnan(p->wall) || p->curved || p->rest_twist != 0) return 0;
   return fmin(p->wall, MOST_ALONG * beam->EI_axis[0] / round_of(beam));
 }
@@ -85,7 +87,7 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
   sw_section section = p->section;
   sw_error why = {""};
   section.density = section.spin_inertia = (double)NAN;
-  /* with the beam's values all that E tells is the ratio of a composite's materials */
+  /* with the beam's values given, E only sets the ratio of a composite's materials */
   if (p->body == SW_BODY_SPRINGS || args.mesh != SW_LATTICE_COMPOSITE) section.E = (double)NAN;
   if (p->body == SW_BODY_SPRINGS) section.nu = (double)NAN;
   section.EA = beam->EA, section.GJ = beam->GJ;
@@ -98,7 +100,7 @@ static sw_status calibrate(const sw_strand_plan *p, const sw_beam *beam, double 
     return sw_fail(err, SW_EINVAL,
                    "wire '%s': wall_bending = %.6g N m goes with model = 'tube' and core = false",
                    p->name, p->wall);
-  if (!isnan(p->wall)) { /* chords and wide diagonals would hold the ring round too */
+  if (!isnan(p->wall)) { /* chords and wide diagonals would also keep the ring round */
     if (lattice.tube.brace < 0) lattice.tube.brace = 0;
     if (lattice.tube.reach == 0) lattice.tube.reach = 1;
   }
@@ -127,18 +129,18 @@ sw_status sw_strand_slices(const sw_strand_plan *p, const sw_beam *beam, double 
 
 /* --- where particles are --------------------------------------------------------------- */
 
-/* Where particle i of the section at node r is, in axes across, across, along. */
+/* Returns the place of particle i of the section at node r, in axes across, across, along. */
 static sw_vec in_section(const sw_strand_maker *m, size_t r, size_t i) {
   sw_vec at = sw_vec_at(m->lattice->at, i);
   const size_t n = 3 * m->lattice->particles;
   if (sw_strand_is_line(m, r + 1) || (r > 0 && sw_strand_is_line(m, r - 1)))
-    return at; /* a lever keeps the section as it is */
+    return at; /* a lever keeps the section undeformed */
   for (size_t s = 0; m->warp && m->lie && s < SW_CELL_STRAINS; s++)
     at = sw_madd(at, sw_vec_at(m->warp + s * n, i), m->lie->strains[SW_CELL_STRAINS * r + s]);
   return at;
 }
 
-/* The particle of a line: a lever is straight before its section. */
+/* Returns the place of a line's particle. A lever is straight in front of its section. */
 static sw_vec on_line(const sw_strand_maker *m, size_t r) {
   const int left = r > 0 && sw_strand_is_ring(m, r - 1), right = sw_strand_is_ring(m, r + 1);
   if ((!left && !right) || !m->lie) return sw_vec_at(m->mesh->x, r);
@@ -147,7 +149,8 @@ static sw_vec on_line(const sw_strand_maker *m, size_t r) {
   return sw_madd(sw_vec_at(m->mesh->x, ring), sw_load(m->lie->frames + 6 * ring), d);
 }
 
-/* Particles across the line that the mesh's nodes are, sections carried along without twist. */
+/* Places the particles across the line of the mesh's nodes; sections are carried along without
+ * twist. */
 static void place_particles(const sw_strand_maker *m) {
   const sw_mesh *mesh = m->mesh;
   const size_t n = m->lattice->particles;
@@ -186,7 +189,7 @@ static sw_status make(sw_strand_maker *m) {
   return sw_strand_fill(m);
 }
 
-/* How sections give way to strains. */
+/* Finds the sections' displacements under unit strains. */
 static sw_status find_warp(sw_strand_maker *m, sw_error *err) {
   const sw_cell cell = sw_lattice_cell(m->lattice);
   m->warp = sw_alloc(3 * SW_CELL_STRAINS * cell.particles, sizeof *m->warp);
@@ -197,7 +200,7 @@ static sw_status find_warp(sw_strand_maker *m, sw_error *err) {
   return status;
 }
 
-enum { MOST_PARTICLES = 1000000 }; /* their matrices take gigabytes */
+enum { MOST_PARTICLES = 1000000 }; /* the matrix of this many takes gigabytes */
 
 sw_status sw_strand_check_count(const sw_strand_plan *p, size_t rings, size_t per_ring,
                                 sw_error *err) {
@@ -208,7 +211,7 @@ sw_status sw_strand_check_count(const sw_strand_plan *p, size_t rings, size_t pe
                  p->name, rings - 1, per_ring, (int)MOST_PARTICLES);
 }
 
-/* An angle alone does not tell which way three particles are bent at rest. */
+/* A fold's angle has no sign, so a fold bent at rest could bend either way. */
 static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_error *err) {
   for (size_t i = 0; p->curved && i < l->links; i++)
     if (l->link[i].bend)
@@ -221,7 +224,7 @@ static sw_status check_rest(const sw_strand_plan *p, const sw_lattice *l, sw_err
   return SW_OK;
 }
 
-/* Shorter ones are pieces that are pressed, and not bent; over the radius [-]. */
+/* Shorter wires, over the radius, are pieces to be pressed, not bent [-]. */
 static const double SHORT = 4.0;
 
 static sw_status check_bent(const sw_strand_plan *p, const sw_calibration *c, double length,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The web of a strand: springs, folds, elements, masses, surface. Parts are made twice: first they
- * are counted. */
+/* The web of a strand: springs, folds, elements, masses, surface. add_parts runs twice: first it
+ * counts the parts, then it makes them. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -20,19 +20,20 @@ void sw_strand_add_fold(sw_strand_maker *m, size_t a, size_t b, size_t c, double
   m->folds++;
 }
 
-/* Share of a link that lies within ring r: a ring at an end has half a slice. */
+/* Returns the share of a link within ring r that counts. A ring at an end has half a slice. */
 static double ring_share(const sw_strand_maker *m, const sw_cell_link *link, size_t r) {
   const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
   return link->slices == 0 ? 0.5 * (before + after) : 1.0;
 }
 
-/* Does the link that starts at ring r end on one? A bend spring needs a ring before. */
+/* 1 if the link that starts at ring r ends on a ring. A bend spring needs a ring before r too. */
 static int fits(const sw_strand_maker *m, const sw_cell_link *link, size_t r) {
   if (link->bend) return r > 0 && sw_strand_is_ring(m, r - 1) && sw_strand_is_ring(m, r + 1);
   return sw_strand_is_ring(m, r + (size_t)link->slices);
 }
 
-/* Unstressed length: of the drawn shape, or of the straight lattice, twisted at rest. */
+/* Returns the unstressed length: of the drawn shape, or of the straight lattice with the twist at
+ * rest. */
 static double rest_length(const sw_strand_maker *m, const sw_cell_link *link, size_t r) {
   if (m->plan->curved)
     return sw_dist(sw_vec_at(m->strand->x, m->first[r] + link->from),
@@ -44,7 +45,7 @@ static double rest_length(const sw_strand_maker *m, const sw_cell_link *link, si
   return sqrt((x - a[0]) * (x - a[0]) + (y - a[1]) * (y - a[1]) + z * z);
 }
 
-/* Where particle i of ring r lies without load, beside ring number from. */
+/* Returns the unloaded place of particle i of ring r, relative to ring number `from`. */
 static sw_vec at_rest(const sw_strand_maker *m, size_t i, size_t r, size_t from) {
   const double z = ((double)r - (double)from) * m->lattice->spacing;
   const double turn = m->plan->rest_twist * z, c = cos(turn), s = sin(turn);
@@ -53,9 +54,9 @@ static sw_vec at_rest(const sw_strand_maker *m, size_t i, size_t r, size_t from)
   return sw_v(c * at[0] - s * at[1], s * at[0] + c * at[1], at[2] + z);
 }
 
-/* Where rings begin or end, the line of a bend spring is held to its section, which else would have
- * no moment of it: over half a slice, with folds to the outline. One that slides in its section has
- * none, for these would hold it there. */
+/* Where rings begin or end, folds to the outline hold a bend spring's line to its section over half
+ * a slice; without them the section would get no moment from it. A core that slides in its section
+ * has none, because they would hold it there. */
 static void add_end_hinge(sw_strand_maker *m, const sw_cell_link *link, size_t r, double k) {
   const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
   if (before == after || m->strand->calibrated->calibration.composite.slides > 0) return;
@@ -69,7 +70,7 @@ static void add_end_hinge(sw_strand_maker *m, const sw_cell_link *link, size_t r
     const sw_vec along = sw_sub(at_rest(m, from, next, r), at);
     const sw_vec out = sw_sub(at_rest(m, i, r, r), at);
     const double angle = atan2(sw_norm(sw_cross(along, out)), -sw_dot(along, out));
-    /* of cosines squared half the number, over half the length */
+    /* squared cosines sum to half the number; half the length */
     sw_strand_add_fold(m, m->first[next] + from, m->first[r] + from, m->first[r] + i,
                        4.0 * k / (double)count, angle);
   }
@@ -89,24 +90,23 @@ static void add_ring(sw_strand_maker *m, size_t r) {
   }
 }
 
-/* Length of wire that a ring stands for [m]. */
+/* Returns the length of wire that a ring stands for [m]. */
 static double ring_length(const sw_strand_maker *m, size_t r) {
   const int before = r > 0 && sw_strand_is_ring(m, r - 1), after = sw_strand_is_ring(m, r + 1);
   return 0.5 * (before + after) * m->lattice->spacing;
 }
 
-/* How much stiffer hinges of a polygon must be for it to be as stiff as its circle when it is made
- * oval. Bent by A cos 2 phi, hinges have 2 A^2 sin^2 b each and the polygon loses
- * R A (1 + sin(b/2)/sin(3 b/2)) of its height, with b the angle of a side; the circle is b = 0 [-].
- */
+/* Returns how much stiffer the hinges of a polygon must be for it to ovalise like its circle. Bent
+ * by A cos 2 phi, hinges have 2 A^2 sin^2 b each, and the polygon loses R A (1 + sin(b/2)/sin(3
+ * b/2)) of its height, with b the angle of a side; the circle is b = 0 [-]. */
 static double of_polygon(size_t sides) {
   const double b = 2.0 * M_PI / (double)sides;
   const double lost = 0.75 * (1.0 + sin(0.5 * b) / sin(1.5 * b));
   return 2.0 * b * sin(0.5 * b) / (sin(b) * sin(b)) * lost * lost;
 }
 
-/* The wall along the wire: else nothing but the length of its slices would say how short the waves
- * are into which its compressed side buckles, and how early. */
+/* Adds the wall's bending along the wire. Without it only the slices' length would limit how short
+ * the buckling waves of the compressed side are, and how early they come. */
 static void add_wall_along(sw_strand_maker *m, size_t r, double chord) {
   const double k = sw_strand_wall_along(m->plan, m->beam) * chord / m->lattice->spacing;
   if (!(k > 0) || r == 0 || !sw_strand_is_ring(m, r - 1) || !sw_strand_is_ring(m, r + 1)) return;
@@ -115,7 +115,7 @@ static void add_wall_along(sw_strand_maker *m, size_t r, double chord) {
                        m->first[r + 1] + m->around[i], k, 0);
 }
 
-/* Creases round a ring: its wall, bent at each particle as it is drawn. */
+/* Adds creases round a ring: its wall, bent at each particle as drawn. */
 static void add_wall(sw_strand_maker *m, size_t r) {
   const size_t n = m->around_count;
   const size_t next = sw_strand_is_ring(m, r + 1) ? r + 1 : r - 1;
@@ -123,7 +123,7 @@ static void add_wall(sw_strand_maker *m, size_t r) {
   const double *q = m->lattice->at + 3 * (size_t)m->around[1];
   const double chord = hypot(q[0] - p[0], q[1] - p[1]);
   const double k = m->plan->wall * of_polygon(n) * ring_length(m, r) / chord;
-  if (!(k > 0)) return; /* a ring alone between lines */
+  if (!(k > 0)) return; /* a single ring between lines */
   add_wall_along(m, r, chord);
   for (size_t i = 0; i < n; i++, m->creases++) {
     if (!m->web) continue;
@@ -168,7 +168,7 @@ static void add_parts(sw_strand_maker *m) {
   }
 }
 
-/* Rest places of an element's corners, of a shape that serves all slices unless the wire is
+/* Fills the rest places of an element's corners. One shape serves all slices unless the wire is
  * curved at rest. */
 static void rest_corners(const sw_strand_maker *m, const sw_cell_solid *e, size_t r, double *out) {
   const size_t half = (size_t)e->nodes / 2;
@@ -183,12 +183,12 @@ static void rest_corners(const sw_strand_maker *m, const sw_cell_solid *e, size_
   }
 }
 
-/* A held ring does not let the wire contract or bulge, which its beam does: pulled and bent wires
- * would be stiffer, as if shorter by 0.1 radii for each clamp at nu = 0.35, 0.25 at 0.49. Elements
- * at a held ring give way as much more: their own Poisson's ratio is less by this times its square,
- * with the same shear modulus. Found by trying, with 6 to 16 particles round, 4 and 8 voxels
- * across, slices of 0.25 to 0.75 radii: 20 diameters between clamps are then within 0.4 % of the
- * beam at any nu [-]. */
+/* Softening of elements at a held ring. A held ring prevents the lateral contraction that the beam
+ * allows: stretched and bent wires would be stiffer, as if shorter by 0.1 radii per clamp at nu =
+ * 0.35, 0.25 at 0.49. Elements at a held ring therefore have the Poisson's ratio nu - GIVES_WAY
+ * nu^2 with the same shear modulus. Fitted with 6 to 16 particles round, 4 and 8 voxels across,
+ * slices of 0.25 to 0.75 radii: 20 diameters between clamps are then within 0.4 % of the beam at
+ * any nu [-]. */
 static const double GIVES_WAY = 0.62;
 
 static sw_status prepare_shapes(sw_strand_maker *m) {
@@ -211,15 +211,15 @@ static sw_status prepare_shapes(sw_strand_maker *m) {
   return SW_OK;
 }
 
-/* The particles of a section that lie on its convex outline, in their order round it: those
- * inside by more than rounding are left out. */
+/* Finds the particles on a section's convex outline, in order round it. Particles inside by more
+ * than rounding are left out. */
 static void find_around(const sw_lattice *l, uint32_t *around, size_t *count) {
   const size_t n = l->particles;
   size_t first = 0;
   for (size_t i = 1; i < n; i++)
     if (l->at[3 * i] > l->at[3 * first]) first = i;
   size_t at = first;
-  do { /* wrap the section: the next one has all others on its left */
+  do { /* gift wrapping: the next particle has all others on its left */
     around[(*count)++] = (uint32_t)at;
     size_t next = at == 0 && n > 1;
     const double *p = l->at + 3 * at;
@@ -236,8 +236,8 @@ static void find_around(const sw_lattice *l, uint32_t *around, size_t *count) {
   } while (at != first && *count < n);
 }
 
-/* How fast the web's solid elements swing, by their stiffness at the places x, which bounds the
- * steps of explicit methods. SW_ENOMEM. */
+/* Bounds the frequency of the web's solid elements by their stiffness at x, which limits the steps
+ * of explicit methods. SW_ENOMEM. */
 static sw_status bound_solids(sw_web *w, const double *x) {
   double at[3 * SW_SOLID_NODES], H[9 * SW_SOLID_NODES * SW_SOLID_NODES];
   double *sum SW_LOCAL = sw_alloc(w->particles, sizeof *sum);
@@ -249,7 +249,7 @@ static sw_status bound_solids(sw_web *w, const double *x) {
     for (size_t r = 0; r < size; r++) {
       double row = 0;
       for (size_t c = 0; c < size; c++) row += fabs(H[r * size + c]);
-      sum[s->node[r / 3]] += row / 3.0; /* of three directions the mean */
+      sum[s->node[r / 3]] += row / 3.0; /* mean of three directions */
     }
   }
   w->solid_rate2 = 0;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An electric cable: a tube of rings as shell around one core or several, each a line, layers or
- * voxels of particles. Its springs are calibrated to the wire (room calibrate). With bonded = false
- * the parts slide on each other along the wire (force slide): friction times the pressure between
- * them, which is `grip`, of each core and per length, and what bending and squeezing press. They do
- * not part: bodies with a gap keep it. Particles keep those that they faced when the wire was
- * drawn, and a core that is drawn out of the shell goes on being gripped by it. Of solid elements
- * it is one core bonded to the shell, in one mesh, each with a material of its own. */
+/* An electric cable: a tube of rings as shell around one or several cores, each core a line, layers
+ * or voxels of particles. Its springs are calibrated to the wire (room calibrate). With bonded =
+ * false the parts slide on each other along the wire (force slide) with friction times the pressure
+ * between them: `grip` (of each core, per length) plus the pressure from bending and squeezing. The
+ * parts do not separate, and a gap that is drawn stays. Particles keep their facing particles from
+ * the drawn state; a core drawn out of the shell is still gripped by it. With solid elements there
+ * is one core bonded to the shell, in one mesh, each with its own material. */
 #include "wire/wire.h"
 
 const sw_wire_class sw_wire_composite = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solid model of any convex section: small cubes with a particle at each corner or middle. Its
+/* The solid model of any convex section: small cubes with a particle at each corner or centre. Its
  * springs are calibrated to the wire (room calibrate). */
 #include "wire/wire.h"
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Section and material to beam stiffness: solid circle A = pi r^2,
- * I = pi r^4/4, J = 2 I, G = E/(2 (1 + nu)). */
+/* Beam stiffness from section and material. Solid circle: A = pi r^2, I = pi r^4/4, J = 2 I, G =
+ * E/(2 (1 + nu)). */
 #include <math.h>
 #include <stddef.h>
 
 #include "wire/wire.h"
 
-/* Far beyond all that a wire can be; products of these stay finite. */
+/* Limits are far beyond any real wire; products of these values stay finite. */
 #define ROW(name, unit, least, most, doc) \
   { #name, SW_PARAM_NUMBER, unit, NAN, least, most, 0, NULL, offsetof(sw_section, name), doc }
 
@@ -28,7 +28,7 @@ static const sw_param rows[] = {
 
 const sw_params sw_section_params = SW_PARAMS("wire", rows);
 
-/* No part of the section is outside of the radius. */
+/* No part of the section lies outside the radius, so spin_inertia <= mass radius^2. */
 static sw_status set_spin_inertia(const char *object, const sw_section *c, sw_beam *out,
                                   sw_error *err) {
   const double most = out->mass * c->radius * c->radius;

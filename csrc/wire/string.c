@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The unidimensional model: a string of particles with stretching, repelling
- * and bending forces between each particle and its neighbours. */
+/* The one-dimensional model: a string of particles with stretching, repelling and bending forces
+ * between neighbours. */
 #include "wire/wire.h"
 
 static void recipe(const sw_beam *beam, sw_recipe *out) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The surface-like model: rings of particles along the wire, with a line of particles in the
- * middle that carries what the rings do not of EA. Its springs
- * are calibrated to the wire (room calibrate). */
+/* The surface-like model: rings of particles along the wire, and a central line of particles that
+ * carries the part of EA that the rings do not. Its springs are calibrated to the wire (room
+ * calibrate). */
 #include "wire/wire.h"
 
 const sw_wire_class sw_wire_tube = {
