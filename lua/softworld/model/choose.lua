@@ -232,7 +232,7 @@ local function broken(context, result)
       given_up(context, state, context.scene.time)
       again = true
     end
-    again = again or compared_finer(context, state, values)
+    again = again or state.choice.by_state and compared_finer(context, state, values)
     state.short = state.choice.short and state.choice.short(context, f, share, state)
   end
   return again

@@ -18,7 +18,7 @@ local ENDS = 3       -- that level [-]
 local MANY = 30      -- iterations of a pose, of those which steps need some five each [-]
 local usual_dt = 0.01 -- of a run that is told none [s]
 
-local motion = { name = "motion", safety = SAFETY, instead = true, rough = true, rungs = {
+local motion = { name = "motion", safety = SAFETY, instead = true, rough = true, by_state = true, rungs = {
   { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
   { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 

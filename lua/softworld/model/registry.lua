@@ -9,6 +9,7 @@
 --     A rung with own = true: what the next one's own edges change counts too
 --   instead: where the fine run fails, it is computed by the next rung
 --   rough: fine levels of a rung may tell less than those of the next one, where coarse ones are alike
+--   by_state: a comparison on coarse edges counts only if the wire is near its fine state on them
 --   by_itself: what broken tells of a run so far does not depend on the share
 --   begin(context): reads the scene as it begins, if need be
 --   given(context): where the script has decided: a sentence, and the rung
