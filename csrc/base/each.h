@@ -2,7 +2,7 @@
 #ifndef SW_BASE_EACH_H
 #define SW_BASE_EACH_H
 
-/* For each of count items of an array, for loops that need no number: a pointer goes through it. */
+/* Loops over the count items of an array: item is a pointer to each. For loops without an index. */
 #define SW_ITEMS(type, item, array, count) \
   for (type *item = (array), *item##_end = item + (count); item < item##_end; item++)
 
