@@ -6,8 +6,8 @@
 
 enum { MOST_STEPS = 20000 };
 static const double STEP = 2.0; /* length of the tested parts of a line [samples] */
-static const double LENIENT =
-    1.0015; /* a line up to this much farther than a face is visible [-] */
+/* Distance of a line over a face's up to which the line is visible [-] */
+static const double LENIENT = 1.0015;
 
 /* The smallest near (farthest face) of a sample and its neighbours, as lines lie on faces' rims. */
 static double near_around(const sw_layer *l, double x, double y) {

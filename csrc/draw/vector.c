@@ -13,8 +13,8 @@
 
 enum { FINE = 2, RIM_SIDES = 72, LONGEST = 240, POLL = 1024, SQUARES = 60, RINGS = 14 };
 static const float BACKGROUND = 0.84f; /* linear light of the background [-] */
-static const double GLIMPSE =
-    0.1; /* face seen from within: least visible share, else rounding [-] */
+/* Least visible share of a face seen from within; a smaller one is a rounding error [-] */
+static const double GLIMPSE = 0.1;
 
 typedef struct item {
   double depth; /* [m] */
