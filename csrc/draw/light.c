@@ -7,7 +7,7 @@ enum { MAP = 2048, BLOCK = 16, ROUGH = MAP / BLOCK, STEPS = 1024 };
 static const double AMBIENT = 0.30, SKY = 0.26, KEY = 0.62, FILL = 0.16;
 static const double SHARP = 36; /* exponent of the gloss (Blinn 1977) [-] */
 static const double BEHIND =
-    2.0; /* a shadow falls only this far behind its caster: no self-shadowing [cells of map] */
+    2.0; /* a shadow begins this far behind its caster: no self-shadowing [cells of the map] */
 
 /* IEC 61966-2-1, from a table, because pictures have many points. */
 float sw_linear(float c) {
