@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Scenes for bench.auto in which wires are squeezed. Their fixed models are lines and meshes. The true
--- values are from far finer computations with other programs (reference case 11).
+-- values are from far finer, independent computations (reference case 11).
 -- @module bench.autopressed
 local sw = require "softworld"
 local core = sw.core
@@ -16,7 +16,7 @@ local COARSE = 0.04 -- time step of the coarsest level [s]
 
 local function pick(random, list) return list[1 + math.floor(random() * #list)] end
 
--- A piece of a long wire between two long plates, in plane strain; share: approach of the plates over diameter.
+-- A piece of a long wire between two long plates, in plane strain; share: approach over the diameter.
 local function between(section, share, friction, duration)
   return function(options)
     local scene = sw.scene { name = "plates", gravity = { 0, 0, 0 } }
