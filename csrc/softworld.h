@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The core as the binding and other C programs see it. */
+/* The core's interface for the binding and other C programs. */
 #ifndef SOFTWORLD_H
 #define SOFTWORLD_H
 

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable of 1 m hangs between two level clamps 952 mm apart. How far does it sag, and what do the
--- clamps bear?
+-- A cable of 1 m hangs between two clamps at the same height, 952 mm apart. How far does it sag, and
+-- which forces and moments act on it at the clamps?
 local sw = require "softworld"
 
 local scene = sw.scene { name = "hanging cable" }
@@ -9,7 +9,7 @@ local cable = scene:wire { mass_per_length = 0.03, EA = 5e3, EI = 2.943e-3, radi
 local left = scene:clamp(cable, { s = 0 })
 local right = scene:clamp(cable, { s = cable.length })
 
--- Bring the right clamp nearer, in steps shorter than a segment; the slack makes the cable sag.
+-- Move the right clamp towards the left one in steps shorter than a segment. The slack makes the cable sag.
 local span = cable.length / 1.05
 for i = 1, 10 do
   right:pose { cable.length + (span - cable.length) * i / 10, 0, 0 }

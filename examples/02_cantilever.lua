@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How far does the end of a cable droop that a clamp holds level? The formula for beams, w L^4 / (8 EI),
--- knows small droops only.
+-- A clamp holds one end of a cable horizontally. How far does the free end droop? The formula for beams,
+-- w L^4 / (8 EI), is valid for small droops only.
 local sw = require "softworld"
 
 local E, density, radius, g = 9.4176e8, 1500, 0.0025, 9.81

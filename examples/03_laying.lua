@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Laying: a gripper draws a wire that lies on a table over three thin walls and into the groove of
--- a guide block, then lets go. What does the gripper have to bear, and what the wire?
+-- Laying: a wire lies on a table. A gripper draws it over three thin walls and into the groove of a
+-- guide block, then releases it. Which loads act on the gripper and on the wire?
 --
 --   softworld examples/03_laying.lua                all files, into out/laying
 --   softworld examples/03_laying.lua quick folder   numbers and series only, into folder
@@ -12,7 +12,7 @@ local quick, out = arg[1] == "quick", arg[2] or "out/laying"
 assert(os.execute("mkdir -p '" .. out .. "'"))
 loadfile(here .. "data/make_guide.lua")(out .. "/guide.stl")
 
--- The place of work.
+-- The workplace: table, walls and guide.
 local scene = sw.scene { name = "laying" }
 scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
 for i, x in ipairs(mm { 150, 450, 750 }) do
@@ -22,12 +22,12 @@ end
 scene:obstacle { name = "guide", shape = "mesh", file = out .. "/guide.stl", scale = mm(1),
   at = mm { 1000, 60, 0 }, friction = 0.3 }
 
--- A soft cable of 5 mm, straight on the table, with the damping of its sheath.
+-- A soft cable of 5 mm diameter lies straight on the table. Its sheath damps it.
 local wire = scene:wire { name = "wire", E = sw.units.MPa(50), density = 1500, radius = mm(2.5),
   from = mm { 0, 0, 2.5 }, to = mm { -1250, 0, 2.5 }, segments = 125 }
 scene:force { kind = "damping", on = wire, stiffness = sw.units.ms(5) }
 
--- What the gripper does.
+-- The task of the gripper.
 local gripper = scene:gripper { name = "gripper", pads = { width = mm(20) } }
 scene:process(function(p)
   gripper:grasp(wire, { s = mm(30) })
@@ -48,7 +48,7 @@ if quick then
   return
 end
 
-run:report(out .. "/laying.html") -- open it in a browser: the run moves
+run:report(out .. "/laying.html") -- open this file in a browser to play the run
 run:chart { path = out .. "/gripper.svg", title = "What the gripper bears",
   columns = { "gripper.force", "gripper.force_x", "gripper.force_z", "gripper.moment" } }
 run:chart { path = out .. "/contacts.svg", title = "What table, walls and guide bear", mean = 0.05,

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Two grippers lift a wire off the table, each with a process of its own; then the right one hands
--- its share of the load to the left one and lets go.
+-- Two grippers lift a wire off the table. Each has its own process. Then the right gripper releases
+-- the wire, and the left one carries the whole load.
 local sw = require "softworld"
 local mm = sw.units.mm
 
@@ -12,7 +12,7 @@ scene:force { kind = "damping", on = wire, mass = 2, stiffness = sw.units.ms(5) 
 local left = scene:gripper { name = "left", pads = { width = mm(20) } }
 local right = scene:gripper { name = "right", pads = { width = mm(20) } }
 
--- What the processes tell each other. Lifting before both hold would tear at the wire.
+-- Variables by which the processes wait for each other. Both grippers must hold before either one lifts.
 local holding, lifted, alone = 0, 0, false
 
 scene:process(function(p)
@@ -26,10 +26,10 @@ scene:process(function(p)
 end)
 
 scene:process(function(p)
-  p:wait(0.3) -- the right one is late
+  p:wait(0.3) -- the right gripper starts later
   right:grasp(wire, { s = mm(550) })
   holding = holding + 1
-  right:move { by = mm { -40, 0, 600 }, duration = 2 } -- nearer, so that the wire sags
+  right:move { by = mm { -40, 0, 600 }, duration = 2 } -- also towards the left one, so that the wire sags
   lifted = lifted + 1
   p:wait_until(function() return lifted == 2 end)
   p:wait(4)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How stiff is this cable? Clamp it level, measure how far its free end droops, and let a study look for
--- the bending stiffness that droops as far.
+-- How stiff is a cable? Clamp it horizontally and measure how far its free end droops. A study finds the
+-- bending stiffness with which the simulated cable droops as far.
 local sw = require "softworld"
 local length, measured = 0.8, 0.3777 -- [m]
 

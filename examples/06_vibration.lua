@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A nylon wire of 1.005 m sags between two level clamps 1 m apart, on a machine whose base shakes
--- sideways. Which frequencies should the machine keep away from, and what does the wire bear?
+-- A nylon wire of 1.005 m sags between two clamps 1 m apart. The base of the machine shakes sideways.
+-- Which frequencies should the machine avoid, and how large are motion and stress of the wire?
 local sw = require "softworld"
 
 local scene = sw.scene { name = "vibration" }
@@ -14,7 +14,7 @@ local f = wire:frequencies { modes = 6 }
 print(("frequencies %.4f %.4f %.4f %.4f %.4f %.4f Hz"):format(table.unpack(f)))
 print(("stress at rest %.4f MPa"):format(wire:max_stress() / 1e6))
 
--- 3 % of critical damping at the first frequency.
+-- Damping: 3 % of the critical damping at the first frequency.
 scene:force { kind = "damping", on = wire, mass = 2 * 0.03 * 2 * math.pi * f[1] }
 local rest = scene:snapshot()
 
@@ -24,7 +24,7 @@ local function shake(frequency)
     clamp:follow { func = function(t) return { 0, amplitude * math.sin(omega * t), 0 } end,
       relative = true, duration = 60 }
   end
-  scene:run { duration = 40 / f[1], dt = 0.01 / f[1] } -- until it swings evenly
+  scene:run { duration = 40 / f[1], dt = 0.01 / f[1] } -- until the vibration is steady
   local run = scene:run { duration = 2 / frequency, dt = 0.01 / f[1], frame = 0.01 / f[1] }
   local largest = 0
   for _, frame in ipairs(run:frames()) do

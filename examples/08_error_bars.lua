@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How far can these numbers be trusted? Ask for an accuracy instead of segments and steps: the
--- result says how far it may be off.
+-- How accurate are the results? Give a tolerance for each quantity instead of segments and time steps.
+-- The result then has an error bound for each quantity.
 local sw = require "softworld"
 local mm = sw.units.mm
 
--- What a gripper bears that lifts the end of a cable level from a table. [N], [N m]
+-- A gripper lifts the end of a cable from a table and keeps it horizontal. Its force [N] and moment [N m]:
 local scene = sw.scene { name = "lift" }
 scene:obstacle { shape = "plane", friction = 0 }
 local cable = scene:wire { EA = 1e4, EI = 2.943e-4, mass_per_length = 0.03, radius = mm(1),
@@ -16,8 +16,8 @@ for k = 1, 4 do
 end
 
 local settled = scene:settle { tolerance = {
-  ["gripper.force"] = 0.5e-3, ["gripper.moment"] = 0.02e-3, -- what objects have, by name
-  { name = "height at 0.7 m", value = mm(1), unit = "m", -- and whatever else you want to know
+  ["gripper.force"] = 0.5e-3, ["gripper.moment"] = 0.02e-3, -- quantities of objects, by name
+  { name = "height at 0.7 m", value = mm(1), unit = "m", -- and your own quantities
     of = function() return cable:position(0.7)[3] end } } }
 assert(settled.ok, settled.reason)
 print(settled:error_bars())
@@ -25,7 +25,7 @@ local force, moment = settled.quantities["gripper.force"], settled.quantities["g
 print(("force %.3f +- %.3f mN, moment %.4f +- %.4f mN m"):format(1e3 * force.value[3], 1e3 * force.error,
   1e3 * moment.value[2], 1e3 * moment.error))
 
--- Where the end of a wire is half a second after it was let go. [m]
+-- A wire falls and swings from a clamp at one end. The position of its free end after half a second [m]:
 scene = sw.scene { name = "swing" }
 local wire = scene:wire { E = 9.4176e8, density = 1500, radius = mm(2.5), from = { 0, 0, 0 },
   to = { 1, 0, 0 }, segments = 20 }

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A feeder pushes a wire off a spool, level across a gap: how far does it reach before it droops too
--- much, and what must the feeder's drive bear? Then the rest is paid out onto a table below, while a
--- gripper leads the end away.
+-- A feeder pushes a wire from a spool horizontally across a gap. How far does the wire reach before it
+-- droops too much, and which force must the feeder's drive bear? Then the feeder pays out more wire
+-- onto a table below, while a gripper moves the wire's end away.
 local sw = require "softworld"
 local mm = sw.units.mm
 
@@ -16,7 +16,7 @@ local gripper = scene:gripper { name = "gripper", pads = { width = mm(20) } }
 scene:process(function(p)
   for _, reach in ipairs(mm { 150, 250, 359.38 }) do
     p:feed(feeder, { length = reach - wire.length, speed = 0.1 })
-    p:wait(3) -- until it hangs still
+    p:wait(3) -- until the wire is at rest
     print(("reach %6.2f mm: droop %6.2f mm, drive %7.4f N, walls and drive %7.4f N along"):format(
       1e3 * wire.length, -1e3 * wire:position(wire.length)[3], feeder:drive_force(),
       feeder:force()[1]))

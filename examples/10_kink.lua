@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Why twisted cables kink: one is turned while it is taut, then given slack. It throws a loop, which
--- closes and coils up on itself.
+-- Why do twisted cables kink? A taut cable is twisted, then its ends are moved together. It forms a
+-- loop, which closes and coils around itself.
 local sw = require "softworld"
 local mm = sw.units.mm
 
 local length, radius = 1, mm(1.5) -- [m]
-local turns, slack = 6, 0.2       -- [-], [m]
+local turns, slack = 6, 0.2       -- twist in turns [-]; how far the ends are moved together [m]
 
 local scene = sw.scene { name = "kink", gravity = { 0, 0, 0 } }
-local path = {} -- straight but for a bend of 0.2 mm: no cable is perfect
+local path = {} -- straight except for an initial bow of 0.2 mm, since no cable is perfectly straight
 for i = 0, 100 do
   path[#path + 1] = { length * i / 100, mm(0.2) * math.sin(math.pi * i / 100), 0 }
 end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A harness: a trunk with two branches that leave it at a tied joint. Two grippers bring the branches
--- to their plugs; what does the joint bear, and how tightly is each wire bent?
+-- A cable harness: two branches are tied to the end of a trunk. Two grippers move the branches to their
+-- plugs. Which forces act in the joint, and what is the smallest bend radius of each wire?
 local sw = require "softworld"
 local mm, deg = sw.units.mm, sw.units.deg
 

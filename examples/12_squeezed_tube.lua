@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A soft tube, 24 mm wide with a wall of 3.6 mm, is squeezed between a table and a plate: force, width,
--- ovalisation, contact pressure and stress against closing. It is a mesh of solid elements.
+-- A soft tube (24 mm outer diameter, 3.6 mm wall) is squeezed between a table and a plate. The table shows
+-- force, width, ovalisation, contact pressure and stress over the closing. The tube is a mesh of solids.
 --   12_squeezed_tube.lua [picture.png]
 local sw = require "softworld"
 local mm = sw.units.mm

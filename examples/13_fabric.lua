@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A piece of fabric falls over a box and hangs down on all sides. Threads both ways stretch, weaker
--- springs across the meshes shear, three particles in a row bend, and folds keep apart.
+-- A piece of fabric falls over a box and hangs down on all sides. Links along the threads resist stretch,
+-- weaker diagonal links resist shear, rows of three particles resist bending; repulsion keeps folds apart.
 local sw = require "softworld"
 local mm = sw.units.mm
 
-local n, mesh = 31, mm(10)          -- particles each way; between them
-local density, height = 0.15, 0.2   -- of the fabric [kg/m2]; top of the box [m]
+local n, mesh = 31, mm(10)          -- particles in each direction [-], distance between them [m]
+local density, height = 0.15, 0.2   -- mass of the fabric per area [kg/m2], height of the box [m]
 
 local positions, threads, across, rows = {}, {}, {}, {}
 local function number(i, j) return (j - 1) * n + i end

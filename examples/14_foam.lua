@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A block of foam between a table and a box that comes down on it: force against travel. The block is
--- of solid elements; what touches is its outside.
+-- A box presses on a block of foam that lies on a table. The table shows force over travel. The block is a
+-- mesh of solid elements; its outer surface makes contact.
 local sw = require "softworld"
 local mm = sw.units.mm
 
-local nx, ny, nz, edge = 6, 6, 4, mm(10) -- elements each way, and their size
+local nx, ny, nz, edge = 6, 6, 4, mm(10) -- elements in each direction [-], their size [m]
 local E, nu, density = 50e3, 0.2, 30     -- [Pa], [-], [kg/m3]
-local radius = mm(1)                     -- of what touches, around the corners of the elements
+local radius = mm(1)                     -- contact radius around the corners of the elements [m]
 
 local positions, hexes = {}, {}
 local function number(i, j, k) return (k * (ny + 1) + j) * (nx + 1) + i + 1 end

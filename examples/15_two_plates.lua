@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A soft wire lies on a worktable. Two rough plates close on it, lift it, carry it sideways and lay it
--- down; force, moment and the squeezed section on the way. The wire is a mesh all along.
+-- A soft wire lies on a table. Two rough plates close on it, lift it, carry it sideways and lay it down.
+-- The script prints force, moment and the squeezed section. The whole wire is a mesh of particles.
 --   15_two_plates.lua [picture.png [sections.svg]]
 local sw = require "softworld"
 local mm = sw.units.mm

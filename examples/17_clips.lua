@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable is laid into three clips: one gripper goes ahead and presses it into each, the other keeps
--- its end and gives some slack. What does each clip take, and at which force does one let go again?
+-- A cable is laid into three clips. One gripper presses the cable into each clip; another gripper holds
+-- its end and gives slack. Which force does each clip need, and at which force does it release the cable?
 local sw = require "softworld"
 local mm, ms = sw.units.mm, sw.units.ms
 
@@ -46,7 +46,7 @@ print(("clips and keeper together: %.4f N up; weight %.4f N"):format(up,
   wire.beam.mass_per_length * wire.length * 9.81))
 if arg and arg[1] then run:pictures { path = arg[1], count = 4 } end
 
--- And out again: the first clip lets go at its retention force.
+-- Pull the cable out of the first clip: it releases the cable at its retention force.
 scene:process(function()
   guide:grasp(wire, { s = clips[1].at[1] })
   guide:move { by = mm { 0, 0, 8 }, speed = 0.02 }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- With how little force can a gripper lift a wire from the table without losing it? A study looks for the
--- smallest force that meets the constraint: its scene is built once, and restored before each evaluation.
+-- What is the smallest gripping force with which a gripper lifts a wire without slip? A study finds the
+-- smallest force that meets the constraint. Its scene is built once and restored before each evaluation.
 local sw = require "softworld"
 local mm, friction = sw.units.mm, 0.4
 local wire, hand

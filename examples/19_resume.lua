@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A long run is written to a file after every step of its process. Here the second step fails the
--- first time, as if the computer had gone down; the script, run again, goes on from the file.
+-- A long run is saved to a file after every step of its process. Here the second step fails the first
+-- time, as if the computer had crashed. The script then runs again and continues from the file.
 local sw = require "softworld"
 local mm = sw.units.mm
 local file = os.tmpname()
-os.remove(file) -- there is none yet
+os.remove(file) -- begin without a file
 
--- What a script does from its start on. fails: in the middle of the second step.
+-- A whole script, from its start. fails = true: it fails in the middle of the second step.
 local function script(options, fails)
   local scene = sw.scene { name = "laying" }
   scene:obstacle { shape = "plane", friction = 0.3 }
@@ -28,7 +28,7 @@ end
 local ok, why = pcall(script, { dt = 0.005, save = file, resume = file }, true)
 print(ok, why)
 local at, peak, run = script { dt = 0.005, save = file, resume = file }
-local loaded = sw.load(file) -- any time later, without the script
+local loaded = sw.load(file) -- the file can also be loaded later, without the script
 os.remove(file)
 local plain_at, plain_peak, plain_run = script { dt = 0.005 }
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- With how little force can a gripper lift a wire, and how often is twice that enough when the friction is
--- not known well? Two studies, computed on all processors. With the name of a journal the first goes on
--- where it was broken off:
+-- What is the smallest force with which a gripper can lift a wire, and how often is twice this force enough
+-- if the friction is uncertain? Two studies answer this on all processors. With the name of a journal file,
+-- an interrupted first study continues where it stopped:
 --
 --   softworld examples/20_study.lua [least.study]
 local sw = require "softworld"
@@ -30,7 +30,7 @@ end
 
 local least = sw.study { name = "least force", file = arg[1],
   parameters = { force = { 0.01, 1, unit = "N", log = true } },
-  setup = function() return build(0.4) end, -- once; its scene is restored before each evaluation
+  setup = function() return build(0.4) end, -- called once; the scene is restored before each evaluation
   evaluate = function(p, ...) return lift(p.force, ...) end,
   constraints = { slips = { max = 0 } } }
 local found = least:minimise("force", { starts = 2, tolerance = 1e-3 })

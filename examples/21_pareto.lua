@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Fast or gentle? A gripper lifts a hanging wire over an edge. How high and how fast it goes decides on time
--- and peak force, which cannot both be small: the study finds the front of both.
+-- Fast or gentle? A gripper lifts a hanging wire over an edge. Height and duration of the lift determine
+-- time and peak force, which cannot both be small. The study finds the Pareto front of time and force.
 --
 --   softworld examples/21_pareto.lua [front.svg]
 local sw = require "softworld"

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How often does the end of a cable that sticks out of a fixture hang too low for the gripper that fetches
--- it, when neither its stiffness nor the free length is known well? Computed on this machine, or as tasks of
--- a Slurm cluster, in a folder that its nodes see too. The script is the same, and so are all numbers:
+-- A cable sticks out of a fixture. How often does its end hang too low for a gripper, if stiffness and free
+-- length are uncertain? The study runs on this machine, or as tasks of a Slurm cluster in a folder that
+-- the cluster's nodes can access. Both ways use the same script and give the same numbers:
 --
 --   softworld examples/23_cluster.lua
 --   SOFTWORLD_ON=slurm softworld examples/23_cluster.lua plug.study
@@ -20,7 +20,7 @@ local study = sw.study { name = "plug", file = arg[1], seed = 3,
   end,
   constraints = { droop = { max = mm(3), unit = "m" } } }
 
--- On a cluster: four tasks. A large study would say nothing of it, and has tasks of about 30 s.
+-- On a cluster: four tasks. For a large study leave tasks out; each task then takes about 30 s.
 study:run { tasks = 4 }
 local spread = study:spread { count = 400 }
 

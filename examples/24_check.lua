@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Does the process pass, and what is to be changed? A cable is turned back by half a circle towards its plug.
--- The first free length is too short for it: the report fails, the study says what would mend it, each
--- suggestion checked by a run, and the script takes the least change with which all rows pass.
+-- Does a process pass its checks, and what must be changed? A cable is bent back by 180 degrees to its plug.
+-- The first free length is too short, so the report fails. A study suggests changes and checks each of
+-- them with a run. The script applies the smallest change with which all checks pass.
 --
---   softworld examples/24_check.lua             prints both reports, and what is different
+--   softworld examples/24_check.lua             prints both reports and their differences
 --   softworld examples/24_check.lua FOLDER      also writes FOLDER/before.html and FOLDER/after.html
---   softworld --check examples/24_check.lua     exits with 0, since the report that counts passes
+--   softworld --check examples/24_check.lua     exits with 0: the first report is a trial, the second passes
 local sw = require "softworld"
 local mm = sw.units.mm
 
--- The free length p.free bends to an arc of ever smaller radius while its end is taken round in p.duration.
+-- Moves the end of the free length p.free so that it bends to an arc of shrinking radius, in p.duration.
 local function turn_back(p)
   local scene = sw.scene { name = ("turn back with %.1f mm"):format(1e3 * p.free), gravity = { 0, 0, 0 } }
   local cable = scene:wire { name = "cable", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { p.free, 0, 0 } }
@@ -28,7 +28,7 @@ local function turn_back(p)
   return scene:run { dt = 0.005 }
 end
 
--- A limit of the plug's maker, as a check of one's own: value, place and time of the largest moment.
+-- Your own check, for a limit of the plug's maker: returns value, place and time of the largest moment.
 local moment = { name = "moment on the plug", unit = "N m", max = 0.09, source = "drawing of the plug",
   of = function(run)
     local most, time = 0, nil
@@ -46,7 +46,7 @@ local function judge(p, trial)
     trial = trial }
 end
 
--- What can be changed, and how far; start is how it is now.
+-- The parameters that may be changed, with their ranges; start is the present value.
 local study = sw.study { name = "turn back", evaluate = judge, parameters = {
   free = { mm(20), mm(80), start = mm(40), unit = "m" }, duration = { 1, 4, start = 2, unit = "s" } } }
 

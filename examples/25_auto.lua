@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The same laying, asked for three times: roughly, well, and very well. Each time the run takes the cheapest
--- model that is good enough, and says why.
+-- The same laying task is run with three tolerances: coarse, fine, and very fine. Each time the run selects
+-- the cheapest model that is accurate enough, and prints why.
 --
 --   softworld examples/25_auto.lua
 local sw = require "softworld"

@@ -1,14 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Error against time of cases x models x resolutions x integrators x steps.
+-- Measures error against time for cases x models x resolutions x integrators x steps.
 --   build/softworld scripts/bench.lua [quick] [case=..] [model=..] [integrator=..] [n=..] [out=folder]
--- One CSV row each in out/bench/bench.csv, a summary on the terminal. Values may be lists: case=droop,walls.
--- case=meshes: what wires that are meshes of particles cost, on the terminal only; case=grip: what
--- grippers do; case=crowds: many obstacles, nodes and wires; case=report: the
--- player's page; case=bundle: wires that lie along each other; case=view: what a live view costs a run;
--- case=study: what a study's workers bring and cost; case=calibration: 1,000 known cables, and how often
--- intervals hold the truth; case=auto: runs that choose their model, against fixed models, with seed=, count=
--- of scenes and kind= of them.
--- Compare numbers of one run only: machines differ, and so do their loads.
+-- Writes one CSV row for each to out/bench/bench.csv and a summary to the terminal. Values may be lists:
+-- case=droop,walls. Further cases: meshes: cost of wires that are meshes of particles (terminal only);
+-- grip: grippers; crowds: many obstacles, nodes and wires; report: the player's page; bundle: wires that lie
+-- along each other; view: cost of a live view; study: gain and cost of a study's workers; calibration: 1,000
+-- known cables, and how often the intervals contain the true values; auto: runs that choose their model,
+-- against fixed models, with seed=, count= (of scenes) and kind= (of scenes).
+-- Compare only numbers of the same run, because machines and their loads differ.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 package.cpath = (arg[-1]:match "^(.*/)" or "") .. "lib/?.so;" .. package.cpath -- softworld.probe
 local bench = require "bench.rows"
@@ -17,7 +16,7 @@ local special = require "bench.special"
 local summary = require "bench.summary"
 local sink = require "softworld.output.sink"
 
--- Choosing -------------------------------------------------------------------------
+-- Choice of rows -------------------------------------------------------------------
 
 local wanted, numbers, quick, out = {}, {}, false, "out/bench"
 for _, word in ipairs(arg) do
@@ -69,7 +68,7 @@ for i, job in ipairs(jobs) do
       row.segments, row.dt == "" and "-" or ("%.3g"):format(row.dt), row.status, row.reason))
   end
 end
-if #rows > 0 then bench.write(path, rows) end -- else what is there stays
+if #rows > 0 then bench.write(path, rows) end -- else the old file stays
 
 -- Summary --------------------------------------------------------------------------
 

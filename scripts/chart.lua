@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Draws error against time from the rows of scripts/bench.lua.
+-- Draws charts of error against time from the rows of scripts/bench.lua.
 --   build/softworld scripts/chart.lua [from=out/bench/bench.csv] [out=out/bench] [readme=.readme]
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 local bench = require "bench.rows"
@@ -26,10 +26,10 @@ end
 file:close()
 local rows = bench.read(options.from)
 
-local useless = 20 -- an error above this is no result: drawn as failed [%]
+local useless = 20 -- a larger error counts as failed [%]
 
--- Points of a chart: name(row) gives a row's series, nil leaves it out;
--- label(row) a text beside the point, or nil.
+-- Points of a chart. name(row) returns the series of a row, or nil to leave the row out;
+-- label(row) returns a text beside the point, or nil.
 local function points_of(case, name, most, label)
   local points = {}
   for _, r in ipairs(rows) do
@@ -61,7 +61,7 @@ end
 
 local tip = "tip error, RMS [% of length]"
 
--- The release: all methods with the rod; the string with the default one.
+-- Series of the release: all methods with the rod; the string with the default method only.
 local function release_series(r)
   if r.model == "string" and r.integrator ~= "tr-bdf2" then return end
   return model_and_method(r)
@@ -92,7 +92,7 @@ end), "Laying over three thin walls, 5 s: contact depth",
   "deepest penetration [mm]")
 
 -- The README's chart ----------------------------------------------------------------
--- A line for each method through its best settings: few series, plain numbers on the axes.
+-- One line for each method, through its best settings; few series, plain numbers on the axes.
 
 local shown = {
   { "tr-bdf2", "TR-BDF2 (default)", "#0072B2", 7, 3 },
@@ -170,7 +170,7 @@ if #release > 0 then
 end
 
 -- The README's chart of meshes --------------------------------------------------------
--- At rest beside in motion, a line for each model.
+-- At rest (left) and in motion (right); one line for each model.
 
 local models = { { "rod", "rod", "#0072B2", 7 }, { "tube", "tube", "#009E73", 9 },
   { "radial", "radial", "#D55E00", 5 }, { "cubic", "cubic", "#CC79A7", 11 },
@@ -227,7 +227,7 @@ if #points_of("mesh_release", function(r) return r.model end) > 0 then
 end
 
 -- The README's chart of grips ----------------------------------------------------------
--- The two-plate test by each way of handling, in steps of 20, 10 and 5 ms.
+-- The two-plate test with each way of handling, with steps of 20, 10 and 5 ms.
 
 local ways = { { "imposed", "#0072B2", 7 }, { "plates, rod", "#56B4E9", 6 }, { "mixed", "#D55E00", 5 },
   { "plates, mesh near pads", "#009E73", 9 }, { "plates, radial", "#CC79A7", 11 } }

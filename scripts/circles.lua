@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Circles of files in csrc: files that need one another's functions, directly or by way of others.
--- Nobody can read one of them alone.
+-- Finds circles of files in csrc: files that need each other's functions, directly or through other files.
+-- Such a file cannot be read alone.
 local circles = {}
 
--- Code without comments and texts, line starts kept.
+-- Returns code without comments and strings; line starts stay.
 local function bare(code)
   return (code:gsub("/%*.-%*/", " "):gsub("//[^\n]*", ""):gsub('\\"', ""):gsub('"[^"\n]*"', '""'))
 end
 
--- Functions that the code defines for others, whose names begin alike: { [name] = true }.
+-- Returns the public functions (lsw_..., sw_...) that the code defines: { [name] = true }.
 local function defined(code)
   local names = {}
   for head, name in ("\n" .. code):gmatch "\n(%a[%w_ %*]-)%f[%w_](l?sw_[%w_]+)%b()%s*{" do
@@ -17,7 +17,7 @@ local function defined(code)
   return names
 end
 
--- { [file] = { [file that it needs] = a function of it } } of { [file] = code }.
+-- Returns { [file] = { [file that it needs] = a function of that file } } for { [file] = code }.
 local function needs_of(codes)
   local home, needs = {}, {}
   for file, code in pairs(codes) do
@@ -39,8 +39,8 @@ local function sorted_keys(set)
   return keys
 end
 
---- Circles among files, { { file, ... }, ... }, by Tarjan's algorithm (SIAM J. Comput. 1, 1972); and
--- what each file needs, { [file] = { [other file] = a function of it } }. codes: { [file] = its text }.
+--- Returns the circles among files, { { file, ... }, ... }, by Tarjan's algorithm (SIAM J. Comput. 1, 1972),
+-- and what each file needs, { [file] = { [other file] = a function of it } }. codes: { [file] = its text }.
 function circles.find(codes)
   local clean = {}
   for file, code in pairs(codes) do clean[file] = bare(code) end

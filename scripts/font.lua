@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Outlines of a TrueType font's letters for pictures: lua5.4 scripts/font.lua FONT.ttf OUTPUT
--- The output is described in csrc/draw/text.c. Curves become straight lines.
+-- Extracts outlines of a TrueType font's letters for pictures: lua5.4 scripts/font.lua FONT.ttf OUTPUT
+-- csrc/draw/text.c describes the output. Curves become straight lines.
 local input, output = arg[1], arg[2]
 
 local file = assert(io.open(input, "rb"))
 local font = file:read "a"
 file:close()
 
-local STEPS = 4 -- lines for a curve
+local STEPS = 4 -- lines for each curve
 
 local function read(format, at) return (">" .. format):unpack(font, at + 1) end
 
@@ -32,7 +32,7 @@ local function advance_of(glyph)
   return read("I2", tables.hmtx.at + 4 * math.min(glyph, metrics - 1))
 end
 
--- Code point -> glyph, of the table of format 4.
+-- Returns a map from code point to glyph, from the table of format 4.
 local function characters()
   local at
   for k = 0, read("I2", tables.cmap.at + 2) - 1 do
@@ -77,7 +77,7 @@ local function parts_of(at)
   return list
 end
 
--- Coordinates of one direction, as differences of one byte, of two, or none.
+-- Reads the coordinates of one direction: differences of one byte, two bytes, or none.
 local function coordinates(at, flags, short, same)
   local list, value = {}, 0
   for i, flag in ipairs(flags) do
@@ -125,7 +125,8 @@ end
 
 local function middle(a, b) return { (a[1] + b[1]) / 2, (a[2] + b[2]) / 2, on = true } end
 
--- An outline of lines alone. Between two points that are off it one lies on it, half-way.
+-- Returns an outline of straight lines only. Between two successive off-curve points the curve passes
+-- through their middle.
 local function straight(outline)
   local full, out = {}, {}
   for i, p in ipairs(outline) do

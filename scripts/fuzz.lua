@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Random calls of all that scripts can call, hostile ones among plausible ones.
+-- Makes random calls of all functions that scripts can call: plausible calls and hostile ones.
 local usage = [[
 usage: build/softworld scripts/fuzz.lua [option=value ...]
   seed=1         the first seed; every seed is a case of its own, the same every time
@@ -43,7 +43,7 @@ package.path = ("%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;"):format(root, ro
 
 -- --- cases as text ----------------------------------------------------------------------
 
--- Calls stand apart by empty lines.
+-- In a file, empty lines separate the calls.
 local function to_text(calls) return table.concat(calls, "\n\n") .. "\n" end
 
 local function from_text(text)
@@ -70,11 +70,11 @@ end
 
 -- --- in the child: one case -------------------------------------------------------------
 
--- Each call is written before it is done, each finding when it is made.
+-- Runs a case. Writes each call before it is made, and each finding at once.
 local function child(files)
   local case = require "fuzz.case"
   local log, found = assert(io.open(files .. "/log", "wb")), assert(io.open(files .. "/found", "wb"))
-  local write_to, flush = log.write, log.flush -- a case may do what it likes to io
+  local write_to, flush = log.write, log.flush -- a case may change io
   local doing = { files = files, slow = options.slow }
   function doing.log(text)
     write_to(log, text, "\n\n")
@@ -91,7 +91,7 @@ local function child(files)
   if reach then write(files .. "/reach", reach.text()) end
   write_to(found, "end\n")
   flush(found)
-  -- libraries' own checks at the end of the program see what is left
+  -- close the state, so that checks at the program's end (sanitizers) see what is left
   os.exit(true, true)
 end
 
@@ -110,13 +110,13 @@ local function empty(folder)
   end
 end
 
--- What happened without numbers and names, to tell findings apart.
+-- Returns a finding's text without numbers and names, to tell different findings apart.
 local function signature(text)
   text = text:gsub(", in: .*", "")
   local inside = text:match "placed in the library: .-softworld/([%w_/]+%.lua:%d+)"
   if inside then return "error placed in the library: " .. inside end
   text = text:gsub("'[^']*'", "'*'"):gsub("\"[^\"]*\"", "'*'"):gsub("v%[%d+%]", "v"):gsub("0x%x+", "#")
-  return (text:gsub("%-?%d+%.?%d*[eE]?[-+]?%d*", "#"):sub(1, 120)) -- one of a kind is enough
+  return (text:gsub("%-?%d+%.?%d*[eE]?[-+]?%d*", "#"):sub(1, 120)) -- one finding of each kind is enough
 end
 
 local function crash(why, code)
@@ -129,7 +129,7 @@ local function crash(why, code)
   return ("crash %s %s %s"):format(why, code, told or out:sub(-200):gsub("\n", " "))
 end
 
--- Run one case in a child; a list of findings, and the calls that were begun.
+-- Runs one case in a child process; returns a list of findings, and the calls that it began.
 local function run(words, cpu)
   empty(place)
   lfs.mkdir(place .. "/tmp")
@@ -163,7 +163,7 @@ local function without(list, first, last)
   return rest
 end
 
--- Leave out parts of a list, large ones first, as long as good(rest) holds.
+-- Removes parts of a list, large ones first, as long as good(rest) is true.
 local function reduce(list, good, budget)
   local size = #list // 2
   while size >= 1 and budget.left > 0 do
@@ -188,7 +188,7 @@ end
 local function shrink(calls, wanted)
   local budget = { left = wanted:find "^hang" and options.tries // 5 or options.tries }
   calls = reduce(calls, function(rest) return holds(rest, wanted) end, budget)
-  for i = #calls, 1, -1 do -- inside of functions
+  for i = #calls, 1, -1 do -- lines inside functions
     local lines = lines_of(calls[i])
     if #lines > 3 then
       local inner = table.move(lines, 2, #lines - 1, 1, {})

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Files that scripts/fuzz_files.lua damages: lists of { text, ending }.
+-- Makes the files that scripts/fuzz_files.lua damages: lists of { text, file extension }.
 local sw = require "softworld"
 local sink = require "softworld.output.sink"
 
 local corpus = {}
 
--- A tetrahedron and a ball of n rings as points and triangles.
+-- Returns a tetrahedron and a ball of 5 rings as points and triangles.
 local function solids()
   local ball, faces = { 0, 0, 1 }, {}
   for i = 1, 5 do
@@ -127,7 +127,7 @@ function corpus.trajectory()
     { "x,y,z,rx_deg,ry_deg,rz_deg\n0,0,0,0,0,0\n0.1,0,0.2,10,0,45\n0.3,0,0,0,90,0\n", "csv" } }
 end
 
--- The scene that is saved, loaded and resumed.
+-- Returns the scene that is saved, loaded and resumed.
 function corpus.scene()
   local scene = sw.scene { name = "fuzzed" }
   scene:obstacle { shape = "plane", friction = 0.3 }
@@ -149,7 +149,7 @@ end
 
 corpus.RUN = { dt = 0.005, frame = 0.01 }
 
--- The checksum of a saved scene made right again, so that what is behind it is looked at too.
+-- Corrects the checksum of a damaged saved scene, so that reading goes on past the checksum.
 function corpus.sealed(text)
   if #text < 48 then return text end
   local sum = -3750763034362895579
@@ -157,7 +157,7 @@ function corpus.sealed(text)
   return text:sub(1, 24) .. ("<I8i8"):pack(#text, sum) .. text:sub(41)
 end
 
--- The same bytes whenever it is made: a run's computing times set to 1.
+-- Sets a run's computing times to 1, so that the file always has the same bytes.
 local function timeless(text)
   for _, key in ipairs { "cpu", "wall" } do
     local mark = ("<s4"):pack(key) .. "d"
@@ -173,7 +173,7 @@ function corpus.save()
   local scene <close> = corpus.scene()
   local function add() list[#list + 1] = { timeless(sink.read_file(path)), "sws" } end
   local write = sink.write_file
-  sink.write_file = function(...) -- every step's file
+  sink.write_file = function(...) -- keep the file of every step
     local written = write(...)
     add()
     return written

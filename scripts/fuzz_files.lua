@@ -76,7 +76,7 @@ local damages = {
     local at = random(1, #text)
     return replaced(text, at, at, string.char(random(0, 255)))
   end,
-  false, -- below
+  false, -- set below
   function(text)
     local a, b = pieces(text)
     return replaced(text, a, b, "")
@@ -93,7 +93,7 @@ local damages = {
     local word, at = WORDS[random(#WORDS)], random(1, #text)
     return replaced(text, at, at + #word - 1, word)
   end,
-  function(text) -- one of its numbers
+  function(text) -- replaces one number
     local count = select(2, text:gsub("%d+", ""))
     local which, k = random(1, math.max(1, count)), 0
     return (text:gsub("%d+", function(digits)
@@ -108,7 +108,7 @@ damages[4] = function(text, other)
   return replaced(text, a, b, other:sub(c, d))
 end
 
-local in_place = { 2, 3, 8 } -- what follows stays where it was
+local in_place = { 2, 3, 8 } -- damages that keep the positions of the bytes behind
 
 local function damage(text, other, kept_in_place)
   for _ = 1, random(1, 4) do
@@ -154,7 +154,7 @@ local kinds = {
     end
   end },
 }
--- In turn: files of scenes are twenty times as large as the others.
+-- The order of kinds. Scenes are rare, because their files are twenty times as large as the others.
 local names = { "mesh", "csv", "mesh", "trajectory", "mesh", "csv", "mesh", "save", "mesh",
   "trajectory", "mesh" }
 if o.kind and not kinds[o.kind] then
@@ -180,7 +180,7 @@ end
 
 local RAW = { "attempt to ", "bad argument", "stack overflow", "no integer representation", "HALF DONE" }
 
--- Why an error will not do, or nil.
+-- Returns why an error message is not acceptable, or nil.
 local function complaint(message, path)
   if type(message) ~= "string" then return "an error that is a " .. type(message) end
   if not message:find(sink.base(path), 1, true) then return "does not name the file: " .. message end
@@ -204,7 +204,7 @@ local function run_case(number, path)
   return #text, ok, found or nil
 end
 
--- --- worker: cases one after the other, told before they begin -----------------------------
+-- --- worker: runs cases in order and prints each one's number before it begins --------------
 
 local CHUNK = 400
 
@@ -239,7 +239,7 @@ local function report(number, what)
   io.stdout:flush()
 end
 
--- One worker's cases from the first: bytes, cases, refused, found; the next case.
+-- Runs one worker from case first on; returns its sums { bytes, cases, refused, found, next case }.
 local function chunk(first, most)
   local words = { "ulimit -S -c 0; exec", sink.quote(arg[-1]), sink.quote(arg[0]), "--worker --seed", seed,
     "--first", first, o.kind and "--kind " .. o.kind or "" }

@@ -3,8 +3,8 @@
 local rules = {}
 
 -- Rooms ----------------------------------------------------------------------
--- A file in csrc/<room> may include its own room's headers and those of the rooms in its row, and call
--- their functions; nothing else from csrc. Rows are complete: nothing is inherited.
+-- A room is a folder of csrc. A file in csrc/<room> may include the headers of its own room and of the rooms
+-- in its row, and call their functions; nothing else from csrc. Rows are complete: nothing is inherited.
 rules.ROOMS = {
   base = {},
   motion = { "base" },
@@ -13,50 +13,50 @@ rules.ROOMS = {
   wire = { "base", "state" },
   force = { "base", "state" },
   solve = { "base" }, -- matrices only
-  system = { "base", "state", "solve", "force" }, -- it evaluates the wires' forces
+  system = { "base", "state", "solve", "force" }, -- evaluates the wires' forces
   modal = { "base", "system" },
-  integrate = { "base", "system" }, -- a system, never a force or a wire
+  integrate = { "base", "system" }, -- knows a system, but no force or wire
   contact = { "base", "state", "shape", "motion", "solve", "system" }, -- a coupling of the system
-  link = { "base", "motion", "state", "system" }, -- a wire of the system, never the scene
+  link = { "base", "motion", "state", "system" }, -- knows a wire of the system, but not the scene
   calibrate = { "base", "wire", "force" },
-  record = { "base" }, -- what is kept of a run, as data; who fills it knows the scene
-  strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; never the scene
-  -- The rooms of a scene. Its lists, and what is in them:
+  record = { "base" }, -- recorded data of a run; other rooms, which know the scene, fill it
+  strand = { "base", "state", "force", "calibrate" }, -- meshes of particles along a wire; not the scene
+  -- The rooms of a scene. Its lists and their items:
   scene = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
     "record", "strand" },
-  -- all as one system of bodies, lines and webs, and back
+  -- conversion of the scene to one system of bodies, lines and webs, and back
   body = { "base", "state", "force", "system", "integrate", "contact", "link", "strand", "scene" },
   -- grippers
   grip = { "base", "motion", "shape", "state", "wire", "solve", "system", "contact", "link", "strand",
     "scene", "body" },
-  -- wires, holds, obstacles, forces: made, changed, taken away
+  -- adding, changing and removing wires, holds, obstacles and forces
   edit = { "base", "motion", "shape", "state", "wire", "force", "system", "contact", "calibrate", "link",
     "record", "strand", "scene", "body", "grip" },
-  -- what may be asked of the state
+  -- read-outs of the state
   read = { "base", "state", "force", "system", "modal", "contact", "link", "record", "strand", "scene",
     "body", "grip" },
-  -- what is kept and told of every accepted state
+  -- recording and reporting of every accepted state
   watch = { "base", "shape", "state", "system", "modal", "contact", "link", "record", "strand", "scene",
     "body", "grip", "edit", "read" },
   -- the scene as a whole: its life, snapshots, files
   save = { "base", "motion", "shape", "state", "wire", "force", "system", "integrate", "contact", "link",
     "record", "strand", "scene", "body", "grip", "edit", "read", "watch" },
-  -- another model for a wire, back to a snapshot where that fails
+  -- changing the model of a wire; returns to a snapshot if that fails
   remodel = { "base", "state", "wire", "solve", "system", "contact", "link", "strand", "scene", "body",
     "grip", "edit", "read", "save" },
-  -- what makes it go on
+  -- time steps, runs and equilibria
   step = { "base", "motion", "state", "force", "system", "integrate", "contact", "link", "scene",
     "body", "grip", "edit", "read", "watch" },
   film = { "base", "read" },
-  view = { "base" }, -- bytes for pages; never a scene
-  draw = { "base", "film" }, -- of film: bytes made few
-  bind = {}, -- the core through softworld.h
-  probe = { "bind", "solve", "link", "scene", "body", "watch" }, -- of specs and benches; not installed
+  view = { "base" }, -- bytes for pages; knows no scene
+  draw = { "base", "film" }, -- uses only the compression of film
+  bind = {}, -- includes the core through softworld.h
+  probe = { "bind", "solve", "link", "scene", "body", "watch" }, -- for specs and benches; not installed
   host = { "bind" },
 }
 
--- Headers other rooms may see: <room>/<room>.h, unless listed here (true = all of them).
--- state and solve have no single header: their parts have different users.
+-- Headers that other rooms may include: <room>/<room>.h, unless listed here (true = all headers).
+-- state and solve have no single header, because their parts have different users.
 rules.OPEN = { base = true, bind = true,
   contact = { "contact.h", "crowd.h", "jolt.h", "mutual.h", "tally.h" },
   film = { "film.h", "pack.h", "skin.h" }, view = { "server.h" },
@@ -67,21 +67,21 @@ rules.OPEN = { base = true, bind = true,
   solve = { "band3.h", "band4.h", "blocks.h", "dense.h", "rotation.h", "sparse.h" },
   system = { "axial.h", "energy.h", "join.h", "linear.h", "rail.h", "system.h" } }
 
--- The rooms of a scene: each sees the headers of those in its row, which are private to everybody else.
+-- The rooms of a scene. Each of them may also include the private headers of those in its row.
 rules.INSIDE = { "record", "strand", "scene", "body", "grip", "edit", "read", "watch", "save",
   "remodel", "step", "probe" }
 
--- Headers that show a whole object's inside, and how many files may include them at most; others take
--- what they need from narrow headers (scene/parts.h, scene/lookup.h).
+-- Headers that show all fields of a large object, and how many files may include each at most. Other files
+-- use narrow headers (scene/parts.h, scene/lookup.h).
 rules.MOST_INCLUDERS = { ["scene/world.h"] = 11 }
 
--- May include softworld.h.
+-- Rooms that may include softworld.h.
 rules.USES_CORE = { bind = true, host = true }
 
--- One file per member (X(name) in the room's list.def): members do not include one another.
+-- Rooms with one file for each member (X(name) in the room's list.def). Members do not include one another.
 rules.FAMILIES = { wire = true, force = true, shape = true, integrate = true, link = true }
 
--- Outside headers and the only files that may include them (patterns on the path in csrc).
+-- Headers of other libraries, and the only files that may include them (patterns of paths in csrc).
 rules.OUTSIDE = {
   { "^lua%.h$", "^bind/", "^host/", "^probe/" },
   { "^lauxlib%.h$", "^bind/", "^host/", "^probe/" },
@@ -99,7 +99,7 @@ rules.OUTSIDE = {
   { "^civetweb%.h$", "^view/%w+_civetweb%.c$" },
 }
 
--- Words a file outside csrc/host may not use, with what to do instead.
+-- Functions that files outside csrc/host must not call, and what to do instead.
 rules.CALLS = {}
 for word in ([[fopen freopen fdopen tmpfile popen open openat creat printf vprintf fprintf
     vfprintf dprintf puts fputs putchar fputc putc fwrite perror unlink remove rename]]):gmatch "%S+" do
@@ -115,22 +115,22 @@ for word in ("fork vfork execv execve execvp execl execlp posix_spawn kill waitp
   rules.CALLS[word] = "only bind/process.c starts a process, for mesh_child.c and bind_worker.c; see there"
 end
 rules.CALLS_ALLOWED = { ["base/alloc.c"] = { aligned_alloc = true, calloc = true },
-  -- a child process reads mesh files: it has its own standard files, and leaves by _exit
+  -- a child process reads mesh files; it has its own standard files and ends with _exit
   ["bind/mesh_child.c"] = { kill = true, waitpid = true, _exit = true, malloc = true },
   ["bind/process.c"] = { fork = true, open = true, _exit = true },
   -- workers of a study
   ["bind/bind_worker.c"] = { kill = true, waitpid = true, _exit = true },
-  -- temporary files of the Lua library, which itself has no locks and no fsync
+  -- temporary files of the Lua library, as Lua has no locks and no fsync
   ["bind/bind_files.c"] = { open = true, openat = true } }
 
--- Most files in a circle of files that need one another (scripts/circles.lua).
+-- Largest allowed number of files in a circle of files that need each other (scripts/circles.lua).
 rules.MOST_IN_CIRCLE = 3
 
--- What the top level may hold, besides dot-files and what make and the examples leave there.
+-- Allowed entries of the top folder, besides dot-files and the outputs of make and the examples.
 rules.TOP = "Makefile csrc lua scripts spec examples README.md"
 
 rules.LICENCE = "SPDX-License-Identifier: GPL-3.0-or-later"
-rules.LONGEST = 400 -- lines; longer files are hard to find one's way in
-rules.LONGEST_HEADER = 250 -- lines; who includes a longer one knows more than they need
+rules.LONGEST = 400 -- longest file [lines]; longer files are hard to navigate
+rules.LONGEST_HEADER = 250 -- longest header [lines]; a longer one shows more than its users need
 
 return rules

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Checks the house rules (scripts/house_rules.lua), and runs the outside checkers.
+-- Checks the house rules (scripts/house_rules.lua), and runs luacheck and clang-tidy.
 --   lua5.4 scripts/lint.lua [--only CHECK,CHECK] [tree]
 -- Checks: layout spdx includes circles calls headers length luacheck tidy. A finding is "file:line: what is
--- wrong; what to do". Exit status 0 when there is none; long files that are no
--- headers only get a warning.
+-- wrong; what to do". The exit status is 0 if there is none. Long files that are not headers give a warning
+-- only.
 
 local here = arg[0]:match "^(.*)/" or "."
 local rules = dofile(here .. "/house_rules.lua")
@@ -30,7 +30,7 @@ local function lines_of(path)
   return lines
 end
 
--- Files below the given places (those that exist), by name pattern of find, sorted.
+-- Returns the files below the given places that exist, by name patterns of find, sorted.
 local function files(places, ...)
   local names = {}
   for _, name in ipairs { ... } do names[#names + 1] = "-name " .. quote(name) end
@@ -41,7 +41,7 @@ local function files(places, ...)
   return list
 end
 
--- Run a checker that prints its own findings; nothing is printed when it is content.
+-- Runs a checker that prints its own findings; prints its output only if it fails.
 local function checker(name, command)
   if not os.execute("command -v " .. name .. " >/dev/null 2>&1") then
     finding("scripts/lint.lua", 1, "%s is not installed; sh scripts/setup.sh --lint", name)
@@ -53,7 +53,7 @@ local function checker(name, command)
   print(text)
 end
 
--- Code without comments and the insides of texts; line ends stay.
+-- Returns code without comments and without the contents of strings; line ends stay.
 local function bare_code(text)
   local out, i = {}, 1
   local function blank(part) out[#out + 1] = part:gsub("[^\n]", " ") end
@@ -125,7 +125,7 @@ end
 
 local inside = set_of(rules.INSIDE)
 
--- A header of csrc, as seen from file (csrc/room/stem.ext).
+-- Checks an include of a header of csrc in file (csrc/room/stem.ext).
 local function check_own_include(file, number, room, stem, included, members)
   local other, name = included:match "^([%w_]+)/(.+)$"
   local say = function(...) finding(file, number, ...) end
@@ -156,7 +156,7 @@ local function check_own_include(file, number, room, stem, included, members)
   end
 end
 
--- A room that leads back to itself by the rows above, or nothing.
+-- Returns a chain of rooms that leads back to its first one by their rows, or nothing.
 local function circle_of_rooms(rooms)
   local state = {}
   local function visit(room, path)
@@ -225,7 +225,7 @@ function check.includes()
   end
 end
 
--- Functions that files call in rooms which are not in their rows, however they are declared.
+-- Finds calls of functions in rooms that are not in the file's row, however the function is declared.
 local function check_room_calls(needs)
   local list = {}
   for file, others in pairs(needs) do
@@ -269,7 +269,7 @@ function check.calls()
       for line in (bare_code(table.concat(lines_of(file), "\n")) .. "\n"):gmatch "([^\n]*)\n" do
         number = number + 1
         for before, word in line:gmatch "(.?)%f[%w_]([%a_][%w_]*)%s*%(" do
-          -- x->open(...) and x.open(...) are members of our own structs.
+          -- x->open(...) and x.open(...) are members of structs.
           if rules.CALLS[word] and not allowed[word] and not before:find "[.>]" then
             finding(file, number, "calls %s; %s", word, rules.CALLS[word])
           end
@@ -317,7 +317,7 @@ function check.luacheck()
   checker("luacheck", "luacheck --no-color -q " .. table.concat(places, " "))
 end
 
--- The checks are chosen in .clang-tidy; one process per file, as many at a time as processors.
+-- Runs clang-tidy with the checks of .clang-tidy: one process for each file, as many at a time as processors.
 function check.tidy()
   if #files("csrc", "*.c") == 0 then return end
   checker("clang-tidy", [[
@@ -350,7 +350,7 @@ for name in pairs(wanted or {}) do
   end
 end
 
--- Plain Lua cannot change the directory: start again in the tree.
+-- Plain Lua cannot change the directory, so the script starts itself again in the tree.
 if tree then
   local script = arg[0]:sub(1, 1) == "/" and quote(arg[0]) or '"$OLDPWD"/' .. quote(arg[0])
   local only = {}

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The manual as HTML that needs no network: an index, the pages, and the parameters.
+-- Writes the manual as HTML that needs no network: an index, the pages, and the parameters.
 --   build/softworld scripts/manual.lua [folder=build/manual]
 local manual = require "softworld.manual"
 local sink = require "softworld.output.sink"
@@ -55,7 +55,7 @@ footer { margin-top: 3rem; padding-top: 1rem; border-top: 1px solid var(--line);
 
 -- Markdown -----------------------------------------------------------------------------
 
--- The only place that knows the converter: cmark-gfm of Debian.
+-- Converts Markdown to HTML with cmark-gfm of Debian. No other place uses this program.
 local function html_of(markdown)
   local name = os.tmpname()
   sink.write_file(name, markdown)
@@ -75,7 +75,7 @@ end
 -- Parameters ---------------------------------------------------------------------------
 
 local reference = topics.reference()
-local place_of = {} -- of a registered name: page and anchor
+local place_of = {} -- page and anchor of each registered name
 
 for _, group in ipairs(reference) do
   for _, name in ipairs(group[2]) do
@@ -116,7 +116,7 @@ end
 
 -- Pages --------------------------------------------------------------------------------
 
-local order = {} -- of all pages: { file, title, name }
+local order = {} -- all pages in order: { file, title, name }
 for _, group in ipairs(manual.groups) do
   for _, name in ipairs(group[2]) do order[#order + 1] = { name .. ".html", manual.title(name), name } end
 end
@@ -150,7 +150,7 @@ local function footer(number)
   return "<footer>" .. before .. after .. "</footer>"
 end
 
--- Links to pages and pictures lead to files of the folder; help "name" becomes a link.
+-- Makes links to pages and pictures point to files of the folder; turns help "name" into a link.
 local function linked(html)
   html = html:gsub('href="([%w_]+)%.md', 'href="%1.html')
   html = html:gsub('src="[%./]*/%.readme/', 'src="')

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Puts the player's page together: template, notices, styles and scripts become one HTML file.
+-- Builds the player's page: combines template, notices, styles and scripts into one HTML file.
 --   lua5.4 scripts/page.lua SOURCES BUNDLES OUT     (see the Makefile)
 local sources, bundles, out = ...
 
@@ -13,7 +13,7 @@ end
 local parts = {
   NOTICES = read(sources .. "/notices.txt"),
   STYLES = read(bundles .. "/player.css"),
-  -- the page ends its script at the first such word, wherever that stands
+  -- browsers end a script at the first </script>, even inside a string
   SCRIPTS = (read(bundles .. "/player.js"):gsub("</([sS][cC][rR][iI][pP][tT])", "<\\/%1")),
 }
 local page = read(sources .. "/index.html"):gsub("@(%u+)@", function(name) return parts[name] end)

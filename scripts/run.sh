@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One command from a bare machine to the main example's pictures and numbers:
+# Sets up a bare machine, builds, and makes the main example's pictures and numbers:
 #   sh scripts/run.sh
 . "$(dirname -- "$0")/setup.sh"
 

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing to build, run, test and lint. Run it, or source it
-# (run.sh and test.sh do) for root_of, stage and need.
+# Installs the missing packages to build, run, test and lint. Run it, or source
+# it (as run.sh and test.sh do) for root_of, stage and need.
 #
-#   sh scripts/setup.sh          what building and running need
-#   sh scripts/setup.sh --test   and what the tests need
-#   sh scripts/setup.sh --lint   and what `make lint` and `make format` need
-#   sh scripts/setup.sh --manual what building, running and `make manual` need
+#   sh scripts/setup.sh          packages to build and run
+#   sh scripts/setup.sh --test   also packages for the tests
+#   sh scripts/setup.sh --lint   also packages for `make lint` and `make format`
+#   sh scripts/setup.sh --manual packages to build, run and `make manual`
 #
-# POSIX sh and the base system only: on a bare Debian 12 there is no make, sudo,
-# curl, python3 or pkg-config. Nothing is downloaded when nothing is missing.
+# It uses POSIX sh and the base system only: a bare Debian 12 has no make, sudo,
+# curl, python3 or pkg-config. It downloads nothing if nothing is missing.
 
-# One "set package" row each: the only place where packages are named.
+# Rows of "set package". This is the only place where packages are named.
 packages() {
   cat <<'LIST'
 build gcc              # the compiler
@@ -53,19 +53,19 @@ lint  clang-format     # make format
 LIST
 }
 
-# Directory above scripts/, whatever the current directory and CDPATH are.
+# Prints the directory above scripts/, for any current directory and CDPATH.
 root_of() {
   CDPATH='' cd -- "$(dirname -- "$1")/.." && pwd -P
 }
 
 started=$(date +%s)
 
-# A line per stage, with the seconds since the start.
+# Prints a line for a stage, with the seconds since the start.
 stage() {
   printf '[%3d s] %s\n' "$(($(date +%s) - started))" "$*"
 }
 
-# Print those of the given packages that are not installed, one per line.
+# Prints the given packages that are not installed, one per line.
 missing() {
   have=" $(dpkg-query -W -f='${Package}=${db:Status-Status} ' "$@" 2>/dev/null) "
   for package in "$@"; do
@@ -76,8 +76,8 @@ missing() {
   done
 }
 
-# Show apt's progress in a few lines instead of hundreds; all of it goes to $log.
-# The exit status is that of the command, which `echo` sends through the pipe.
+# Runs a command of apt and shows its progress in a few lines; the whole output goes to $log.
+# The exit status is that of the command; `echo` passes it through the pipe.
 condensed() {
   {
     "$@" 2>&1
@@ -101,14 +101,14 @@ give_up() {
   exit 1
 }
 
-# need SET...: install the missing packages of these sets, or say what to install.
+# need SET...: installs the missing packages of these sets, or prints what to install.
 need() {
-  if [ -n "${SOFTWORLD_SKIP_SETUP:-}" ]; then return 0; fi # libraries from elsewhere than Debian
+  if [ -n "${SOFTWORLD_SKIP_SETUP:-}" ]; then return 0; fi # the libraries are not Debian's
   wanted=$(packages | while read -r set package _; do
     for s in "$@"; do [ "$s" = "$set" ] && echo "$package"; done
   done)
-  # Names contain no blanks: splitting into words is meant, here and below; so is the echo
-  # that makes one line of many.
+  # Names contain no blanks. Splitting into words is intended, here and below; so is the echo
+  # that joins lines.
   # shellcheck disable=SC2086,SC2116
   if command -v dpkg-query >/dev/null 2>&1; then
     lacking=$(missing $wanted)
@@ -119,7 +119,7 @@ with their counterparts installed, set SOFTWORLD_SKIP_SETUP=1." "" "$(echo $want
   if [ -z "$lacking" ]; then return 0; fi
   # shellcheck disable=SC2086,SC2116
   lacking=$(echo $lacking)
-  # Alone, lua-busted is content with any Lua; with 5.4 in the same call it takes 5.4.
+  # Alone, lua-busted accepts any Lua; with lua5.4 in the same call it uses 5.4.
   case " $lacking " in
     *" lua5.4 "*) ;;
     *" lua-"*) lacking="$lacking lua5.4" ;;
@@ -137,7 +137,7 @@ with their counterparts installed, set SOFTWORLD_SKIP_SETUP=1." "" "$(echo $want
 
   stage "installing: $lacking"
   log=$(mktemp "${TMPDIR:-/tmp}/softworld-setup.XXXXXX") || exit 1
-  # Error-Mode: otherwise apt-get calls a refresh that reached no server a success.
+  # Error-Mode: without it apt-get reports success even if it reached no server.
   apt="$as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -o DPkg::Lock::Timeout=300"
   # shellcheck disable=SC2086
   if ! condensed $apt -qq -o APT::Update::Error-Mode=any update; then
@@ -158,7 +158,7 @@ with their counterparts installed, set SOFTWORLD_SKIP_SETUP=1." "" "$(echo $want
   if [ -n "$lacking" ]; then give_up "Still missing after apt-get install." "" "$lacking"; fi
 }
 
-# build_all ROOT: build/softworld and the module for stock Lua.
+# build_all ROOT: builds build/softworld and the module for stock Lua.
 build_all() {
   stage "building (make)"
   make -s -C "$1" -j "$(nproc)" || {

@@ -28,8 +28,8 @@ end
 
 local function exists(path) return lfs.attributes(path, "mode") ~= nil end
 
--- The program that runs this script: the host, or stock lua5.4. Without arg a child could not
--- know that it is one and would start children itself, for ever.
+-- Returns the program that runs this script: the host, or stock lua5.4. arg must be set: without it a child
+-- would not know that it is a child, and would start children without end.
 local function interpreter()
   assert(arg and arg[-1], "the interpreter must set the table 'arg' as lua does")
   local lowest = -1
@@ -76,7 +76,7 @@ local function options_of(args)
     elseif a == "--jobs" then o.jobs = number(a)
     elseif a == "--timeout" then o.timeout = number(a)
     elseif a == "--child" then o.child = value(a)
-    elseif a == "--records" then o.records = value(a) -- from the parent to its children
+    elseif a == "--records" then o.records = value(a) -- given by the parent to its children
     elseif a == "--help" then
       print(usage)
       os.exit(0, true)
@@ -131,13 +131,13 @@ local function first_line(command)
   return line
 end
 
--- Run all files, some at a time. xargs keeps the processes busy; a line "index status seconds"
--- arrives as each ends. done(i, status, seconds) is called in the order of the files.
+-- Runs all files, several at a time. xargs keeps the processors busy; a line "index status start end" comes
+-- when a file ends. Calls done(i, status, seconds) in the order of the files.
 local function run_files(files, o, folder, done)
   local words = table.concat({ quote(program), quote(this), "--records",
     quote(folder) .. "/$1.records", o.list and "--list" or "",
     o.name and "--name " .. quote(o.name) or "", "--child \"$2\"" }, " ")
-  -- --foreground: Ctrl-C must reach the child. -k: a child may ignore the first signal.
+  -- --foreground: Ctrl-C must reach the child. -k: kills a child that ignores the first signal.
   local one = ([[s=$(date +%%s.%%N)
 timeout --foreground -k 10 %d %s >%s/$1.log 2>&1 </dev/null
 echo "$1 $? $s $(date +%%s.%%N)"]]):format(o.timeout, words, quote(folder))
@@ -178,7 +178,7 @@ local function how_it_ended(status, timeout)
   return "ended with exit status " .. status
 end
 
--- The records of one child as { passed, failed, tests = { {name, seconds, ...} }, failures }.
+-- Returns the records of one child as { passed, tests = { { name, where, seconds } }, failures }.
 local function result_of(path, file, status, o)
   local r = { passed = 0, tests = {}, failures = {} }
   local running, finished
@@ -218,7 +218,7 @@ local function indent(text) return "    " .. text:gsub("\n+$", ""):gsub("\n", "\
 local function show_failures(r, log)
   for _, f in ipairs(r.failures) do
     local where, message = f.where, f.message
-    -- A message starts with its own place; when that is in the spec, it is the better one.
+    -- A message starts with its own position. If that is in the spec, it is more precise: use it.
     local at, rest = message:match "^([^\n:]+_spec%.lua:%d+): (.*)$"
     if at then
       if at:sub(1, #root + 1) == root .. "/" then at = at:sub(#root + 2) end

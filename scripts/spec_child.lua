@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- One spec file in a process of its own, for scripts/spec.lua, and the records by which it reports.
+-- Runs one spec file in a separate process, for scripts/spec.lua, and reports its results as records.
 local child = {}
 
 -- Records --------------------------------------------------------------------
--- A child reports through a file, a line per event with fields between tabs, written at once
--- so that they outlive a crash. Without the last one, "end", the file did not finish.
+-- A child reports through a file: one line for each event, fields separated by tabs. Lines are written at
+-- once, so that they survive a crash. If the last line "end" is missing, the spec file did not finish.
 
 local escapes = { ["\\"] = "\\\\", ["\n"] = "\\n", ["\t"] = "\\t", ["\r"] = "\\r" }
 local function escape(text) return (tostring(text):gsub("[\\\n\t\r]", escapes)) end
@@ -37,7 +37,7 @@ local function full_name(busted, element)
   return table.concat(names, " ")
 end
 
--- With the line of the test itself, when the message names one of a helper or of other code.
+-- Returns the message; adds the line of the test if the message names only a line of other code.
 local function message_of(file, message, trace)
   message = type(message) == "string" and message or "no message"
   local outermost
@@ -50,7 +50,7 @@ end
 
 -- A file ------------------------------------------------------------------------
 
--- Selection happens when a test registers itself.
+-- Selects the tests when they register themselves.
 local function choose(busted, file, record, name, list)
   local first = { priority = 1 }
   for _, descriptor in ipairs { "it", "pending" } do
@@ -69,7 +69,7 @@ local function choose(busted, file, record, name, list)
 end
 
 local function watch(busted, file, record)
-  local messages = {} -- of the running test
+  local messages = {} -- messages of the running test
   local function place(element) return file .. ":" .. line_of(element.trace) end
   busted.subscribe({ "test", "start" }, function(element)
     messages = {}
@@ -91,7 +91,7 @@ local function watch(busted, file, record)
   local function problem(element, _, message, trace)
     local why = message_of(file, message, trace)
     if element.descriptor == "it" then
-      messages[#messages + 1] = why -- recorded with the test's end
+      messages[#messages + 1] = why -- recorded when the test ends
     else
       record("fail", place(element), full_name(busted, element),
         ("error in %s: %s"):format(element.descriptor or "?", why), 0)
@@ -112,13 +112,13 @@ local function execute(busted, file, record)
   require "busted.execute"(busted)(1, {})
 end
 
---- Run a file's tests whose names contain name, or list them; records go to sink. root: of the tree;
--- host: the program, beside which its libraries are.
+--- Runs the file's tests whose names contain name, or lists them; writes records to sink. root: folder of
+-- the tree; host: path of the program, beside which its libraries are.
 function child.run(file, sink, name, list, root, host)
   local record = recorder(sink)
   local places = "%s/lua/?.lua;%s/lua/?/init.lua;%s/spec/?.lua;%s/scripts/?.lua;"
   package.path = places:gsub("%%s", (root:gsub("%%", "%%%%"))) .. package.path
-  -- beside the host: softworld.probe, and of stock Lua the core
+  -- beside the host: softworld.probe, and the core for stock Lua
   package.cpath = host:match "^(.*)/" .. "/lib/?.so;" .. package.cpath
   rawset(_G, "arg", { [0] = file })
 
@@ -128,7 +128,7 @@ function child.run(file, sink, name, list, root, host)
   watch(busted, file, record)
   execute(busted, file, record)
   record "end"
-  -- Specs judge runs by their own means: those that failed unseen are nobody else's concern.
+  -- Specs check their runs themselves, so failed runs that no script has read are not reported.
   local unread = package.loaded["softworld.unread"]
   if unread then unread.finish() end
 end

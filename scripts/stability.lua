@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Largest stable steps, and what happens where methods are known to fail.
+-- Measures the largest stable steps, and the behaviour in scenes in which methods are known to fail.
 --   build/softworld scripts/stability.lua [quick] [out=folder]
--- Rows in out/bench/stability.csv, maps beside it, tables on the terminal.
+-- Writes rows to out/bench/stability.csv, maps beside it, and tables to the terminal.
 package.path = (arg[0]:match "^(.*/)" or "") .. "?.lua;" .. package.path
 local bench = require "bench.rows"
 local benchcases = require "bench.cases"
@@ -59,7 +59,7 @@ local function measure_explicit()
   return map
 end
 
--- Meshes: what the program bounds without knowing their frequencies, against what is stable.
+-- Meshes: compares the program's bound on the step, which needs no frequencies, with the stable step.
 local function measure_meshes()
   for _, integrator in ipairs{ "symplectic-euler", "velocity-verlet", "rk4" } do
     for _, mesh in ipairs(quick and { benchsqueeze.meshes[1] } or benchsqueeze.meshes) do
@@ -101,7 +101,7 @@ end
 local implicit = bench.integrators(true)
 local ladder = { 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1 } -- [s]
 
--- The largest step of the ladder below which all pass, and the largest without a rejected step.
+-- Returns a row: the largest step of the ladder up to which all pass, the largest without a rejected step.
 local function climb(case, segments, integrator)
   local row = { group = "implicit", item = case, model = "rod", segments = segments,
     integrator = integrator, status = "ok" }
@@ -165,7 +165,7 @@ local function print_limits()
   end
 end
 
--- Energy change of one scene as rows of integrators and columns of steps.
+-- Returns a map of the energy change in one scene: rows of integrators, columns of steps.
 local function energy_map(item)
   local steps, map = { 0.01, 0.005, 0.002, 0.001 }, { rows = implicit, columns = {}, values = {} }
   for c, dt in ipairs(steps) do map.columns[c] = ("%g ms"):format(1e3 * dt) end

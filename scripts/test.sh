@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One command from a bare machine to all tests; the last line is
-# "N passed, N failed" and the exit status says the same:
+# Sets up a bare machine, builds, and runs all tests. The last line is
+# "N passed, N failed"; the exit status is 0 if none failed:
 #   sh scripts/test.sh [paths and options of scripts/spec.lua]
 . "$(dirname -- "$0")/setup.sh"
 
@@ -11,5 +11,5 @@ build_all . || {
   exit 1
 }
 stage "testing"
-# Not through make: it would print its own line after the closing one.
+# Not through make, which would print another line after the last one.
 exec build/softworld scripts/spec.lua "$@"

@@ -6,14 +6,14 @@
 #include <string.h>
 
 enum { ALIGNMENT = 64 }; /* one cache line and the widest vector [B] */
-/* Blocks from this size on are zero without being written: the system zeroes a page when it is
- * used first, and a large one does not keep Ctrl-C waiting for that [B]. */
+/* Blocks of at least this size come zeroed from the system, which zeroes each page at its first
+ * use. So a large block does not delay the answer to Ctrl-C [B]. */
 enum { LARGE = 1 << 20 };
 
-/* Stored in the line before the block, so that sw_free knows its size. */
+/* Stored in the 64 bytes before the block, so that sw_free knows its size. */
 typedef struct header {
   size_t bytes; /* of the user's part [B] */
-  void *raw;    /* what the system gave */
+  void *raw;    /* the system's pointer, for free */
 } header;
 
 static long fail_countdown;
@@ -76,7 +76,7 @@ void sw_free_all(void *const *list, size_t count) {
   for (size_t i = 0; i < count; i++) sw_free(list[i]);
 }
 
-/* Twice the capacity, until it is enough; 0: too much. */
+/* Returns the capacity, doubled until it holds need; 0 if that is too large. */
 static size_t doubled(size_t capacity, size_t need) {
   size_t wanted = capacity ? capacity : 8;
   while (wanted < need) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Large arrays of numbers set to zero. Memory that is seen for the first time may take a second in
- * a million nodes: given up half way when the user wants to stop, so look at sw_interrupted before
- * what follows is believed. */
+/* Sets large arrays of numbers to zero. For a million nodes the first touch of their memory may
+ * take a second. So the clearing ends early when the user wants to stop: check sw_interrupted
+ * before you use results computed from the array. */
 #ifndef SW_BASE_CLEAR_H
 #define SW_BASE_CLEAR_H
 
@@ -10,7 +10,7 @@
 
 #include "base/interrupt.h"
 
-enum { SW_CLEAR_PIECE = 0x20000 }; /* numbers between two looks [-] */
+enum { SW_CLEAR_PIECE = 0x20000 }; /* numbers between two polls for Ctrl-C [-] */
 
 static inline void sw_clear(double *numbers, size_t count) {
   const size_t piece = SW_CLEAR_PIECE;

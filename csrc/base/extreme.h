@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The largest of some values. */
+/* The largest of some values, with its place and time. */
 #ifndef SW_BASE_EXTREME_H
 #define SW_BASE_EXTREME_H
 

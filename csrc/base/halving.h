@@ -4,9 +4,9 @@
 
 #include <stddef.h>
 
-/* In a list in order: sets the size_t i to the first number of [from, to) that is not before what
- * is looked for, to where all are; before: a condition in terms of i. The last one that is at or
- * before a place is the one ahead of the first after it. */
+/* Binary search in a sorted list: sets the size_t i to the first index in [from, to) for which the
+ * condition before (in terms of i) is false; to `to` if it is true for all. To find the last item
+ * at or before a place, search for the first item after the place and take the one ahead of it. */
 #define SW_FIRST_NOT(before, i, from, to)     \
   do {                                        \
     size_t sw_low_ = (from), sw_high_ = (to); \

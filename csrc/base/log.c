@@ -3,10 +3,10 @@
 
 #include "base/alloc.h"
 
-/* In front of the rows. */
+/* Stored in front of the rows. */
 typedef struct head {
   size_t references;
-  size_t kept; /* the most that a snapshot has of it, in doubles */
+  size_t kept; /* doubles of the block that snapshots use: the largest of all snapshots */
 } head;
 
 enum { HEAD = sizeof(head) / sizeof(double), FIRST = 64 };

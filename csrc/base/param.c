@@ -81,7 +81,7 @@ sw_status sw_param_check(const char *object, const sw_param *row, double value, 
                  row->name, value, *unit ? " " : "", unit, range);
 }
 
-/* A number that may also not be given. */
+/* Checks a number; NAN is allowed if the parameter may be left out. */
 static sw_status check_given(const char *object, const sw_param *row, double value, int lenient,
                              sw_error *err) {
   const int may_miss = isnan(row->def) && !(row->flags & SW_PARAM_REQUIRED);
@@ -150,7 +150,7 @@ const char *sw_nearest_name(const char *word, const char *const *names, size_t s
                             size_t count) {
   const char *nearest = NULL;
   const int length = (int)strlen(word);
-  int limit = length <= 3 ? 1 : length <= 6 ? 2 : length / 3; /* further is no typo */
+  int limit = length <= 3 ? 1 : length <= 6 ? 2 : length / 3; /* largest distance of a typo [-] */
   for (size_t i = 0; i < count; i++) {
     const char *name = *(const char *const *)(const void *)((const char *)names + i * stride);
     const int distance = edit_distance(word, name);

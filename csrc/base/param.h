@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameter rows: one table per kind of object says name, type, unit, default,
- * range and meaning of everything that can be given to it. Construction,
- * checks, get/set, help(), the reference pages and tuning bounds all read the
- * same rows. */
+/* Parameter rows. Each kind of object has one table with the name, type, unit, default,
+ * range and meaning of each of its parameters. Construction, checks, get/set, help(),
+ * the reference pages and tuning bounds all read the same rows. */
 #ifndef SW_BASE_PARAM_H
 #define SW_BASE_PARAM_H
 
@@ -10,7 +9,7 @@
 
 #include "base/status.h"
 
-enum { SW_NAME_SIZE = 64 }; /* longest user-given name, with its end [B] */
+enum { SW_NAME_SIZE = 64 }; /* longest user-given name, with its terminating zero [B] */
 
 /* Type of the row's field in the argument struct. */
 typedef enum sw_param_type {
@@ -21,22 +20,22 @@ typedef enum sw_param_type {
   SW_PARAM_TEXT,     /* char[SW_NAME_SIZE] */
   SW_PARAM_VECTOR,   /* sw_vec */
   SW_PARAM_ROTATION, /* sw_quat; in Lua { axis = {x,y,z}, angle = rad } or {w,x,y,z} */
-  SW_PARAM_OTHER     /* known name, read by the binding itself; nothing stored */
+  SW_PARAM_OTHER     /* a known name that the binding itself reads; nothing is stored */
 } sw_param_type;
 
 enum {
   SW_PARAM_REQUIRED = 1,  /* must be given */
   SW_PARAM_ABOVE_MIN = 2, /* min itself is not allowed */
   SW_PARAM_BELOW_MAX = 4, /* max itself is not allowed */
-  SW_PARAM_CHANGES = 8    /* may be set between steps, too */
+  SW_PARAM_CHANGES = 8    /* may also be set later, between steps */
 };
 
 typedef struct sw_param {
   const char *name;
   sw_param_type type;
-  const char *unit; /* "m", "N m2", ...; "-" when it has none; never NULL */
+  const char *unit; /* "m", "N m2", ...; "-" if it has none; never NULL */
   double def;       /* default; NAN = none (reads as NAN, or as all-NAN vector) */
-  double min, max;  /* allowed range, each component of a vector [unit] */
+  double min, max;  /* allowed range, of each component for a vector [unit] */
   unsigned flags;
   const char *const *choices; /* NULL-terminated names of a choice, else NULL */
   size_t offset;              /* of the value in the argument struct [B] */
@@ -53,7 +52,7 @@ typedef struct sw_params {
 #define SW_PARAMS(object_name, table) \
   { object_name, table, sizeof(table) / sizeof((table)[0]) }
 
-/* A row whose field has its name; of a number, of a vector, and that of an object's name. */
+/* Rows whose parameter has the name of its field: a number, a vector, and the object's name. */
 #define SW_NUMBER_ROW(args, field, unit, def, min, max, flags, doc) \
   { #field, SW_PARAM_NUMBER, unit, def, min, max, flags, NULL, offsetof(args, field), doc }
 #define SW_VECTOR_ROW(args, field, unit, def, flags, doc)                                        \
@@ -67,27 +66,26 @@ typedef struct sw_params {
         "name used in messages and series"                              \
   }
 
-/* Write every row's default into args. */
+/* Writes the default of each row into args. */
 void sw_params_default(const sw_params *params, void *args);
 
 /* The row called name, or NULL. */
 const sw_param *sw_params_find(const sw_params *params, const char *name);
 
-/* Check one number against the row: finite, whole where it must be, in range.
+/* Checks that a number is finite, whole (INTEGER rows) and in the row's range.
  * SW_EINVAL with a text that names object, parameter, value, unit and range. */
 sw_status sw_param_check(const char *object, const sw_param *row, double value, sw_error *err);
 
-/* Check a whole argument struct that did not come through these checks, such as one from a file.
- * lenient: the program itself may leave out (NAN) what users must give. */
+/* Checks a whole argument struct that was not made by these checks, such as one from a file.
+ * lenient: required numbers may be NAN (left out), as the program itself may do. */
 sw_status sw_params_check(const sw_params *params, const void *args, int lenient, sw_error *err);
 
-/* Store a checked number (NUMBER, INTEGER, BOOLEAN, CHOICE rows). */
+/* Stores a checked number (NUMBER, INTEGER, BOOLEAN, CHOICE rows). For the other types it stores
+ * the default: an empty text, a vector of equal components, the identity. */
 void sw_param_store(const sw_param *row, void *args, double value);
 
-/* "in (0, 1] m" for messages, into a buffer of size n. */
-
-/* The candidate (of count names, each found at names + i * stride) nearest to
- * word by edit distance, or NULL when none is near enough to be a typo. */
+/* Returns the name nearest to word by edit distance, or NULL if none is near enough for
+ * word to be a typo of it. Name i of count is at names + i * stride [B]. */
 const char *sw_nearest_name(const char *word, const char *const *names, size_t stride,
                             size_t count);
 

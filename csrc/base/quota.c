@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/quota.h"
 
-static long most, taken; /* steps; 0 = any number [-] */
+static long most, taken; /* steps allowed (0 = any number), steps tried [-] */
 
 void sw_quota_set(long steps) {
   most = steps;

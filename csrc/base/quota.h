@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How many steps of runs may be tried from now on, in all scenes: the limit of an evaluation that
- * is the same on every machine. */
+/* A limit on the number of steps that runs of all scenes may try. It bounds the cost of an
+ * evaluation in the same way on every machine. */
 #ifndef SW_BASE_QUOTA_H
 #define SW_BASE_QUOTA_H
 
 #include "base/status.h"
 
-/* 0 = any number. */
+/* Sets the limit and starts the count at 0. steps: 0 = any number. */
 void sw_quota_set(long steps);
 
-/* One more step is tried. SW_ELIMIT when that is more than was set. */
+/* Counts one more tried step. SW_ELIMIT if that exceeds the limit. */
 sw_status sw_quota_take(sw_error *err);
 
-/* Has more been asked for than was set? */
+/* 1 if more steps than the limit were asked for. */
 int sw_quota_over(void);
 
 #endif

@@ -15,7 +15,7 @@ int sw_bracket_add(sw_bracket *b, double at, double off) {
 }
 
 void sw_bracket_mend(sw_bracket *b, int falls, double at, double off) {
-  const int other = !(off > 0), above = other == falls; /* where at has to be */
+  const int other = !(off > 0), above = other == falls; /* 1: at must be above the other side */
   const double way = at - b->tried[other];
   if (isfinite(b->off[other]) && !(above ? way > 0 : way < 0)) b->off[other] = NAN;
 }

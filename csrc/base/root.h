@@ -1,33 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a quantity that is measured trial by trial is as wanted: false position between a place
- * where it is too small and one where it is too large, by the Illinois rule (Dowell and Jarratt,
- * BIT 11, 1971), which halves the weight of a side that stays. Until both sides are known who asks
- * finds the next place. */
+/* Root finding for a quantity that is measured trial by trial: finds the place where it has its
+ * target value. Method: false position between a place where the quantity is too small and one
+ * where it is too large, with the Illinois rule (Dowell and Jarratt, BIT 11, 1971), which halves
+ * the weight of a side that stays. The caller chooses the places until both sides are known. */
 #ifndef SW_BASE_ROOT_H
 #define SW_BASE_ROOT_H
 
 typedef struct sw_bracket {
-  double tried[2]; /* places where it was too small and too large [unit of the places] */
-  double off[2];   /* how far it was off there; NAN = not known [unit of the quantity] */
-  int last_side;   /* which of both was tried last; -1: none [-] */
+  double tried[2]; /* places: [0] quantity too small, [1] too large [unit of the places] */
+  double off[2];   /* quantity less target there; NAN = not known [unit of the quantity] */
+  int last_side;   /* side of the last trial; -1: none [-] */
 } sw_bracket;
 
-/* Nothing is known. */
+/* Forgets all trials. */
 void sw_bracket_clear(sw_bracket *b);
-/* It was off by so much at a place. Returns the side that this is: 1 = too large. */
+/* Records a trial at a place: off is the quantity less its target. Returns the trial's side: 1 =
+ * too large. */
 int sw_bracket_add(sw_bracket *b, double at, double off);
-/* Forget the other side if a trial contradicts it: falls = 1, the quantity falls from a lower place
- * to a higher one; off: of the trial at that place. */
+/* Forgets the other side if a trial (at, off) contradicts it. falls = 1: the quantity falls with
+ * rising place. */
 void sw_bracket_mend(sw_bracket *b, int falls, double at, double off);
-/* 1: both sides are known. */
+/* 1 if both sides are known. */
 int sw_bracket_closed(const sw_bracket *b);
-/* From the place where it is too small to the other one. */
+/* Distance from the place on the too-small side to the other one, with its sign. */
 double sw_bracket_width(const sw_bracket *b);
-/* Of the chord between both, over the places. */
+/* Slope of the chord between both sides. */
 double sw_bracket_slope(const sw_bracket *b);
-/* Before the next place between both is chosen: this side was tried last. */
+/* Applies the Illinois rule: side is that of the last trial. Call it before sw_bracket_root. */
 void sw_bracket_weigh(sw_bracket *b, int side);
-/* That place: where the chord is as wanted. */
+/* Returns the next place to try: the root of the chord. */
 double sw_bracket_root(const sw_bracket *b);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Wide vectors without giving up the portable build: a hot loop marked SW_HOT
- * is compiled for several instruction sets, and the loader picks one. */
+/* Wide vector instructions in a portable build: a function marked SW_HOT is compiled
+ * for several instruction sets, and the loader picks one. */
 #ifndef SW_BASE_SIMD_H
 #define SW_BASE_SIMD_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers of nodes, spread over the three components of each. */
+/* Loads one number for each of four nodes, repeated for the three components of each node. */
 #ifndef SW_BASE_SPREAD_H
 #define SW_BASE_SPREAD_H
 
@@ -19,12 +19,12 @@ static inline __attribute__((always_inline)) sw_quad sw_quad_load(const double *
   return q;
 }
 
-/* Twelve numbers in a row. */
+/* Loads twelve successive numbers: the components of four nodes. */
 static inline __attribute__((always_inline)) sw_spread sw_spread_load(const double *p) {
   return (sw_spread){{sw_quad_load(p), sw_quad_load(p + 4), sw_quad_load(p + 8)}};
 }
 
-/* Of four nodes, each three times. */
+/* Loads the numbers of four nodes, each three times. */
 static inline __attribute__((always_inline)) sw_spread sw_spread_of(const double *p) {
   const sw_quad q = sw_quad_load(p);
   return (sw_spread){{__builtin_shufflevector(q, q, 0, 0, 0, 1),

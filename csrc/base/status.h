@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Status codes and error text. Core functions return a status and, when they
- * can say more, fill the caller's sw_error; only the Lua binding raises. */
+/* Status codes and error texts. Core functions return a status and, if they can
+ * say more, fill the caller's sw_error. Only the Lua binding raises errors. */
 #ifndef SW_BASE_STATUS_H
 #define SW_BASE_STATUS_H
 
@@ -8,29 +8,29 @@ typedef enum sw_status {
   SW_OK = 0,
   SW_EINVAL,    /* an argument is outside its range */
   SW_ENOMEM,    /* memory ran out */
-  SW_EDIVERGED, /* a run or a static solve left the finite numbers */
-  SW_ENOCONV,   /* iterations used up */
+  SW_EDIVERGED, /* a run or a static solve has values that are not finite */
+  SW_ENOCONV,   /* not converged within the allowed iterations */
   SW_ESINGULAR, /* a matrix could not be factorised */
-  SW_ECALLBACK, /* a user callback failed; its error value is kept by the caller */
+  SW_ECALLBACK, /* a user callback failed; the caller keeps its error value */
   SW_EINTR,     /* stopped by the user between two steps */
   SW_EDEAD,     /* a handle whose object is gone */
   SW_EFORMAT,   /* a file's content could not be understood */
-  SW_ELIMIT,    /* a count is beyond what this build supports */
-  SW_EBUSY,     /* refused while a run is under way */
-  SW_EEMPTY     /* no wire is left where it was to be drawn in */
+  SW_ELIMIT,    /* beyond a limit: of this build, of memory or time, or of steps */
+  SW_EBUSY,     /* refused during a run */
+  SW_EEMPTY     /* a feed has no wire left to draw in */
 } sw_status;
 
 enum { SW_ERROR_TEXT = 512 };
 
-/* Text is always terminated. A function that returns SW_OK leaves it alone. */
+/* The text always ends with a zero. A function that returns SW_OK does not change it. */
 typedef struct sw_error {
   char text[SW_ERROR_TEXT];
 } sw_error;
 
-/* A short name for a status ("diverged", "out of memory", ...). Never NULL. */
+/* Returns a short text for a status ("diverged", "out of memory", ...). Never NULL. */
 const char *sw_status_text(sw_status status);
 
-/* Fill err (may be NULL) by a printf format and return status, so that a
+/* Fills err (may be NULL) by a printf format and returns status, so that a
  * failing function can end with `return sw_fail(err, SW_EINVAL, ...)`. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))

@@ -112,7 +112,7 @@ void sw_tape_view(sw_tape *t, const void **p, size_t bytes) {
   if (sw_tape_good(t)) t->at += bytes;
 }
 
-/* What follows a name's end does not count, and must not make files differ. */
+/* Bytes after a name's end are written as zeros, so that equal names give equal files. */
 void sw_tape_name(sw_tape *t, char *x) {
   char clean[SW_NAME_SIZE] = {0};
   if (t->home) {

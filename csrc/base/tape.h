@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tape on which structs are put field by field and from which they come back: one function
- * for each struct says what is on it and serves both ways, so that writing and reading cannot
- * drift apart. A third way only takes a checksum of the fields, to tell two things apart.
+/* Writes structs to a tape (a block of bytes) field by field and reads them back. One function for
+ * each struct serves both directions, so that writing and reading stay consistent. In a third mode
+ * it only computes a checksum of the fields, to tell two objects apart.
  *
- * A tape that stays at home, in the scene whose state it has, says no more than it must: what is
- * shared goes by reference, of records that only grow it has the length, and nothing is checked.
+ * A tape "at home" (a snapshot) stays with the scene whose state it has. It stores as little as
+ * possible: shared objects by reference, for records that only grow just the length. Nothing is
+ * checked.
  *
- * Reading fills an empty slot, or one that has something: blocks of the size that is wanted stay
- * where they are, others are freed.
+ * Reading fills an empty object, or one that has content. Then blocks that have the right size
+ * stay where they are; others are freed.
  *
- * After the first failure everything is a no-op and reading gives zeros, so that functions need
- * not look at the status after each field; they must before they trust what they read. Reading
- * never goes beyond the tape, and what it allocates is bounded by what is left of it. */
+ * After the first failure all functions do nothing and reading gives zeros. So functions need not
+ * check the status after each field, but before they use what they have read. Reading never goes
+ * beyond the tape; what it allocates is bounded by the rest of the tape. */
 #ifndef SW_BASE_TAPE_H
 #define SW_BASE_TAPE_H
 
@@ -26,7 +27,7 @@
 
 typedef enum sw_tape_mode { SW_TAPE_WRITE, SW_TAPE_READ, SW_TAPE_SUM } sw_tape_mode;
 
-/* How something is shared; neither is called with NULL. */
+/* How references to a shared object are counted. Neither function is called with NULL. */
 typedef struct sw_sharing {
   void (*retain)(void *);
   void (*release)(void *);
@@ -39,14 +40,14 @@ typedef struct sw_shared {
 
 typedef struct sw_tape {
   sw_tape_mode mode;
-  int home;          /* 1: it stays at home */
-  sw_shared *shared; /* what a tape at home holds */
+  int home;          /* 1: a tape at home, see above */
+  sw_shared *shared; /* shared objects that a tape at home retains */
   size_t shared_count, shared_capacity;
-  unsigned char *bytes;  /* written: the tape's own */
-  const void *from;      /* to be read: the caller's */
+  unsigned char *bytes;  /* written bytes; the tape owns them */
+  const void *from;      /* bytes to read; the caller owns them */
   size_t size, capacity; /* [B] */
   size_t at;             /* read so far [B] */
-  uint64_t sum;          /* of what went by, when that is all that is wanted */
+  uint64_t sum;          /* checksum so far, in mode SW_TAPE_SUM */
   sw_status status;
   sw_error *err;
 } sw_tape;
@@ -54,7 +55,7 @@ typedef struct sw_tape {
 sw_tape sw_tape_writer(sw_error *err);
 sw_tape sw_tape_reader(const void *bytes, size_t size, sw_error *err);
 sw_tape sw_tape_summer(void);
-/* A tape that stays at home, with so much room to begin with [B]; and one that reads it. */
+/* A tape at home for writing, with this initial room [B]; a tape that reads it. */
 sw_tape sw_tape_at_home(size_t room, sw_error *err);
 sw_tape sw_tape_read_home(const sw_tape *from, sw_error *err);
 void sw_tape_free(sw_tape *tape);
@@ -62,15 +63,15 @@ void sw_tape_free(sw_tape *tape);
 static inline int sw_tape_reads(const sw_tape *tape) { return tape->mode == SW_TAPE_READ; }
 static inline int sw_tape_good(const sw_tape *tape) { return tape->status == SW_OK; }
 
-/* Checksum of bytes (FNV-1a), going on from sum; begin with SW_SUM_START. */
+/* Returns the checksum (FNV-1a) of bytes, continued from sum; start with SW_SUM_START. */
 #define SW_SUM_START 14695981039346656037u
 uint64_t sw_sum(uint64_t sum, const void *bytes, size_t size);
 
-/* The tape makes no sense: SW_EFORMAT and the text. */
+/* Sets SW_EFORMAT and a text: the tape's content makes no sense. */
 __attribute__((format(printf, 2, 3))) void sw_tape_damaged(sw_tape *tape, const char *format, ...);
 void sw_tape_fail(sw_tape *tape, sw_status status);
 
-/* The bytes of something plain. */
+/* Writes or reads plain bytes. */
 void sw_tape_raw_slow(sw_tape *tape, void *p, size_t bytes);
 static inline void sw_tape_raw(sw_tape *t, void *p, size_t bytes) {
   if (t->mode == SW_TAPE_WRITE && t->status == SW_OK && bytes <= t->capacity - t->size) {
@@ -84,18 +85,19 @@ static inline void sw_tape_raw(sw_tape *t, void *p, size_t bytes) {
   }
 }
 
-/* On a tape at home: the address at p, of what lives as long as the program, and 1. On others
- * nothing, and 0. */
+/* On a tape at home: writes or reads the address at p, of an object that lives as long as the
+ * program, and returns 1. On other tapes does nothing and returns 0. */
 static inline int sw_tape_address(sw_tape *t, void *p) {
   if (t->home) sw_tape_raw(t, p, sizeof(void *));
   return t->home;
 }
-/* On a tape at home: a reference to *p, which may be NULL, and 1. On others nothing, and 0. */
+/* On a tape at home: writes or reads a reference to *p, which may be NULL, and returns 1. On other
+ * tapes does nothing and returns 0. */
 int sw_tape_share(sw_tape *tape, void *p_pointer, const sw_sharing *how);
-/* Bytes that are not copied when they are read: *p is then within the tape, on any address. */
+/* Writes bytes; reading does not copy them: *p then points into the tape and may be unaligned. */
 void sw_tape_view(sw_tape *tape, const void **p, size_t bytes);
 
-/* One function for each type of field, all alike, so that a macro can name them. */
+/* One function for each type of field. All have the same form, so that a macro can name them. */
 static inline void sw_tape_double(sw_tape *t, double *x) { sw_tape_raw(t, x, sizeof *x); }
 static inline void sw_tape_int(sw_tape *t, int *x) { sw_tape_raw(t, x, sizeof *x); }
 static inline void sw_tape_size(sw_tape *t, size_t *x) { sw_tape_raw(t, x, sizeof *x); }
@@ -108,30 +110,33 @@ static inline void sw_tape_pose(sw_tape *t, sw_pose *x) { sw_tape_raw(t, x, size
 /* char[SW_NAME_SIZE] */
 void sw_tape_name(sw_tape *tape, char *x);
 
-/* A name of the program's own, such as that of a class: the given one, or the one read, which
- * stays in buffer (SW_NAME_SIZE); NULL is "". */
+/* Writes or reads a name that the program defines, such as a class name. Returns the name, which
+ * is in buffer (SW_NAME_SIZE bytes). NULL is written as "". */
 const char *sw_tape_word(sw_tape *tape, const char *word, char *buffer);
 
-/* How many things follow, each of at least so many bytes: reading refuses more than there is
- * room for. */
+/* Writes or reads the number of items that follow, each of at least `least` bytes. Reading refuses
+ * more than the rest of the tape can hold. */
 void sw_tape_count(sw_tape *tape, size_t *count, size_t least);
 
-/* count items, in a block of that size when they were read. optional: *items may be NULL. */
+/* Write or read count items; reading makes *items a block of exactly this size. optional: *items
+ * may be NULL. */
 void sw_tape_array(sw_tape *tape, void *items_pointer, size_t count, size_t item);
 void sw_tape_optional(sw_tape *tape, void *items_pointer, size_t count, size_t item);
-/* The count, then the items; the count stays that of the items also when memory runs out. */
+/* Writes or reads the count, then the items. If memory runs out, *count stays that of the old
+ * items. */
 void sw_tape_list(sw_tape *tape, void *items_pointer, size_t *count, size_t item);
 #define SW_TAPE_ARRAY(tape, p, count) sw_tape_array(tape, &(p), count, sizeof *(p))
 #define SW_TAPE_OPTIONAL(tape, p, count) sw_tape_optional(tape, &(p), count, sizeof *(p))
 
-/* Having read: are all of them finite? what: for the message. */
+/* After reading from a file: marks the tape as damaged unless all numbers are finite. what: for the
+ * message. */
 void sw_tape_finite(sw_tape *tape, const double *x, size_t count, const char *what);
-/* Having read: damaged unless good. */
+/* After reading from a file: marks the tape as damaged unless good. */
 void sw_tape_expect(sw_tape *tape, int good, const char *what);
 
-/* Begins the function of a struct. A field that is added to the struct changes its size, so that
- * this does not compile until somebody has put the field on the tape too and stated the new size;
- * files written with another struct are told by the size that they have. */
+/* Begins the function of a struct. A new field changes the struct's size: then this does not
+ * compile until the programmer puts the field on the tape too and states the new size. Files with
+ * another version of the struct are recognised by the size that they contain. */
 #define SW_TAPE_STRUCT(tape, type, bytes)                                          \
   _Static_assert(sizeof(void *) != 8 || sizeof(type) == (bytes),                   \
                  #type " has other fields: put them on the tape, state its size"); \

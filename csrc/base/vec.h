@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Vectors and unit quaternions by value. Everything is inline and branch-free
- * where it can be; arrays of vectors are flat doubles (n x 3) loaded by
- * sw_load and stored by sw_store. */
+/* Vectors, unit quaternions and poses, passed by value. All functions are inline, and
+ * branch-free where possible. Arrays of vectors are flat doubles (n x 3): load with sw_load,
+ * store with sw_store. */
 #ifndef SW_BASE_VEC_H
 #define SW_BASE_VEC_H
 
@@ -16,7 +16,7 @@ typedef struct sw_quat {
   double w, x, y, z;
 } sw_quat;
 
-/* A rigid placement: world point = q * body point + p. */
+/* A pose: world point = q * body point + p. */
 typedef struct sw_pose {
   sw_vec p;  /* [m] */
   sw_quat q; /* [-] */
@@ -29,11 +29,11 @@ static inline sw_vec sw_v(double x, double y, double z) { return (sw_vec){x, y, 
 static inline sw_vec sw_load(const double *p) { return (sw_vec){p[0], p[1], p[2]}; }
 /* Vector i of a flat array. */
 static inline sw_vec sw_vec_at(const double *p, unsigned long i) { return sw_load(p + 3 * i); }
-/* Item i of three lists, one of each component. */
+/* Vector i from three lists, one for each component. */
 static inline sw_vec sw_vec_across(double *const *c, unsigned long i) {
   return sw_v(c[0][i], c[1][i], c[2][i]);
 }
-/* Of floats, and to them. */
+/* Conversion from and to floats. */
 static inline sw_vec sw_vec_of(const float *p) {
   return sw_v((double)p[0], (double)p[1], (double)p[2]);
 }
@@ -58,7 +58,7 @@ static inline double sw_norm(sw_vec a) { return sqrt(sw_dot(a, a)); }
 static inline double sw_dist(sw_vec a, sw_vec b) { return sw_norm(sw_sub(a, b)); }
 static inline sw_vec sw_lerp(sw_vec a, sw_vec b, double t) { return sw_madd(a, sw_sub(b, a), t); }
 
-/* a / |a|; the fallback (a unit vector) when |a| is 0 or not finite. */
+/* a / |a|; the fallback (a unit vector) if |a| is 0 or not finite. */
 static inline sw_vec sw_unit_or(sw_vec a, sw_vec fallback) {
   const double n = sw_norm(a);
   return (n > 0 && n < HUGE_VAL) ? sw_scale(a, 1.0 / n) : fallback;
@@ -78,7 +78,7 @@ static inline sw_quat sw_quat_mul(sw_quat a, sw_quat b) {
       a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
       a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
-/* Unit length again; the identity when q is 0 or not finite. */
+/* q / |q|; the identity if |q| is 0 or not finite. */
 static inline sw_quat sw_quat_unit(sw_quat q) {
   const double n = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   if (!(n > 0 && n < HUGE_VAL)) return sw_quat_identity();
@@ -106,12 +106,12 @@ static inline sw_vec sw_quat_log(sw_quat q) {
 
 static inline sw_pose sw_pose_identity(void) { return (sw_pose){{0, 0, 0}, {1, 0, 0, 0}}; }
 static inline sw_vec sw_pose_point(sw_pose f, sw_vec a) { return sw_add(sw_rotate(f.q, a), f.p); }
-/* Pose b, told in the axes of a. */
+/* The world pose of b, which is given in the axes of a. */
 static inline sw_pose sw_pose_within(sw_pose a, sw_pose b) {
   return (sw_pose){sw_pose_point(a, b.p), sw_quat_unit(sw_quat_mul(a.q, b.q))};
 }
 static inline sw_vec sw_pose_local(sw_pose f, sw_vec a) { return sw_unrotate(f.q, sw_sub(a, f.p)); }
-/* Pose b, seen from a. */
+/* Pose b, expressed in the axes of a. */
 static inline sw_pose sw_pose_from(sw_pose a, sw_pose b) {
   return (sw_pose){sw_pose_local(a, b.p), sw_quat_mul(sw_quat_conj(a.q), b.q)};
 }

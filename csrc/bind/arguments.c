@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Argument tables read by parameter rows. */
+/* Reads argument tables by parameter rows. */
 #include <string.h>
 
 #include "bind/class.h"
@@ -229,7 +229,8 @@ static void push_rotation(lua_State *L, const char *place) {
   if (!isnan(q.w)) lsw_push_quaternion(L, q);
 }
 
-/* Nothing for what was not given, is not limited or is read by the binding itself. */
+/* Pushes the value; nothing for a value that was not given, is infinite (no limit), or is read by
+ * the binding itself. */
 static void push_value(lua_State *L, const sw_param *row, const char *place) {
   switch (row->type) {
     case SW_PARAM_NUMBER: push_number(L, place); break;
@@ -261,7 +262,7 @@ static int has_range(const sw_param *row) {
          row->type == SW_PARAM_VECTOR;
 }
 
-/* min and max where there are any; above, below: the limit itself is not allowed. */
+/* Sets min and max if they are finite; above, below: the limit itself is not allowed. */
 static void push_range(lua_State *L, const sw_param *row) {
   if (isfinite(row->min)) lua_pushnumber(L, row->min), lua_setfield(L, -2, "min");
   if (isfinite(row->max)) lua_pushnumber(L, row->max), lua_setfield(L, -2, "max");

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.calibrate: springs of a mesh that is, as a beam, a given wire. core.cell: the beam that
- * a mesh with given springs is. */
+/* core.calibrate: finds springs of a mesh so that it has a wire's stiffness as a beam. core.cell:
+ * stiffness as a beam of a mesh with given springs. */
 #include <math.h>
 #include <string.h>
 
 #include "bind/child.h"
 
-/* Numbers are pushed in a protected call, so that what the core allocated is freed when Lua
- * runs out of memory. The function gets p as light userdata and returns one value. */
+/* Calls push in protected mode, so that the caller can free the core's memory when Lua runs out of
+ * memory. push gets p as light userdata and returns one value. */
 static int push_protected(lua_State *L, lua_CFunction push, void *p) {
   lua_pushcfunction(L, push);
   lua_pushlightuserdata(L, p);
   return lua_pcall(L, 1, 1, 0);
 }
 
-/* S as a list of rows, under the name matrix. */
+/* Sets the field matrix: S as a list of rows. */
 static void set_matrix(lua_State *L, const double S[SW_CELL_SIZE]) {
   lua_createtable(L, SW_CELL_STRAINS, 0);
   for (int i = 0; i < SW_CELL_STRAINS; i++) {
@@ -45,7 +45,8 @@ static void set_links(lua_State *L, const sw_lattice *l) {
   lua_setfield(L, -2, "links");
 }
 
-/* Each with its particles, the slice, 0 or 1, that each of these is of, and its material. */
+/* Sets the field elements: for each its particles, the slice (0 or 1) of each particle, and its
+ * material. */
 static void set_elements(lua_State *L, const sw_calibration *c) {
   const sw_lattice *l = &c->lattice;
   lua_createtable(L, (int)l->solids, 0);
@@ -71,7 +72,7 @@ static void set_elements(lua_State *L, const sw_calibration *c) {
   lua_setfield(L, -2, "elements");
 }
 
-/* Pairs that slide on each other as links without stiffness, after the springs. */
+/* Appends the pairs that slide on each other to links, as links without stiffness. */
 static void add_slides(lua_State *L, const sw_calibration *c) {
   lua_getfield(L, -1, "links");
   for (size_t m = 0; m < c->composite.slides; m++) {
@@ -93,7 +94,7 @@ static void add_slides(lua_State *L, const sw_calibration *c) {
   lua_pop(L, 1);
 }
 
-/* EA, EI and GJ of a part, under its name. */
+/* Sets a field of the part's name: its EA, EI and GJ. */
 static void set_part(lua_State *L, const char *name, const sw_cell_result *r) {
   lua_createtable(L, 0, 3);
   lsw_set_number(L, "EA", sw_reached(r, SW_TARGET_EA));
@@ -102,7 +103,8 @@ static void set_part(lua_State *L, const char *name, const sw_cell_result *r) {
   lua_setfield(L, -2, name);
 }
 
-/* Where parts are and what each is by itself; part 0 is the shell, 1 the first core. */
+/* Sets the places of the parts and the stiffness of each alone. Part 0 is the shell, 1 the first
+ * core. */
 static void set_composite(lua_State *L, const sw_calibration *c) {
   const sw_composite *place = &c->composite;
   add_slides(L, c);
@@ -120,7 +122,7 @@ static void set_composite(lua_State *L, const sw_calibration *c) {
   lua_setfield(L, -2, "part");
 }
 
-/* Pairs that slide are not springs, but have their group. */
+/* Members of group g: springs; in the bond group also the pairs that slide. */
 static size_t count_of(const sw_calibration *c, int g) {
   return c->links[g] + (g == SW_GROUP_BOND ? c->composite.slides : 0);
 }
@@ -171,7 +173,7 @@ static int push_calibration(lua_State *L) {
   return 1;
 }
 
-/* wire:calibration() -> the targets of its springs, and how they were met. */
+/* wire:calibration() -> the table of core.calibrate for its mesh: springs, residuals, ... */
 int lsw_wire_calibration(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_calibration *c = sw_scene_wire_calibration(w.scene, w.id);
@@ -188,7 +190,7 @@ int lsw_wire_calibration(lua_State *L) {
   return 1;
 }
 
-/* The word under mesh, before the other keys: they depend on it. */
+/* Returns the kind of mesh. It is read before the other keys, which depend on it. */
 static int read_mesh(lua_State *L) {
   const sw_param *row = sw_params_find(&sw_calibrate_params, "mesh");
   if (lua_istable(L, 1)) {
@@ -198,7 +200,7 @@ static int read_mesh(lua_State *L) {
     for (int i = 0; row->choices[i]; i++)
       if (strcmp(word, row->choices[i]) == 0) return i;
   }
-  return SW_LATTICE_TUBE; /* what is wrong is told when the keys are read */
+  return SW_LATTICE_TUBE; /* reading the keys raises the error */
 }
 
 /* calibrate{ mesh =, EA =, EI =, GJ =, radius =, ... } -> springs, residuals, ... */
@@ -226,7 +228,7 @@ static int mod_calibrate(lua_State *L) {
 
 /* --- core.cell ----------------------------------------------------------------------- */
 
-/* The flat numbers at index as scratch memory of Lua's. */
+/* Returns the flat numbers at index in a new userdata. */
 static double *read_flat(lua_State *L, int index, size_t *n) {
   luaL_checktype(L, index, LUA_TTABLE);
   *n = lua_rawlen(L, index);
@@ -243,7 +245,8 @@ enum { LINK_NUMBERS = 6 };
 
 enum { SOLID_NUMBERS = 11, SOLID_GROUP = 9, SOLID_NU = 10 };
 
-/* The elements of the list at index, as scratch memory of Lua's; of one of `groups` groups each. */
+/* Returns the elements of the flat list at index in a new userdata. Each is of one of `groups`
+ * groups. */
 static sw_cell_solid *read_solids(lua_State *L, int index, size_t groups, size_t *n) {
   size_t numbers = 0;
   const double *list = lua_isnoneornil(L, index) ? NULL : read_flat(L, index, &numbers);
@@ -266,10 +269,11 @@ static sw_cell_solid *read_solids(lua_State *L, int index, size_t groups, size_t
   return solid;
 }
 
-/* cell(spacing, particles, links, stiffness [, elements]) -> EA, EI, EI2, GJ, squeeze, matrix
- * in a table. particles: flat, 3 numbers each; links: flat, from and to (from 1), slices, group
- * (from 1), weight, 1 for bending or 0; stiffness: one number a group, of elements their modulus;
- * elements: flat, 6 or 8 and as many particles (from 1), 8 places in any case, group, nu. */
+/* cell(spacing, particles, links, stiffness [, elements]) -> { EA, EI, EI2, GJ, squeeze, matrix }.
+ * particles: flat, 3 numbers each. links: flat, 6 numbers each: from and to (both from 1), slices,
+ * group (from 1), weight, 1 for bending or 0. stiffness: one number for each group; for a group of
+ * elements its modulus. elements: flat, 11 numbers each: number of particles (6 or 8), 8 places for
+ * particles (from 1), group, nu. */
 static int mod_cell(lua_State *L) {
   sw_cell_result result;
   size_t places, numbers, groups;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Drawings and canvases, for softworld.output.picture. Lists are flat: x, y, z, x, ... */
+/* Drawings and canvases for softworld.output.picture. Lists are flat: x, y, z, x, ... */
 #include "bind/child.h"
 #include "bind/class.h"
 
@@ -7,7 +7,7 @@ static const char *const DRAWING = "softworld.drawing";
 static const char *const CANVAS = "softworld.canvas";
 static const char *const BUFFER = "softworld.drawn";
 
-/* Bytes that are freed whatever happens in Lua. */
+/* Owns bytes, so that they are freed when Lua raises an error. */
 typedef struct keeper {
   void *bytes;
 } keeper;
@@ -46,7 +46,7 @@ static double item(lua_State *L, int index, lua_Integer i) {
   return x;
 }
 
-/* A flat list in groups of `each` numbers; its memory is pushed. */
+/* Returns a flat list as groups of `each` numbers; pushes the userdata that owns it. */
 static double *numbers(lua_State *L, int index, size_t each, size_t *groups) {
   luaL_checktype(L, index, LUA_TTABLE);
   const size_t n = lua_rawlen(L, index) / each * each;
@@ -70,7 +70,8 @@ static float gloss_at(lua_State *L, int index) {
   return lua_isnumber(L, index) ? (float)lua_tonumber(L, index) : 0;
 }
 
-/* One colour, or three numbers for each of count points; then its gloss. */
+/* Returns the paint at index: one colour, or three numbers for each of count points; the next
+ * argument is the gloss. */
 static sw_paint paint_at(lua_State *L, int index, size_t count) {
   sw_paint paint = {.gloss = gloss_at(L, index + 1)};
   luaL_checktype(L, index, LUA_TTABLE);
@@ -155,7 +156,7 @@ static int draw_round(lua_State *L, const char *what, __typeof__(sw_drawing_tube
 static int meth_tube(lua_State *L) { return draw_round(L, "drawing: tube", sw_drawing_tube); }
 static int meth_balls(lua_State *L) { return draw_round(L, "drawing: balls", sw_drawing_balls); }
 
-/* drawing:lines(points, two for each; colour or colours of the points) */
+/* drawing:lines(points, colour or colours of the points): two points for each line */
 static int meth_lines(lua_State *L) {
   sw_drawing *d = drawing_at(L, 1);
   size_t count;
@@ -165,7 +166,7 @@ static int meth_lines(lua_State *L) {
   return 0;
 }
 
-/* drawing:floor(point, normal, side of its squares, reach, colour) */
+/* drawing:floor(point, normal, side of its squares [m], reach [m], colour) */
 static int meth_floor(lua_State *L) {
   sw_drawing *d = drawing_at(L, 1);
   const sw_vec point = vector_at(L, 2), normal = vector_at(L, 3);
@@ -235,7 +236,7 @@ static int meth_fill(lua_State *L) {
   return 0;
 }
 
-/* canvas:text(text, x, y, size, colour) -> how far it goes [px] */
+/* canvas:text(text, x, y, size, colour) -> width of the text [px] */
 static int meth_text(lua_State *L) {
   float colour[3];
   size_t bytes;
@@ -260,7 +261,7 @@ static int meth_png(lua_State *L) {
   return 1;
 }
 
-/* canvas:rgb() -> three bytes for each dot, row by row from the top */
+/* canvas:rgb() -> three bytes for each pixel, row by row from the top */
 static int meth_rgb(lua_State *L) {
   const sw_canvas *canvas = canvas_at(L, 1);
   lua_pushlstring(L, (const char *)canvas->rgb, 3 * canvas->width * canvas->height);
@@ -276,14 +277,14 @@ static const luaL_Reg canvas_methods[] = {{"show", meth_show}, {"fill", meth_fil
                                           {"text", meth_text}, {"png", meth_png},
                                           {"rgb", meth_rgb},   {NULL, NULL}};
 
-/* core.drawing() -> a drawing with nothing in it */
+/* core.drawing() -> an empty drawing */
 static int mod_drawing(lua_State *L) {
   sw_drawing **d = lsw_keep(L, sizeof(void *), DRAWING, drawing_methods, free_drawing);
   must(L, sw_drawing_new(d), "drawing");
   return 1;
 }
 
-/* core.canvas(width, height) -> a white one [px] */
+/* core.canvas(width, height) -> a white canvas of this size [px] */
 static int mod_canvas(lua_State *L) {
   const size_t width = size_at(L, 1), height = size_at(L, 2);
   sw_canvas *canvas = lsw_keep(L, sizeof *canvas, CANVAS, canvas_methods, free_canvas);
@@ -291,7 +292,7 @@ static int mod_canvas(lua_State *L) {
   return 1;
 }
 
-/* core.text_width(text, size) -> [px] */
+/* core.text_width(text, size) -> width [px] */
 static int mod_text_width(lua_State *L) {
   size_t bytes;
   const char *text = luaL_checklstring(L, 1, &bytes);

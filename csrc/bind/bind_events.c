@@ -47,7 +47,7 @@ static void push_event(lua_State *L, const sw_event *e) {
   lsw_set_known(L, "value", e->value);
 }
 
-/* scene:events() -> list, number of events for which there was no room */
+/* scene:events() -> list, number of events dropped because the list was full */
 int lsw_scene_events(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const sw_event *e;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files, beyond Lua's io: temporary files that tell whether their owner is gone, files that are
- * safe on the disk, and the kind of thing that a path names. */
+/* Functions for files that Lua's io lacks: temporary files with a lock of their owner, locks,
+ * syncing to the disk, and the kind of file that a path names. */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -15,13 +15,12 @@
 
 /* --- locks ---------------------------------------------------------------- */
 
-/* A temporary file is locked by its owner as long as he lives: the system takes the lock away
- * with the process, however it ends. A file without a lock was left by a process that was
- * killed. */
+/* A process locks its temporary files as long as it runs. The system removes the lock when the
+ * process ends in any way. So a file without a lock was left by a process that was killed. */
 static const char lock_name[] = "softworld.part";
 
 typedef struct part_lock {
-  int fd; /* -1 when given back */
+  int fd; /* -1: unlocked */
 } part_lock;
 
 static int unlock(lua_State *L) {
@@ -43,7 +42,7 @@ static part_lock *new_lock(lua_State *L) {
   return lock;
 }
 
-/* --- what was left -------------------------------------------------------- */
+/* --- removing files that were left ----------------------------------------- */
 
 static size_t digits_before(const char *text, size_t end) {
   size_t at = end;
@@ -51,7 +50,7 @@ static size_t digits_before(const char *text, size_t end) {
   return end - at;
 }
 
-/* ".name.123-4.tmp" */
+/* 1 if name is as of core.part: ".name.123-4.tmp". */
 static int is_part(const char *name) {
   const size_t length = strlen(name);
   if (name[0] != '.' || length < 4 || strcmp(name + length - 4, ".tmp") != 0) return 0;
@@ -67,7 +66,7 @@ static void remove_folder(int parent, int fd, const char *name) {
   DIR *folder = fdopendir(dup(fd));
   if (!folder) return;
   for (struct dirent *entry; (entry = readdir(folder)) != NULL;)
-    unlinkat(fd, entry->d_name, 0); /* no folders: ours have none */
+    unlinkat(fd, entry->d_name, 0); /* files only: our folders have no subfolders */
   closedir(folder);
   unlinkat(parent, name, AT_REMOVEDIR);
 }
@@ -86,7 +85,7 @@ static void remove_if_left(int parent, const char *name) {
   close(fd);
 }
 
-/* core.sweep(folder): remove temporary files of processes that are gone. */
+/* core.sweep(folder): removes temporary files of processes that have ended. */
 static int mod_sweep(lua_State *L) {
   DIR *folder = opendir(luaL_checkstring(L, 1));
   if (!folder) return 0;
@@ -104,16 +103,17 @@ static int make(const char *path, int folder) {
   return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
-/* Is the new file still there? Before it was locked, another process may have taken it for a
- * file that was left, and removed it. */
+/* Locks the new file; 1 if it is still at its path. Before it was locked, another process may have
+ * taken it for a file that was left, and removed it. */
 static int keep(int fd, const char *path) {
   struct stat own, there;
   if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return 0;
   return fstat(fd, &own) == 0 && stat(path, &there) == 0 && own.st_ino == there.st_ino;
 }
 
-/* core.part(start, folder) -> path, lock: a new, empty file (or folder) of a path that begins with
- * start, "here/.name"; lock() when it is done with. nil and the reason when there can be none. */
+/* core.part(start, folder) -> path, lock: makes a new, empty file (or folder) whose path begins
+ * with start, such as "here/.name". Call lock() to unlock it at the end. nil and the reason if it
+ * cannot be made. */
 static int mod_part(lua_State *L) {
   static unsigned number;
   const char *start = luaL_checkstring(L, 1);
@@ -137,8 +137,8 @@ static int mod_part(lua_State *L) {
   return lsw_failed(L);
 }
 
-/* core.lock(path) -> lock: of a file that this process alone writes to, made if it is not there;
- * nil and the reason, or nil, and "busy" when another one has it. */
+/* core.lock(path) -> lock: locks a file for this process alone; makes it if it does not exist. nil
+ * and the reason, or nil and "busy" if another process has the lock. */
 static int mod_lock(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   part_lock *lock = new_lock(L);
@@ -150,8 +150,8 @@ static int mod_lock(lua_State *L) {
   return 2;
 }
 
-/* core.create(path, text) -> true: made a new file with this text, also on shared file systems; nil
- * and the reason, or nil and "busy" when a file of this name exists. */
+/* core.create(path, text) -> true: makes a new file with this text; safe on shared file systems
+ * too. nil and the reason, or nil and "busy" if a file of this name exists. */
 static int mod_create(lua_State *L) {
   size_t size;
   const char *path = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 2, &size);
@@ -181,7 +181,7 @@ static int sync_path(const char *path, int flags) {
   return done == 0 || why == EINVAL || why == EROFS ? 0 : -1; /* EINVAL: it has nothing to sync */
 }
 
-/* core.sync(path, folder): wait until a file's content, or a folder's names, are on the disk.
+/* core.sync(path, folder): waits until a file's content, or a folder's names, are on the disk.
  * true, or nil and the reason. */
 static int mod_sync(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
@@ -190,7 +190,7 @@ static int mod_sync(lua_State *L) {
   return 1;
 }
 
-/* core.kind(path) -> "file", "folder", "pipe", "device" or "socket"; nil when nothing is there. */
+/* core.kind(path) -> "file", "folder", "pipe", "device" or "socket"; nil if nothing is there. */
 static int mod_kind(lua_State *L) {
   struct stat info;
   if (stat(luaL_checkstring(L, 1), &info) != 0) return lua_pushnil(L), 1;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a player's page is made of: the film of a scene, bytes made few, bytes as text, and the page
- * itself, which is part of this program. */
+/* Parts of a player's page: the film of a scene, surfaces of wires, compression (zlib), base64, and
+ * the page itself, which is stored in this program. */
 #include <string.h>
 
 #include "bind/child.h"
 
-/* Bytes on their way to Lua, freed whatever happens there. */
+/* Films, packers and skins live in userdata, so that they are freed when Lua raises an error. */
 static int free_film(lua_State *L) {
   sw_film_free(lua_touserdata(L, 1));
   return 0;
@@ -22,7 +22,8 @@ static int free_pack(lua_State *L) {
   return 0;
 }
 
-/* core.film(scene, from, to, values) -> bytes, frames, those left out as broken */
+/* core.film(scene, from, to, values) -> bytes, number of frames, number of frames left out because
+ * they have positions that are not finite; from, to [s] */
 static int mod_film(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const sw_film_args args = {luaL_checknumber(L, 2), luaL_checknumber(L, 3), lua_toboolean(L, 4),
@@ -41,7 +42,7 @@ static int free_skin(lua_State *L) {
   return 0;
 }
 
-/* Numbers of frames, from 1 in Lua; their memory is pushed. */
+/* Returns the list of frame numbers at index (from 1 in Lua), from 0; pushes its memory. */
 static size_t *frames_at(lua_State *L, int index, const sw_scene *scene, size_t *count) {
   luaL_checktype(L, index, LUA_TTABLE);
   *count = lua_rawlen(L, index);
@@ -76,8 +77,8 @@ static void push_skin(lua_State *L, const sw_skin *skin, size_t frames) {
 }
 
 /* core.skin(scene, wire from 0, frames, sides, thickness, differences) -> { data =, triangles =,
- * corners =, count =, normals =, bounds = }: see film/skin.h, bytes little-endian; or nil: it is in
- * no frame */
+ * corners =, count =, normals =, bounds = }: see film/skin.h; data and triangles are little-endian
+ * bytes. Nothing if no frame has the wire. */
 static int mod_skin(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   sw_error err = {""};
@@ -96,7 +97,7 @@ static int mod_skin(lua_State *L) {
   return 1;
 }
 
-/* core.edges(particles) -> edges of the surface: pairs of numbers from 0, 32 bits each */
+/* core.edges(particles) -> bytes: edges of the surface, pairs of numbers from 0 (32 bits each) */
 static int mod_edges(lua_State *L) {
   luaL_Buffer b;
   const lsw_self p = lsw_check_self(L, &lsw_class_particles);
@@ -107,7 +108,7 @@ static int mod_edges(lua_State *L) {
   return 1;
 }
 
-/* core.deflate(bytes) -> fewer bytes (zlib) */
+/* core.deflate(bytes) -> compressed bytes (zlib) */
 static int mod_deflate(lua_State *L) {
   size_t size;
   sw_error err = {"out of memory for deflated data"};
@@ -135,10 +136,10 @@ static int mod_base64(lua_State *L) {
   return 1;
 }
 
-/* Put there by the Makefile, see PAGE. */
+/* The page's bytes; linked in by the Makefile, see PAGE. */
 extern const char lsw_page_start[], lsw_page_end[];
 
-/* core.page() -> the player's page without data */
+/* core.page() -> the player's page, without data */
 static int mod_page(lua_State *L) {
   lua_pushlstring(L, lsw_page_start, (size_t)(lsw_page_end - lsw_page_start));
   return 1;

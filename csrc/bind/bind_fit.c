@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.least_squares: the parameters for which a Lua function's residuals are smallest;
- * core.student, core.chi2_above, core.singular: what a fit's errors are made of. Arguments come
- * from the library's own Lua files, which have checked what a script wrote. */
+/* core.least_squares: fits parameters, so that the residuals of a Lua function are smallest.
+ * core.student, core.chi2_above, core.singular: statistics for the errors of a fit. The arguments
+ * come from the library's own Lua files, which have checked the script's values. */
 #include <math.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 
-enum { MOST = 10000000 }; /* numbers of a matrix */
+enum { MOST = 10000000 }; /* largest matrix, rows times columns [-] */
 
 /* The function is at stack index 2 of L. */
 typedef struct caller {
@@ -44,8 +44,8 @@ static sw_status residuals(void *user, const double *x, double *r, double *jacob
 }
 
 /* least_squares(start, f, rows, tolerance, max_iterations) -> x, "near" | "stuck" | "used",
- * iterations. f(x, derivatives) gives a list of rows residuals, or with derivatives of rows * n
- * numbers, row by row. */
+ * iterations. f(x, derivatives) returns a flat list: `rows` residuals, or, if derivatives is true,
+ * the Jacobian (rows x n), row by row. */
 static int mod_least_squares(lua_State *L) {
   static const char *const ends[] = {
       [SW_FIT_NEAR] = "near", [SW_FIT_STUCK] = "stuck", [SW_FIT_USED] = "used"};
@@ -69,8 +69,8 @@ static int mod_least_squares(lua_State *L) {
   return 3;
 }
 
-/* singular(a, rows, n): of a matrix as a flat list, row by row -> singular values (falling),
- * directions as a flat list, n x n, one a column */
+/* singular(a, rows, n) -> singular values (falling), right singular vectors as a flat list (n x n),
+ * one a column. a: the matrix as a flat list, row by row. */
 static int mod_singular(lua_State *L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   const lua_Integer rows = luaL_checkinteger(L, 2), n = luaL_checkinteger(L, 3);
@@ -86,7 +86,7 @@ static int mod_singular(lua_State *L) {
   return 2;
 }
 
-/* student(p, freedom): below which Student's t lies with probability p */
+/* student(p, freedom) -> the value below which Student's t lies with probability p */
 static int mod_student(lua_State *L) {
   const double p = luaL_checknumber(L, 1), freedom = luaL_checknumber(L, 2);
   luaL_argcheck(L, p > 0 && p < 1, 1, "between 0 and 1");
@@ -95,7 +95,7 @@ static int mod_student(lua_State *L) {
   return 1;
 }
 
-/* chi2_above(x, freedom): the probability that chi squared is above x */
+/* chi2_above(x, freedom) -> the probability that chi squared is above x */
 static int mod_chi2_above(lua_State *L) {
   const double x = luaL_checknumber(L, 1), freedom = luaL_checknumber(L, 2);
   luaL_argcheck(L, x >= 0, 1, "0 or more");

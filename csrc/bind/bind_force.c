@@ -7,10 +7,10 @@
 #include "bind/child.h"
 #include "bind/share.h"
 
-/* A Lua function as a force. The function and its arrays are an entry of a table
+/* A Lua function as a force. The function and its arrays are an entry of the table
  * in the scene's user value 1, so that the garbage collector sees them: { call =,
- * x =, v =, f =, slot =, generation = }. Whatever evaluates forces is a method of
- * the scene, so that the scene is at stack index 1 of the running state. */
+ * x =, v =, f =, slot =, generation = }. Only methods of the scene evaluate forces,
+ * so the scene is at stack index 1 of the running state. */
 static lua_State *running;
 
 lua_State *lsw_begin_forces(lua_State *L) {
@@ -21,21 +21,21 @@ lua_State *lsw_begin_forces(lua_State *L) {
 
 void lsw_end_forces(lua_State *outer) { running = outer; }
 
-/* Make the array under key hold n values (zeros for NULL) and nothing else. */
+/* Pushes the array under key and fills it with exactly n values (zeros for NULL). */
 static void push_flat(lua_State *L, int table, const char *key, const double *values, size_t n) {
   lua_getfield(L, table, key);
   for (size_t i = 0; i < n; i++) {
     lua_pushnumber(L, values ? values[i] : 0.0);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
-  /* one table serves all wires of the force, whose node counts may differ */
+  /* all wires of the force share this table; their node counts may differ */
   for (size_t i = lua_rawlen(L, -1); i > n; i--) {
     lua_pushnil(L);
     lua_rawseti(L, -2, (lua_Integer)i);
   }
 }
 
-/* Add the table's array to the field. */
+/* Adds the forces of the array to the field. */
 static void read_back(lua_State *L, int array, sw_field *field, size_t n) {
   if (lua_rawlen(L, array) > n)
     luaL_error(L, "force function: f has %d items; it must keep its %d, three for each node",
@@ -53,7 +53,7 @@ static void read_back(lua_State *L, int array, sw_field *field, size_t n) {
   }
 }
 
-/* Runs protected: table of the force, the field. */
+/* Calls the Lua function, in protected mode. Arguments: the force's table, the field. */
 static int call_function(lua_State *L) {
   sw_field *field = lua_touserdata(L, 2);
   const size_t n = 3 * field->plan->nodes;
@@ -84,7 +84,7 @@ static sw_status call_force(void *user, sw_field *field, sw_error *err) {
   return lsw_motion_keep_error(L, err);
 }
 
-/* Keep the function at index under a new number of the scene's table. */
+/* Keeps the function in the scene's table under a new number, which it returns. */
 static int keep_function(lua_State *L, lsw_scene_handle *owner, int function) {
   static const char *const arrays[] = {"x", "v", "f"};
   lua_getiuservalue(L, 1, 1);
@@ -101,7 +101,7 @@ static int keep_function(lua_State *L, lsw_scene_handle *owner, int function) {
   return number;
 }
 
-/* Note which force the function belongs to; forget the function when there is no force. */
+/* Notes the force that the function belongs to; forgets the function if id is NULL. */
 static void mark_function(lua_State *L, int number, const sw_handle *id) {
   lua_getiuservalue(L, 1, 1);
   if (id && lua_rawgeti(L, -1, number) == LUA_TTABLE) {
@@ -131,7 +131,7 @@ void lsw_forget_forces(lua_State *L, int index, const sw_scene *scene) {
     if (sw_scene_force_needed(scene, id)) continue;
     lua_pushvalue(L, -1);
     lua_pushnil(L);
-    lua_rawset(L, -4); /* taking away while walking is allowed */
+    lua_rawset(L, -4); /* lua_next allows removing entries */
   }
   lua_pop(L, 1);
 }
@@ -200,7 +200,7 @@ static int meth_release(lua_State *L) {
   return 0;
 }
 
-/* force:read(wire) -> what its kind has to read there, by name; see the force's file */
+/* force:read(wire) -> values that its kind of force has for this wire, by name; see its file */
 static int meth_read(lua_State *L) {
   double values[SW_FORCE_OUTPUTS_MAX];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
@@ -213,10 +213,10 @@ static int meth_read(lua_State *L) {
   return 1;
 }
 
-/* force:log() -> flat rows of 4: t, force on wires; number of rows */
+/* force:log() -> flat rows of 4: t [s], force on wires [N]; number of rows */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_force, SW_LOG_FORCE_SIZE); }
 
-/* force:call_it(name): what its events call it */
+/* force:call_it(name): sets its name in events */
 static int meth_call_it(lua_State *L) {
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
   if (lua_type(L, 2) != LUA_TSTRING)
@@ -233,7 +233,7 @@ static int describe(lua_State *L) {
   return lsw_say(L, "force %s: %s", cls->name, cls->summary);
 }
 
-/* force:get() -> a table of its rows, as they are now */
+/* force:get() -> a table of its present parameters */
 static int meth_get(lua_State *L) {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);
@@ -244,7 +244,7 @@ static int meth_get(lua_State *L) {
   return 1;
 }
 
-/* force:set{ stiffness =, ... }: values of its rows from now on */
+/* force:set{ stiffness =, ... }: changes its parameters */
 static int meth_set(lua_State *L) {
   double args[SW_FORCE_ARGS_MAX / sizeof(double)];
   const lsw_self f = lsw_check_self(L, &lsw_class_force);

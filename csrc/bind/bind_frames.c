@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames of a run as Lua tables, and how much memory they may take. */
+/* Frames of a run as Lua tables, the memory limit of frames, and read-outs over all frames. */
 #include <math.h>
 
 #include "bind/child.h"
@@ -23,7 +23,7 @@ static void push_pose(lua_State *L, const float *p) {
   lua_setfield(L, -2, "rotation");
 }
 
-/* Wires, or objects of particles. */
+/* Pushes flat positions [m] of the wires (loose = 0), or of the objects of particles (1). */
 static void push_frame_bodies(lua_State *L, const sw_scene *scene, size_t frame, int loose) {
   size_t count;
   const float *x;
@@ -44,7 +44,7 @@ static void push_frame_particles(lua_State *L, const sw_scene *scene, size_t fra
   push_frame_bodies(L, scene, frame, 1);
 }
 
-/* Of each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
+/* Pushes for each wire its surface { around =, points = flat [m], force = flat [N] }, or false. */
 static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t frame) {
   size_t count, around;
   lua_newtable(L);
@@ -72,8 +72,8 @@ static void push_frame_surfaces(lua_State *L, const sw_scene *scene, size_t fram
   }
 }
 
-/* Of each wire { tension =, curvature =, contact =, twist_moment =, stress = }, flat, at each node
- * [N], [1/m], [N], [N m], [Pa]. */
+/* Pushes for each wire { tension =, curvature =, contact =, twist_moment =, stress = }: flat lists
+ * of a number for each node [N], [1/m], [N], [N m], [Pa]. */
 static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame) {
   size_t count;
   lua_Integer number = 0;
@@ -83,7 +83,7 @@ static void push_frame_values(lua_State *L, const sw_scene *scene, size_t frame)
     if (!p && (count || sw_scene_frame_is_loose(scene, w))) continue;
     lua_createtable(L, 0, SW_FRAME_FORCE);
     for (size_t k = 0; k < SW_FRAME_FORCE; k++) {
-      push_floats(L, p ? p + k : p, count, SW_FRAME_VALUES); /* of none when it is gone */
+      push_floats(L, p ? p + k : p, count, SW_FRAME_VALUES); /* empty if the wire is gone */
       lua_setfield(L, -2, channels[k]);
     }
     lua_rawseti(L, -2, ++number);
@@ -141,8 +141,8 @@ static const struct {
 
 enum { PARTS = sizeof parts / sizeof parts[0] };
 
-/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: taken away), holds,
- * tools, energy }, or nil past the end. */
+/* scene:frame(i) -> { t, wires, values, surfaces, particles, obstacles (false: removed), holds,
+ * tools, energy }; nothing past the end. */
 int lsw_scene_frame(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const lua_Integer i = lsw_integer(L, 2, "scene:frame: the number of the frame");
@@ -172,7 +172,7 @@ static int last_frame(lua_State *L) {
   return lsw_scene_frame(L);
 }
 
-/* core.frame_now(scene) -> as scene:frame, of the scene as it is */
+/* core.frame_now(scene) -> as scene:frame, for the present state */
 static int mod_frame_now(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   lua_settop(L, 1);
@@ -185,7 +185,7 @@ static int mod_frame_now(lua_State *L) {
   return failed ? lua_error(L) : 1;
 }
 
-/* core.keep_frames(scene[, memory [B]]): that they may take from now on. */
+/* core.keep_frames(scene [, memory [B]]): sets the memory limit of frames. */
 static int mod_keep_frames(lua_State *L) {
   const double memory =
       lua_isnoneornil(L, 2) ? SW_FRAME_MEMORY : lsw_number(L, 2, "keep_frames: memory", "B");
@@ -193,13 +193,13 @@ static int mod_keep_frames(lua_State *L) {
   return 0;
 }
 
-/* core.frames_thinned(scene) -> one of how many is still there */
+/* core.frames_thinned(scene) -> n: one of n frames was kept; 1, or a power of 2 after thinning */
 static int mod_frames_thinned(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)sw_scene_frames_thinned(lsw_check_scene(L)));
   return 1;
 }
 
-/* core.frame_times(scene) -> of all frames [s] */
+/* core.frame_times(scene) -> list of the times of all frames [s] */
 static int mod_frame_times(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t count = sw_scene_frames(scene);
@@ -211,7 +211,8 @@ static int mod_frame_times(lua_State *L) {
   return 1;
 }
 
-/* core.frame_range(scene, quantity) -> least and largest value in all frames; nothing: none */
+/* core.frame_range(scene, quantity) -> smallest and largest value in all frames; nothing if there
+ * is no value */
 static int mod_frame_range(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const int channel = luaL_checkoption(L, 2, NULL, channels);
@@ -230,7 +231,7 @@ static int mod_frame_range(lua_State *L) {
   return 2;
 }
 
-/* Number of a wire, from 1, as an index. */
+/* Returns the index (from 0) of the wire whose number (from 1) is at the stack index `at`. */
 static size_t wire_index(lua_State *L, int at, const sw_scene *scene) {
   const lua_Integer w = lsw_integer(L, at, "frames: wire");
   const size_t count = sw_scene_frame_wires(scene);
@@ -239,9 +240,10 @@ static size_t wire_index(lua_State *L, int at, const sw_scene *scene) {
   return (size_t)w - 1;
 }
 
-/* core.frames_sweep(scene, w, start [s]) -> { x1, y1, z1, x2, y2, z2, step = } of what wire w
- * swept [m], the angle it turned by along its length at most [rad], and the largest acceleration
- * of a node by frames one after the other, and by every second one [m/s2], or nil */
+/* core.frames_sweep(scene, w, start [s]) -> { x1, y1, z1, x2, y2, z2, step = }: the box that wire w
+ * swept and its largest move between two frames [m]; largest angle by which it turns along its
+ * length [rad]; largest acceleration of a node from successive frames, and from every second frame
+ * [m/s2], nil if there are too few */
 static int mod_frames_sweep(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene);
@@ -267,8 +269,8 @@ static int mod_frames_sweep(lua_State *L) {
   return 4;
 }
 
-/* core.frames_apart(scene, w, v, start [s], enough [m], most [m] or nil) -> least distance of their
- * axes [m] */
+/* core.frames_apart(scene, w, v, start [s], enough [m], most [m] or nil) -> least distance of the
+ * axes of wires w and v [m]; the search stops below enough and ignores distances above most */
 static int mod_frames_apart(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene), v = wire_index(L, 3, scene);
@@ -284,7 +286,7 @@ static int mod_frames_apart(lua_State *L) {
   return 1;
 }
 
-/* core.frames_flat(scene, w, start [s]) -> whether all of wire w happens in a plane */
+/* core.frames_flat(scene, w, start [s]) -> true if wire w and all forces on it stay in one plane */
 static int mod_frames_flat(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene);
@@ -292,8 +294,8 @@ static int mod_frames_flat(lua_State *L) {
   return 1;
 }
 
-/* core.frame_contact(scene, i, w) -> forces across wire w at its nodes in frame i [N], and the
- * distance of its first two nodes [m]; nothing: no touch */
+/* core.frame_contact(scene, i, w) -> contact forces across wire w at its nodes in frame i [N], and
+ * the distance of its first two nodes [m]; nothing if nothing touches it */
 static int mod_frame_contact(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const lua_Integer i = lsw_integer(L, 2, "frame_contact: frame");
@@ -323,9 +325,10 @@ static sw_press_request check_press(lua_State *L) {
   return r;
 }
 
-/* core.frames_press(scene, w, start [s], place, { middle, half length, ... } [m]) -> flat list, of
- * each frame from start on in which something presses on line w outside those places: the largest
- * load [N/m], the largest from both sides [N/m], first and last node with place of it, nodes */
+/* core.frames_press(scene, w, start [s], place, { middle, half length, ... } [m]) -> flat list of 5
+ * numbers for each frame from start on in which something presses on line w outside the given
+ * spans: largest load [N/m], largest load from both sides [N/m], first and last node of the pressed
+ * length (load of at least place times the largest), number of nodes */
 static int mod_frames_press(lua_State *L) {
   const sw_scene *scene = lsw_check_scene(L);
   const size_t w = wire_index(L, 2, scene);

@@ -6,7 +6,7 @@
 #include "bind/child.h"
 #include "bind/share.h"
 
-/* scene:clamp, pin, ...: one of each class of holds, which is the upvalue. */
+/* scene:clamp, pin, ...: adds a hold of the class that is the upvalue. */
 static int new_hold(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   const sw_link_class *cls = lua_touserdata(L, lua_upvalueindex(1));
@@ -52,23 +52,24 @@ static lsw_load load_of(lua_State *L, int with_point) {
   return on;
 }
 
-/* Force on the wire [N]; its moment about the held point or { at = point } [N m]. */
+/* clamp:force() on the wire [N]; clamp:moment([{ at = point }]) about the held point or this point
+ * [N m]. */
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
-/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets;
- * without a rotation it keeps the one it has. */
+/* clamp:pose() -> position, rotation; clamp:pose(position [, rotation]) sets them.
+ * Without a rotation the present one stays. */
 static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_clamp); }
 
-/* clamp:follow(trajectory or its table); clamp:follow(nil) stops it there. */
+/* clamp:follow(trajectory or its table); clamp:follow(nil) stops the clamp where it is. */
 static int meth_follow(lua_State *L) { return lsw_follow(L, &lsw_class_clamp, "clamp:follow"); }
 
 static int meth_release(lua_State *L) {
   return lsw_order(L, &lsw_class_clamp, sw_scene_release_hold);
 }
 
-/* clamp:crash() -> { time, depth, obstacle } of the last time that it drove the wire into an
- * obstacle [s], [m]; nil when it never did */
+/* clamp:crash() -> { time [s], depth [m], obstacle } of the last time that the clamp drove the wire
+ * into an obstacle; nothing if it never did */
 static int meth_crash(lua_State *L) {
   double time, depth;
   const char *obstacle;
@@ -82,7 +83,7 @@ static int meth_crash(lua_State *L) {
   return 1;
 }
 
-/* Some columns of a log's rows, as one flat list. */
+/* Pushes width columns of a log's rows, starting at column from, as one flat list. */
 static void push_columns(lua_State *L, const double *rows, size_t count, size_t from,
                          size_t width) {
   lua_createtable(L, count * width < INT_MAX ? (int)(count * width) : 0, 0);
@@ -92,9 +93,9 @@ static void push_columns(lua_State *L, const double *rows, size_t count, size_t 
   }
 }
 
-/* clamp:log(t1, t2) -> flat rows of 10: t, force, moment, point [s, N, N m, m], the
- * number of rows, and for each the time of its step below 0, 0 at an equilibrium [s]; see
- * lsw_log_rows. */
+/* clamp:log(t1, t2) -> flat rows of 10: t, force, moment, point [s, N, N m, m]; number of rows; for
+ * each row a span [s]. Span above 0: the force is the mean over this time up to t; below 0: the
+ * force at the end of a step of this length; 0: an equilibrium. See lsw_log_rows. */
 static int meth_log(lua_State *L) {
   const double *rows;
   const size_t n = lsw_log_rows(L, &lsw_class_clamp, SW_LOG_SIZE, &rows);
@@ -104,7 +105,7 @@ static int meth_log(lua_State *L) {
   return 3;
 }
 
-/* clamp:get() -> a table of its rows, as it is now */
+/* clamp:get() -> a table of its present parameters */
 static int meth_get(lua_State *L) {
   sw_hold_args args;
   const sw_params *rows;
@@ -114,7 +115,7 @@ static int meth_get(lua_State *L) {
   return 1;
 }
 
-/* clamp:set{ friction = }: from now on. */
+/* clamp:set{ friction = }: changes its parameters. */
 static int meth_set(lua_State *L) {
   sw_hold_args args;
   const sw_params *rows;
@@ -127,7 +128,7 @@ static int meth_set(lua_State *L) {
   return 0;
 }
 
-/* --- what some have to read ----------------------------------------------------- */
+/* --- read-outs of some kinds ---------------------------------------------------- */
 
 static int reading(lua_State *L, const char *name) {
   double value;
@@ -140,7 +141,7 @@ static int reading(lua_State *L, const char *name) {
   return 1;
 }
 
-/* clamp:read() -> all that its kind has to read, by name; see the file of the kind */
+/* clamp:read() -> all read-outs of its kind, by name; see the file of the kind */
 static int meth_read(lua_State *L) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const char *const *names;
@@ -153,7 +154,7 @@ static int meth_read(lua_State *L) {
   return 1;
 }
 
-/* slider:place() -> place along the rail, speed, force on the wire along it [m], [m/s], [N] */
+/* slider:place() -> place along the rail [m], speed [m/s], force on the wire along the rail [N] */
 static int meth_place(lua_State *L) {
   return reading(L, "place") + reading(L, "speed") + reading(L, "force");
 }
@@ -166,7 +167,7 @@ static int meth_drive_force(lua_State *L) { return reading(L, "drive_force"); }
 
 /* --- feeds ---------------------------------------------------------------------- */
 
-/* The argument at 2, checked as the parameter of that name of scene:feed is. */
+/* Returns the argument at 2, checked like the parameter `name` of scene:feed. */
 static double feed_argument(lua_State *L, const char *name) {
   sw_error err;
   const sw_params *rows = &sw_link_find("feed")->params;
@@ -178,8 +179,8 @@ static double feed_argument(lua_State *L, const char *name) {
   return value;
 }
 
-/* Gives an order with the argument at 2, checked as a row of scene:feed; may_be_nil: that is none.
- */
+/* Gives an order with the argument at 2, checked like the parameter `row` of scene:feed.
+ * may_be_nil: nil is allowed and gives NAN (none). */
 static int order_feed(lua_State *L, const char *order, const char *row, int may_be_nil) {
   const lsw_self c = lsw_check_self(L, &lsw_class_clamp);
   const double value = may_be_nil && lua_isnil(L, 2) ? (double)NAN : feed_argument(L, row);
@@ -187,15 +188,15 @@ static int order_feed(lua_State *L, const char *order, const char *row, int may_
   return 0;
 }
 
-/* feed:speed() -> now; feed:speed(v) sets it [m/s]. */
+/* feed:speed() -> present speed; feed:speed(v) sets it [m/s]. */
 static int meth_speed(lua_State *L) {
   return lua_gettop(L) > 1 ? order_feed(L, "speed", "speed", 0) : reading(L, "speed");
 }
 
-/* feed:push(force): that force instead of a speed [N]. */
+/* feed:push(force): feeds with this force instead of a speed [N]. */
 static int meth_push(lua_State *L) { return order_feed(L, "push", "force", 0); }
 
-/* feed:force_limit() -> the limit or nil; feed:force_limit(force), (nil) for none [N]. */
+/* feed:force_limit() -> the limit or nil; feed:force_limit(force) sets it, (nil) removes it [N]. */
 static int meth_force_limit(lua_State *L) {
   return lua_gettop(L) > 1 ? order_feed(L, "force_limit", "force_limit", 1)
                            : reading(L, "force_limit");
@@ -221,7 +222,7 @@ static const sw_param length_rows[] = {
 };
 static const sw_params length_params = SW_PARAMS("feed:feed", length_rows);
 
-/* feed:feed{ length =, speed = or duration = } -> seconds it will take. */
+/* feed:feed{ length =, speed = or duration = } -> time that it will take [s]. */
 static int meth_feed(lua_State *L) {
   sw_error err = {""};
   sw_motion *motion = NULL;
@@ -241,7 +242,7 @@ static int meth_feed(lua_State *L) {
   return 1;
 }
 
-/* --- what it is ----------------------------------------------------------------- */
+/* --- the class ------------------------------------------------------------------ */
 
 static int describe(lua_State *L) {
   lsw_self c;

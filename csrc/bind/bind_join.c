@@ -4,7 +4,7 @@
 #include "bind/child.h"
 #include "bind/share.h"
 
-/* One of the ends at the top of the stack: { wire, s = }. Pops it. */
+/* Returns the end { wire, s = } at the top of the stack, and pops it. */
 static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) {
   static const sw_param rows[] = {{"s", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_REQUIRED,
                                    NULL, 0, "arc length at which the wire is joined"}};
@@ -17,7 +17,7 @@ static sw_join_end read_end(lua_State *L, const sw_scene *scene, size_t number) 
     luaL_error(L, "%s must be { wire, s = arc length }, got %s", what, lsw_describe(L, at));
   lua_rawgeti(L, at, 1);
   end.wire = lsw_check_child_of(L, at + 1, &lsw_class_wire, scene, what);
-  lua_newtable(L); /* what else is there, to be checked */
+  lua_newtable(L); /* all entries but the wire, to be checked */
   lua_pushnil(L);
   while (lua_next(L, at)) {
     lua_pushvalue(L, -2);
@@ -61,7 +61,7 @@ static lsw_load load_of(lua_State *L) {
   return on;
 }
 
-/* join:force(k) on its end number k [N]; join:moment(k) about its point [N m]. */
+/* join:force(k) on end number k [N]; join:moment(k) about the join's point [N m]. */
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L).moment), 1; }
 
@@ -76,7 +76,7 @@ static int meth_read(lua_State *L) {
   return 1;
 }
 
-/* join:log() of a tie -> flat rows of time, force on the first wire [s], [N]; their number */
+/* join:log() of a tie -> flat rows of time [s], force on the first wire [N]; number of rows */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_join, SW_LOG_FORCE_SIZE); }
 
 static int meth_release(lua_State *L) {

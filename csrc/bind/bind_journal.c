@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines of a study's journal: core.checksum(text) -> integer; core.journal_line(text, at) -> where
- * the next line begins, first letter, part, number of the line at that place. Nothing where the
- * text ends before the line does; false for the letter where the line's sum is wrong; part and
- * number of lines "e <part> <number> ...". */
+/* Reads and checks lines of a study's journal.
+ *
+ *   core.checksum(text) -> integer
+ *   core.journal_line(text, at) -> where the next line begins, first letter of the line at `at`;
+ * for lines "e <part> <number> ..." also part and number. Nothing if the text ends within the line.
+ * The letter is false if the line's checksum is wrong. */
 #include <lauxlib.h>
 #include <string.h>
 
-enum { DIGITS = 16 }; /* of a sum, after a space */
+enum { DIGITS = 16 }; /* of the checksum at a line's end, after a space */
 
-/* FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo): it is to find what went wrong, not who lies.
- */
+/* FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo). It finds damaged lines; it is no protection
+ * against forged ones. */
 static uint64_t checksum(const char *text, size_t size) {
   uint64_t sum = 0xcbf29ce484222325u;
   for (size_t k = 0; k < size; k++) sum = (sum ^ (unsigned char)text[k]) * 0x100000001b3u;
@@ -31,7 +33,8 @@ static int is_whole(const char *line, size_t size) {
   return 1;
 }
 
-/* The digits at *at and the space after them; 0 where there are none, or too many. */
+/* Returns the integer at *at and moves *at past it and the space behind it. 0 if there are no
+ * digits or more than 18, or no space. */
 static lua_Integer integer(const char **at) {
   lua_Integer value = 0;
   int digits = 0;

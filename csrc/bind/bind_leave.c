@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What leaves a scene: see scene:remove, which is Lua's. */
+/* Removal of objects from a scene, for scene:remove, which is in Lua. */
 #include "bind/bind_shape.h"
 #include "bind/child.h"
 #include "bind/share.h"
 
-/* core.remove_body(wire or object of particles): what holds it lets go. */
+/* core.remove_body(wire or object of particles): also releases its holds. */
 static int mod_remove_body(lua_State *L) {
   const int loose = lsw_test(L, 1, &lsw_class_particles) != NULL;
   return lsw_order(L, loose ? &lsw_class_particles : &lsw_class_wire, sw_scene_remove_body);
 }
 
-/* core.remove_tool(tool): with its pads. */
+/* core.remove_tool(tool): removes it with its pads. */
 static int mod_remove_tool(lua_State *L) {
   return lsw_order(L, &lsw_class_tool, sw_scene_remove_tool);
 }
 
-/* core.shape_of(obstacle) -> its shape, also of one that was removed, which frames still show */
+/* core.shape_of(obstacle) -> its shape; also for a removed obstacle, which frames still show */
 static int mod_shape_of(lua_State *L) {
   sw_shape *shape;
   const lsw_self o = lsw_check_self(L, &lsw_class_obstacle);

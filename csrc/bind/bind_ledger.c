@@ -36,7 +36,7 @@ static void set_losses(lua_State *L, const sw_ledger *l) {
   lua_setfield(L, -2, "lost");
 }
 
-/* core.ledger(scene) -> table; energies in J */
+/* core.ledger(scene) -> table of energies [J], work, losses and counts of the last run */
 static int mod_ledger(lua_State *L) {
   sw_ledger l;
   LSW_DO(L, sw_scene_ledger, lsw_check_scene(L), &l);
@@ -58,8 +58,8 @@ static int mod_ledger(lua_State *L) {
   return 1;
 }
 
-/* core.energy_log(scene) -> flat rows of time, kinetic, stored, gravity, gap, all losses so
- * far, and their number */
+/* core.energy_log(scene) -> flat rows of time [s], kinetic, stored and gravity energy, gap, sum of
+ * all losses so far [J]; number of rows */
 static int mod_energy_log(lua_State *L) {
   size_t rows;
   const double *log = sw_scene_energy_log(lsw_check_scene(L), &rows);
@@ -68,7 +68,7 @@ static int mod_energy_log(lua_State *L) {
   return 2;
 }
 
-/* core.end_run(scene) -> ok, reason */
+/* core.end_run(scene) -> ok, reason if it failed */
 static int mod_end_run(lua_State *L) {
   sw_error why = {""};
   const sw_status status = sw_scene_end_run(lsw_check_scene(L), &why);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* In some locales numbers have a comma: then Lua writes 1,5, and reads "1.5" no more in places.
- * Files, scripts for other programs and the names of cables need the point, and there are too
- * many places that write or read a number to guard each of them. So this thread gets a locale of
- * its own, which is the program's but for its numbers. os.setlocale goes on to work for all else.
- */
+/* Gives this thread a locale whose numbers have a decimal point. In some locales numbers have a
+ * comma: Lua then writes 1,5 and cannot read "1.5" in some places. Files, scripts for other
+ * programs and the names of cables need the point, and too many places write or read numbers to
+ * guard each of them. The thread's locale is the program's except for its numbers; os.setlocale
+ * still works for everything else. */
 #include <lauxlib.h>
 #include <locale.h>
 
@@ -25,7 +25,7 @@ void lsw_locale_renew(void) {
   if (before) freelocale(before);
 }
 
-/* os.setlocale as it was (upvalue 1), with what follows from it. */
+/* The new os.setlocale: calls the original one (upvalue 1), then renews this thread's locale. */
 static int setlocale_and_renew(lua_State *L) {
   const int count = lua_gettop(L);
   lua_pushvalue(L, lua_upvalueindex(1));

@@ -21,8 +21,8 @@ static void push_note(lua_State *L, const sw_modes_result *r) {
   lua_setfield(L, -2, "note");
 }
 
-/* wire:frequencies{ modes =, shapes = } -> { f1, f2, ..., unstable =, growth =, note =,
- * shapes = } [Hz], [-], [1/s], words, [1/sqrt(kg)] */
+/* wire:frequencies{ modes =, shapes = } -> { f1, f2, ... [Hz], unstable = [-], growth = [1/s],
+ * note = text, shapes = [1/sqrt(kg)] } */
 int lsw_wire_frequencies(lua_State *L) {
   sw_modes_args args;
   size_t nodes;
@@ -33,7 +33,7 @@ int lsw_wire_frequencies(lua_State *L) {
   const size_t modes = (size_t)args.modes, n = 3 * nodes;
   sw_modes_result r = {.frequencies = lua_newuserdatauv(L, modes * sizeof(double), 0)};
   if (args.shapes) r.shapes = lua_newuserdatauv(L, modes * n * sizeof(double), 0);
-  lua_getiuservalue(L, 1, 1); /* functions as forces need their scene at index 1 */
+  lua_getiuservalue(L, 1, 1); /* Lua functions as forces need the scene at index 1 */
   lua_replace(L, 1);
   LSW_DO_FORCES(L, sw_scene_wire_modes, w.scene, w.id, &args, sw_interrupted, &r);
   lsw_push_flat(L, r.frequencies, r.count);

@@ -19,7 +19,8 @@ static void close_trajectory(lsw_handle *h) { sw_motion_release(h->object); }
 
 /* --- at a time ------------------------------------------------------------------ */
 
-/* A function may close the very trajectory it belongs to, hence the reference. */
+/* Evaluates the motion. It retains the motion, because a Lua function may close its own
+ * trajectory. */
 static void eval(lua_State *L, sw_motion *motion, double t, sw_motion_state *out) {
   sw_error err = {{0}};
   sw_motion_retain(motion);
@@ -70,7 +71,7 @@ static int open_view(lua_State *L, lsw_handle *h, sw_status status, sw_motion *m
   return 1;
 }
 
-/* placed(position, rotation): the trajectory as a displacement of that pose. */
+/* placed(position, rotation): the trajectory applied to this pose as a displacement. */
 static int m_placed(lua_State *L) {
   sw_motion *seen = NULL, *motion = check(L);
   sw_pose base;
@@ -123,7 +124,7 @@ static double sample_end(lua_State *L, int index, double usual, const char *what
   return usual;
 }
 
-/* sample(n, from, to): n states at even times as flat arrays by name. */
+/* sample(n, from, to): n states at evenly spaced times, as flat arrays by name. */
 static int m_sample(lua_State *L) {
   sw_motion *motion = check(L);
   const double count = lsw_number(L, 2, "trajectory: the number of samples", "-");
@@ -206,7 +207,7 @@ static int f_trajectory(lua_State *L) {
   return 1;
 }
 
-/* trajectory_reader(function): what turns `path` into way-points. */
+/* trajectory_reader(function): sets the function that reads way-points from `path`. */
 static int f_trajectory_reader(lua_State *L) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   lua_settop(L, 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trajectories for other bindings: anything that moves takes a trajectory, or
- * the table for one, through these. */
+/* Reads trajectories for other bindings: anything that moves takes a trajectory,
+ * the table for one, or a function of time through these functions. */
 #ifndef LSW_BIND_MOTION_H
 #define LSW_BIND_MOTION_H
 
@@ -8,13 +8,13 @@
 
 extern const lsw_class lsw_class_trajectory;
 
-/* The motion at index, a trajectory or the table (or function) for one; with a
- * reference that the caller must release. Raises a clear error otherwise. what is
+/* Returns the motion at index: a trajectory, or the table or function for one. The
+ * caller must release its reference. Raises a clear error for anything else. what is
  * for messages: "obstacle:follow". */
 sw_motion *lsw_motion_from(lua_State *L, int index, const char *what);
 
-/* What lsw_motion_params reads, for a table that has other keys as well (put it
- * into an lsw_section). Keys whose values stay in the table (points, func, ...)
+/* What the rows lsw_motion_params read. For a table that has other keys as well, put
+ * both into an lsw_section. Keys whose values stay in the table (points, func, ...)
  * are fetched from there by lsw_motion_make. */
 typedef struct lsw_motion_args {
   int law;                                   /* index among the laws, -1 = not given [-] */
@@ -26,28 +26,28 @@ typedef struct lsw_motion_args {
 } lsw_motion_args;
 extern const sw_params lsw_motion_params;
 
-/* Make the motion from args and the table at index they were read from; pushes
- * the trajectory that owns it and returns it without a further reference. */
+/* Makes the motion from args and the table at index that args were read from. Pushes
+ * the trajectory that owns the motion, and returns the motion without another reference. */
 sw_motion *lsw_motion_make(lua_State *L, int index, const char *what, const lsw_motion_args *args);
 
-/* Raise the error for a failed call that evaluated motions: for SW_ECALLBACK the
- * very value that the Lua function raised, else as lsw_raise does. */
+/* Raises the error of a failed call that evaluated motions: for SW_ECALLBACK the
+ * same value that the Lua function raised, else the text, as lsw_raise does. */
 int lsw_motion_rethrow(lua_State *L, sw_status status, const sw_error *err);
 
-/* The same for other bindings' callbacks: keep the value on top of L's stack
- * (popped) for lsw_motion_rethrow, and write it as text to err. Never raises. */
+/* For callbacks of other bindings: keeps the error value on top of L's stack (popped)
+ * for lsw_motion_rethrow, and writes it as text to err. Returns SW_ECALLBACK; never raises. */
 sw_status lsw_motion_keep_error(lua_State *L, sw_error *err);
 
 /* --- between the files of this binding ---------------------------------------- */
 
 void lsw_motion_open_functions(lua_State *L);
 
-/* A motion given by the Lua function at index, as *out with one reference. */
+/* Makes the motion of the Lua function at index: *out, with one reference. */
 sw_status lsw_motion_function(lua_State *L, int index, const lsw_motion_args *args, sw_motion **out,
                               sw_error *err);
 
-/* Keep the function on top of the stack (popped): called with a `path`, a `scale`
- * (or nil) and the object's name, it returns the array of way-points. */
+/* Keeps the function on top of the stack (popped) that reads way-points. It is called with
+ * a `path`, a `scale` (or nil) and the object's name, and returns the array of way-points. */
 void lsw_motion_keep_reader(lua_State *L);
 
 void lsw_motion_open_arguments(void);

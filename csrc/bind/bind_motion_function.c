@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lua functions of time as motions. They run protected on a thread of their own,
- * so that they can be asked from anywhere in the core; the value of an error is
- * kept in the registry until the caller raises it again. */
+/* Makes motions of Lua functions of time. The functions run protected on a separate
+ * Lua thread, so that any part of the core can evaluate them. An error's value
+ * stays in the registry until the caller raises it again. */
 #include <string.h>
 
 #include "bind/bind_motion.h"
 
-static const char thread_key = 0; /* registry: the thread they run on */
-static const char error_key = 0;  /* registry: {value, true when there is one} */
+static const char thread_key = 0; /* registry: the thread of the functions */
+static const char error_key = 0;  /* registry: {value of the last error, true if there is one} */
 
 typedef struct function {
   lua_State *L;  /* the thread */
@@ -98,8 +98,8 @@ sw_status lsw_motion_keep_error(lua_State *L, sw_error *err) {
   return SW_ECALLBACK;
 }
 
-/* Push the value that a trajectory's function raised last and forget it; nil when
- * there is none. Returns 1 when there was one. */
+/* Pushes the value that a function raised last and forgets it. Pushes nil and returns 0
+ * if there is none, else returns 1. */
 static int take_error(lua_State *L) {
   lua_rawgetp(L, LUA_REGISTRYINDEX, &error_key);
   lua_rawgeti(L, -1, 2);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the table for a trajectory to its motion. */
+/* Makes the motion of a trajectory from its table. */
 #include <string.h>
 
 #include "bind/bind_motion.h"
 
-static const char reader_key = 0;          /* registry: what reads `path` */
+static const char reader_key = 0;          /* registry: the function that reads `path` */
 static const char *law_names[16] = {NULL}; /* filled when the module is opened */
 
 #define AT(field) offsetof(lsw_motion_args, field)
@@ -74,7 +74,7 @@ static void check_keys(lua_State *L, int index, const char *what) {
   }
 }
 
-/* {axis=, angle=} on top of the stack, as axis times angle [rad]. */
+/* Returns the turn {axis=, angle=} on top of the stack, as axis times angle [rad]. */
 static sw_vec read_turn(lua_State *L, const char *what) {
   const int index = lua_gettop(L);
   if (!lua_istable(L, index)) {
@@ -91,7 +91,7 @@ static sw_vec read_turn(lua_State *L, const char *what) {
   return sw_scale(sw_unit_or(axis, sw_v(0, 0, 1)), angle);
 }
 
-/* The table on top of the stack. */
+/* Reads the way-point on top of the stack. */
 static void read_point(lua_State *L, const char *what, sw_waypoint *out) {
   const int index = lua_gettop(L);
   *out = (sw_waypoint){.q = sw_quat_identity(), .t = NAN};
@@ -137,7 +137,7 @@ static void read_times(lua_State *L, int table, const char *what, sw_waypoint *p
   lua_pop(L, 1);
 }
 
-/* Push the way-points: `points`, or those that `path` leads to; nil without both. */
+/* Pushes the way-points: `points`, or the ones read from `path`; nil without both. */
 static void push_points(lua_State *L, int table, const char *what) {
   const int given = lua_getfield(L, table, "points") != LUA_TNIL;
   if (lua_getfield(L, table, "path") == LUA_TNIL) {
@@ -194,7 +194,7 @@ static sw_status make_path(lua_State *L, int table, const char *what, const lsw_
   return sw_motion_create(&plan, out, err);
 }
 
-/* With a func nothing may be given that belongs to way-points. */
+/* Raises if a key for way-points is given with a func. */
 static void check_func(lua_State *L, int table, const char *what) {
   static const char *const theirs[] = {
       "points", "path",  "times",         "scale",        "turn",

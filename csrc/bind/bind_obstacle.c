@@ -34,19 +34,20 @@ static lsw_load load_of(lua_State *L, int with_point) {
   return on;
 }
 
-/* Contact force on the obstacle, mean over the last step [N]; its moment { at = point } [N m]. */
+/* obstacle:force(): contact force on the obstacle, mean over the last step [N];
+ * obstacle:moment([{ at = point }]) about this point or the world's origin [N m]. */
 static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0).force), 1; }
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 1).moment), 1; }
 
-/* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets; without a
- * rotation it keeps the one it has. */
+/* obstacle:pose() -> position, rotation; obstacle:pose(position [, rotation]) sets them. Without a
+ * rotation the present one stays. */
 static int meth_pose(lua_State *L) { return lsw_pose(L, &lsw_class_obstacle); }
 
 static int meth_follow(lua_State *L) {
   return lsw_follow(L, &lsw_class_obstacle, "obstacle:follow");
 }
 
-/* obstacle:get() -> a table of its rows, as it is now */
+/* obstacle:get() -> a table of its present parameters */
 static int meth_get(lua_State *L) {
   sw_obstacle_args args;
   const lsw_self o = check(L);
@@ -61,8 +62,8 @@ static int given(lua_State *L, const char *name) {
   return there;
 }
 
-/* obstacle:set{ friction =, restitution =, at =, ... }: from now on. Friction given alone also sets
- * the kinetic friction. */
+/* obstacle:set{ friction =, restitution =, at =, ... }: changes its parameters. Friction alone also
+ * sets the kinetic friction. */
 static int meth_set(lua_State *L) {
   sw_obstacle_args args;
   const lsw_self o = check(L);
@@ -85,11 +86,11 @@ static int meth_remove(lua_State *L) {
   return lsw_order(L, &lsw_class_obstacle, sw_scene_remove_obstacle);
 }
 
-/* obstacle:log() -> flat rows of 5: t, force, the time up to t that it is the mean of (0 at an
- * equilibrium) [s, N, s]; number of rows. */
+/* obstacle:log() -> flat rows of 5: t [s], force [N], span [s]; number of rows. The force is the
+ * mean over the span up to t; span 0: an equilibrium. */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_obstacle, SW_LOG_OBSTACLE_SIZE); }
 
-/* obstacle.shape: the shape at the origin, in its own axes. */
+/* obstacle.shape: the shape in its own axes, at the origin. */
 static int prop_shape(lua_State *L) {
   sw_shape *shape;
   const lsw_self o = check(L);

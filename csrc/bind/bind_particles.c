@@ -63,7 +63,8 @@ static int push_copy(lua_State *L, int velocities) {
   return 1;
 }
 
-/* Flat {x1, y1, z1, x2, ...} of all particles [m]; their velocities [m/s]. */
+/* object:positions(), object:velocities() -> flat {x1, y1, z1, x2, ...} of all particles [m],
+ * [m/s] */
 static int meth_positions(lua_State *L) { return push_copy(L, 0); }
 static int meth_velocities(lua_State *L) { return push_copy(L, 1); }
 
@@ -83,7 +84,8 @@ static int meth_particle(lua_State *L) {
   return 2;
 }
 
-/* object:links() -> flat lists of all links: force pulling [N], strain [-], plastic strain [-] */
+/* object:links() -> three flat lists, one number for each link: pulling force [N], strain [-],
+ * plastic strain [-] */
 static int meth_links(lua_State *L) {
   lsw_self p;
   const size_t n = info_of(L, &p).links;
@@ -93,7 +95,7 @@ static int meth_links(lua_State *L) {
   return 3;
 }
 
-/* object:energy() -> { kinetic =, stretch =, ... } of it alone [J] */
+/* object:energy() -> { kinetic =, stretch =, ... } of this object alone [J] */
 static int meth_energy(lua_State *L) {
   lsw_self p;
   sw_energy e;
@@ -103,7 +105,7 @@ static int meth_energy(lua_State *L) {
   return 1;
 }
 
-/* A flat list of three numbers for each particle. */
+/* Sets all velocities from the flat list at 2, three numbers for each particle. */
 static int set_all(lua_State *L, lsw_self p, size_t count) {
   const size_t n = 3 * count;
   if (lua_rawlen(L, 2) != n)
@@ -121,8 +123,8 @@ static int set_all(lua_State *L, lsw_self p, size_t count) {
   return 0;
 }
 
-/* object:set_velocity(v [, omega [, about]]) moves it as a rigid body; with a flat list of all
- * velocities each particle [m/s]. */
+/* object:set_velocity(v [, omega [, about]]) moves the object as a rigid body;
+ * object:set_velocity(flat list) sets the velocity of each particle [m/s]. */
 static int meth_set_velocity(lua_State *L) {
   lsw_self p;
   const size_t count = info_of(L, &p).particles;
@@ -130,7 +132,7 @@ static int meth_set_velocity(lua_State *L) {
   return lsw_set_velocity(L, &lsw_class_particles);
 }
 
-/* --- what it is ----------------------------------------------------------------- */
+/* --- the class ------------------------------------------------------------------ */
 
 static sw_particles_info info(lua_State *L) {
   lsw_self p;

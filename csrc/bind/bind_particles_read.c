@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lists of scene:particles. Each takes single parts, as { i, j, k = 100 }, and whole groups,
- * as { pairs = { i1, j1, i2, j2, ... }, k = 100 }: large objects are read fast that way. */
+/* Reads the lists of scene:particles. An entry is a single part, as { i, j, k = 100 }, or a group
+ * of parts, as { pairs = { i1, j1, i2, j2, ... }, k = 100 }. Groups make large objects fast to
+ * read. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 
 static const size_t MOST_NUMBERS = 800000000; /* in one list [-] */
 
-/* An array that a new userdata on top of the stack owns. */
+/* Returns a new array; pushes the userdata that owns it. */
 static void *new_array(lua_State *L, size_t count, size_t size) {
   return lua_newuserdatauv(L, count * size + 1, 0);
 }
@@ -22,7 +23,7 @@ static size_t length_of(lua_State *L, int index, const char *what) {
   return n;
 }
 
-/* Item i (from 0) of the list at index: a number, finite where it must be. */
+/* Returns item i (from 0) of the list at index; raises unless it is a finite number. */
 static double number_at(lua_State *L, int index, size_t i, const char *what) {
   lsw_poll(L);
   lua_rawgeti(L, index, (lua_Integer)i + 1);
@@ -37,7 +38,7 @@ static double number_at(lua_State *L, int index, size_t i, const char *what) {
   return value;
 }
 
-/* The number of a particle there, from 0. */
+/* Returns item i of the list as the number of a particle, from 0. */
 static uint32_t particle_at(lua_State *L, int index, size_t i, const char *what) {
   int whole;
   lsw_poll(L);
@@ -100,11 +101,11 @@ static const double *read_masses(lua_State *L, int table, size_t count) {
 
 /* --- lists of parts --------------------------------------------------------------------- */
 
-/* One kind of entries: numbers of particles at 1, 2, ... or a group under a key, and values. */
+/* A kind of entry: numbers of particles at 1, 2, ... or a group under a key, and values. */
 typedef struct kind {
-  const char *what;     /* "links" */
-  const char *group[2]; /* keys of groups, and how many particles an item has in each */
-  size_t size[2];
+  const char *what;      /* "links" */
+  const char *group[2];  /* keys of groups */
+  size_t size[2];        /* particles of a part in each group */
   const char *values[5]; /* keys of values */
   double usual[4];       /* NAN: may be missing, HUGE_VAL: required */
   void (*store)(void *out, size_t i, const uint32_t *node, size_t count, const double *values);
@@ -129,7 +130,8 @@ static void check_keys(lua_State *L, const kind *k, int entry, size_t number) {
   }
 }
 
-/* Which group the entry on top of the stack is, its list pushed; -1: a single part. */
+/* Returns the number of the entry's group and pushes the group's list; for a single part returns -1
+ * and pushes the entry. */
 static int group_of(lua_State *L, const kind *k, int entry) {
   for (int g = 0; g < 2 && k->group[g]; g++) {
     if (lua_getfield(L, entry, k->group[g]) != LUA_TNIL) return g;
@@ -139,8 +141,8 @@ static int group_of(lua_State *L, const kind *k, int entry) {
   return -1;
 }
 
-/* Number of parts that an entry stands for, and of particles in each; leaves the values of
- * group_of on the stack. */
+/* Returns the number of parts in an entry; *size: particles of each. Pushes the list of
+ * group_of. */
 static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, size_t *size) {
   if (!lua_istable(L, entry))
     luaL_error(L, "particles: %s, entry %d, must be a table, got %s", k->what, (int)number + 1,
@@ -158,7 +160,7 @@ static size_t parts_of(lua_State *L, const kind *k, int entry, size_t number, si
   return n / *size;
 }
 
-/* Values of an entry: pushes what is under each key, a number or a list of count. */
+/* Pushes the value under each key of the entry: a number, a list of count numbers, or nil. */
 static void open_values(lua_State *L, const kind *k, int entry, size_t number, size_t count) {
   for (int v = 0; v < MOST_VALUES && k->values[v]; v++) {
     const int type = lua_getfield(L, entry, k->values[v]);
@@ -191,14 +193,15 @@ static void read_entry(lua_State *L, const kind *k, int entry, size_t number, vo
       values[v] = type == LUA_TNIL      ? k->usual[v]
                   : type == LUA_TNUMBER ? lua_tonumber(L, list + 1 + v)
                                         : number_at(L, list + 1 + v, i, k->values[v]);
-      if (type == LUA_TNUMBER && isnan(values[v])) values[v] = HUGE_VAL; /* not: not given */
+      if (type == LUA_TNUMBER && isnan(values[v])) values[v] = HUGE_VAL; /* NAN means not given */
     }
     k->store(out, (*at)++, node, size, values);
   }
   lua_settop(L, list - 1);
 }
 
-/* The parts under the kind's name as an array of items of a size; NULL without any. */
+/* Returns the parts under the kind's name as an array of items of this size [B]; NULL without the
+ * key. */
 static const void *read_list(lua_State *L, int table, const kind *k, size_t item, size_t *count) {
   *count = 0;
   if (lua_getfield(L, table, k->what) == LUA_TNIL) return NULL;
@@ -220,7 +223,7 @@ static const void *read_list(lua_State *L, int table, const kind *k, size_t item
   return out;
 }
 
-/* --- what there is ---------------------------------------------------------------------- */
+/* --- kinds of parts --------------------------------------------------------------------- */
 
 static void store_link(void *out, size_t i, const uint32_t *node, size_t count,
                        const double *values) {
@@ -245,7 +248,7 @@ static void store_element(void *out, size_t i, const uint32_t *node, size_t coun
   *e = (sw_particles_element){.count = (uint32_t)count, .mu = values[0], .lambda = values[1]};
   memcpy(e->node, node, count * sizeof *node);
   if (isnan(values[2])) return;
-  e->mu = values[2] / (2 * (1 + values[3])); /* E and nu: Lame's constants */
+  e->mu = values[2] / (2 * (1 + values[3])); /* Lame's constants from E and nu */
   e->lambda = values[2] * values[3] / ((1 + values[3]) * (1 - 2 * values[3]));
 }
 
@@ -268,7 +271,7 @@ static const kind elements = {.what = "elements",
                               .usual = {NAN, NAN, NAN, NAN},
                               .store = store_element};
 
-/* Elements have mu and lambda, or E and nu. */
+/* Raises unless each element has mu and lambda, or E and nu. */
 static void check_materials(lua_State *L, const sw_particles_element *e, size_t count) {
   for (size_t i = 0; i < count; i++)
     if (isnan(e[i].mu) || isnan(e[i].lambda))
@@ -276,7 +279,7 @@ static void check_materials(lua_State *L, const sw_particles_element *e, size_t 
                  (int)i + 1);
 }
 
-/* Edges {i, j} and triangles {i, j, k}, which become their edges. */
+/* Reads the surface: edges {i, j}, and triangles {i, j, k}, of which the three edges are kept. */
 static void read_surface(lua_State *L, int table, sw_particles_parts *p) {
   if (lua_getfield(L, table, "surface") == LUA_TNIL) return;
   if (lua_type(L, -1) == LUA_TSTRING) {

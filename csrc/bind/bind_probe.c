@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene:evaluate: energy, force and stiffness of one kind of force on a wire. */
+/* scene:evaluate: energy, force and stiffness of each kind of force on a wire. */
 #include <stddef.h>
 
 #include "bind/child.h"
@@ -23,7 +23,7 @@ static const sw_param rows[] = {
 };
 static const sw_params params = SW_PARAMS("scene:evaluate", rows);
 
-/* The numbers under key as an array that a new userdata owns; NULL without the
+/* Returns the numbers under key as an array that a new userdata owns; NULL without the
  * key. Leaves the userdata (or nil) on the stack. */
 static const double *read_flat(lua_State *L, int table, const char *key, size_t n) {
   if (table == 0 || lua_getfield(L, table, key) == LUA_TNIL) return NULL;

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.registry(): every registry and parameter table as Lua tables, for help,
+/* core.registry() -> all registries and parameter tables as Lua tables, for help,
  * the reference pages and the contract specs. */
 #include "bind/child.h"
-
-/* Each pushes one entry and leaves it on the stack. */
 
 static void set_params(lua_State *L, const sw_params *params) {
   lsw_push_params(L, params);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* wire:remodel{ model =, ... }: another model for a wire in mid-run. */
+/* wire:remodel{ model =, ... }: changes a wire's model during a run. */
 #include <math.h>
 
 #include "bind/child.h"
 
-/* The table of arguments without those that the wire keeps; `model` is required. */
+/* Reads the table of arguments and returns the model. There are no keys for what the wire keeps;
+ * `model` is required. */
 static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *mesh,
                           double region[2]) {
   lsw_section sections[4] = {{&sw_remodel_params, args}};
@@ -29,8 +30,8 @@ static int read_arguments(lua_State *L, sw_wire_args *args, sw_wire_mesh_args *m
   return model;
 }
 
-/* -> { energy_before, energy_after, energy_change [J], before, after = { linear [N s], angular
- * [N m s] about the place `about` [m] } } */
+/* wire:remodel{...} -> { energy_before, energy_after, energy_change [J], about [m], before,
+ * after = momentum { linear [N s], angular about the point `about` [N m s] } } */
 int lsw_wire_remodel(lua_State *L) {
   sw_wire_args args = {0};
   sw_wire_mesh_args mesh;

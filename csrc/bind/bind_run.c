@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs of a scene, and its settling. */
+/* Runs and settles a scene. */
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 
-/* Raise unless the table holds valid run parameters. */
+/* core.check_run{...}: raises unless the parameters of scene:run are valid. */
 static int mod_check_run(lua_State *L) {
   sw_run_args args;
   lsw_arguments(L, 1, "scene:run", &sw_run_params, &args);
   return 0;
 }
 
-/* Raise unless the table holds valid parameters of scene:settle. */
+/* core.check_settle{...}: raises unless the parameters of scene:settle are valid. */
 static int mod_check_settle(lua_State *L) {
   sw_settle_args args;
   lsw_arguments(L, 1, "scene:settle", &sw_settle_params, &args);
   return 0;
 }
 
-/* core.begin_run(scene[, wear]): extremes start anew; is the wear of wires to be kept? */
+/* core.begin_run(scene [, wear]): begins a run and resets extremes. wear: true = record the wear of
+ * wires. */
 static int mod_begin_run(lua_State *L) {
   LSW_DO(L, sw_scene_begin_run, lsw_check_scene(L), lua_toboolean(L, 2));
   return 0;
 }
 
-/* core.window(scene, obstacle or clamp) -> that of the scene's last run [s]. */
+/* core.window(scene, obstacle or clamp) -> window of the scene's last run [s]. */
 static int mod_window(lua_State *L) {
   const lsw_class *const classes[] = {&lsw_class_obstacle, &lsw_class_clamp};
   const sw_scene *scene = NULL;
@@ -33,13 +34,14 @@ static int mod_window(lua_State *L) {
   return 1;
 }
 
-/* Of an observer: where the function is on the stack. */
+/* The Lua function of an observer. */
 typedef struct watcher {
   lua_State *L;
-  int function;
+  int function; /* its stack index */
 } watcher;
 
-/* Runs protected: the function, the observer -> stop, next time, next time on the clock. */
+/* Calls the observer's function, in protected mode. Arguments: the function, the observer. The
+ * function returns stop, the next time [s] and the next time on the wall clock [s]. */
 static int call_observer(lua_State *L) {
   sw_observer *o = lua_touserdata(L, 2);
   lua_pushvalue(L, 1);
@@ -60,9 +62,9 @@ static sw_status look(sw_observer *o, sw_error *err) {
   return lsw_motion_keep_error(w->L, err);
 }
 
-/* scene:advance({...}, until[, look, at, wall]) -> report. The clock's exact end is `until` [s].
- * look() is called at the first step's end from time at on, or once core.clock() has come to wall;
- * returns stop, and the next at and wall [s]. */
+/* scene:advance({...}, until [, look, at, wall]) -> report. Runs until exactly the time `until`
+ * [s]. Calls look() at the end of the first step from time `at` on [s], or when core.clock() has
+ * reached wall [s]. look returns stop, the next at, and the next wall. */
 int lsw_scene_advance(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_run_args args = {0};
@@ -93,7 +95,7 @@ int lsw_scene_advance(lua_State *L) {
   return 1;
 }
 
-/* scene:settle{ tolerance =, max_iterations = } -> result */
+/* scene:settle{ tolerance =, max_iterations = } -> report */
 int lsw_scene_settle(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_settle_args args = {.stays = 0}; /* not a row */

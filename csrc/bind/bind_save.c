@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes as strings, which the Lua side writes to files and reads from them, and the numbers by
- * which objects are found again. */
+/* Saves scenes to strings and loads them from strings, which the Lua side writes to files and reads
+ * from files. Numbers objects, so that they are found again in a loaded scene. */
 #include <stdint.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ static int push_block(lua_State *L) {
 }
 
 static int give_block(lua_State *L, block *b) {
-  lua_pushcfunction(L, push_block); /* protected: the block must be freed whatever happens */
+  lua_pushcfunction(L, push_block); /* protected, so that the block is always freed */
   lua_pushlightuserdata(L, b);
   const int status = lua_pcall(L, 1, 1, 0);
   sw_free(b->bytes);
@@ -58,7 +58,7 @@ static int mod_load(lua_State *L) {
   return 1;
 }
 
-/* core.resume(scene, string) */
+/* core.resume(scene, string): continues the saved run in this scene */
 static int mod_resume(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   size_t size;
@@ -69,7 +69,7 @@ static int mod_resume(lua_State *L) {
   return 0;
 }
 
-/* core.items(scene) -> { "wire 'a'", sum, "box 'b'", sum, ... } */
+/* core.items(scene) -> { "wire 'a'", checksum, "box 'b'", checksum, ... } */
 static int mod_items(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   lua_newtable(L);
@@ -88,7 +88,8 @@ static const lsw_class *const children[] = {
     &lsw_class_force, &lsw_class_join,      &lsw_class_tool};
 enum { CHILDREN = sizeof children / sizeof children[0] };
 
-/* Its slot; of a wire or an object of particles, whose slots change, its number in frames. */
+/* The object's slot; for a wire or an object of particles, whose slots change, its number in
+ * frames. */
 static size_t slot_of(const lsw_class *c, const lsw_child *child) {
   const sw_scene *scene = ((const lsw_scene_handle *)child->h.object)->h.object;
   if (!scene || c->kind != SW_OF_BODY) return child->id.slot;
@@ -96,7 +97,7 @@ static size_t slot_of(const lsw_class *c, const lsw_child *child) {
   return number == SIZE_MAX ? UINT32_MAX : number;
 }
 
-/* core.number(object) -> class, slot, generation, scene; nothing if it is no object of a scene */
+/* core.number(object) -> class, slot, generation, scene; nothing for any other value */
 static int mod_number(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
   for (int k = 0; c && k < CHILDREN; k++) {
@@ -111,8 +112,8 @@ static int mod_number(lua_State *L) {
   return 0;
 }
 
-/* core.numbered(scene, class, slot, generation) -> the object of that number, which the scene
- * may not have */
+/* core.numbered(scene, class, slot, generation) -> the object with these numbers. It is not checked
+ * whether the scene has it. */
 static int mod_numbered(lua_State *L) {
   lsw_check_scene(L);
   const char *name = luaL_checkstring(L, 2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lua class scene: making, snapshots, what it has. */
+/* Lua class scene: making, reading and snapshots of scenes. */
 #include <time.h>
 
 #include "bind/child.h"
@@ -8,7 +8,7 @@ lsw_handle *lsw_new_scene(lua_State *L) {
   lsw_scene_handle *h = lsw_new(L, &lsw_class_scene, 2);
   lua_newtable(L); /* functions kept as forces */
   lua_setiuservalue(L, -2, 1);
-  lua_newtable(L); /* what the Lua side keeps about the scene */
+  lua_newtable(L); /* the Lua side's data of the scene */
   lua_setiuservalue(L, -2, 2);
   return &h->h;
 }
@@ -28,7 +28,7 @@ static void close_scene(lsw_handle *h) { sw_scene_free(h->object); }
 
 static int scene_busy(const lsw_handle *h) { return sw_scene_busy(h->object); }
 
-/* Any object -> the table in which the Lua side keeps what belongs to it. */
+/* core.data(object) -> the table in which the Lua side keeps data of the object */
 static int mod_data(lua_State *L) {
   luaL_checktype(L, 1, LUA_TUSERDATA);
   if (lua_getiuservalue(L, 1, 2) == LUA_TTABLE) return 1;
@@ -39,7 +39,7 @@ static int mod_data(lua_State *L) {
   return 1;
 }
 
-/* core.type(x) -> the class of one of our objects, or nil */
+/* core.type(x) -> name of the class of x; nil if x is not an object of this library */
 static int mod_type(lua_State *L) {
   luaL_checkany(L, 1);
   const lsw_class *c = lsw_class_of(L, 1);
@@ -47,14 +47,14 @@ static int mod_type(lua_State *L) {
   return 1;
 }
 
-/* core.busy(scene): is it inside a step or a function of time? */
+/* core.busy(scene) -> true inside a step or a function of time */
 static int mod_busy(lua_State *L) {
   lua_pushboolean(L, sw_scene_busy(lsw_check_scene(L)));
   return 1;
 }
 
-/* core.exists(object): does its scene still know it? What was released counts, what was taken away
- * does not. */
+/* core.exists(object) -> true if its scene still has the object. Released holds, forces and joins
+ * and removed obstacles count; wires, particles and tools that were taken away do not. */
 static int mod_exists(lua_State *L) {
   const lsw_class *c = lsw_class_of(L, 1);
   const lsw_handle *h = lua_touserdata(L, 1);
@@ -76,18 +76,18 @@ static int mod_interrupted(lua_State *L) { return lua_pushboolean(L, sw_interrup
 /* Monotonic wall clock [s]. */
 static int mod_clock(lua_State *L) { return lua_pushnumber(L, sw_wall_clock()), 1; }
 
-/* core.sleep(s): do nothing for so long; Ctrl-C ends it with an error [s]. */
+/* core.sleep(s): waits this long [s]; Ctrl-C ends it with an error. */
 static int mod_sleep(lua_State *L) {
   const double end = sw_wall_clock() + lsw_number(L, 1, "sleep: the time", "s");
   for (double left; (left = end - sw_wall_clock()) > 0;) {
-    const double part = left < 0.02 ? left : 0.02; /* the signal may come to another thread */
+    const double part = left < 0.02 ? left : 0.02; /* another thread may get the signal: poll */
     nanosleep(&(struct timespec){0, (long)(1e9 * part)}, NULL);
     lsw_poll(L);
   }
   return 0;
 }
 
-/* nearest(word, names) -> the name that word may be a typo of, or nil */
+/* core.nearest(word, names) -> the name that word may be a misspelling of, or nil */
 static int mod_nearest(lua_State *L) {
   const char *names[128];
   size_t count = 0;
@@ -101,7 +101,7 @@ static int mod_nearest(lua_State *L) {
   return 1;
 }
 
-/* core.remesh(scene, { segments of each wire }) */
+/* core.remesh(scene, { segments of each wire }): gives the wires new meshes */
 static int mod_remesh(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   luaL_checktype(L, 2, LUA_TTABLE);
@@ -117,7 +117,8 @@ static int mod_remesh(lua_State *L) {
   return 0;
 }
 
-/* core.came_from(wire, before = flat [m], span [s]): the speed with which it came from there. */
+/* core.came_from(wire, before = flat positions [m], span [s]): sets the velocity with which the
+ * wire came from these positions in the time span. */
 static int mod_came_from(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   luaL_checktype(L, 2, LUA_TTABLE);
@@ -134,7 +135,8 @@ static int mod_came_from(lua_State *L) {
   return 0;
 }
 
-/* core.redraw(wire, rolls, EA, EI, GJ): a rod with other stiffnesses (factors), or that rolls. */
+/* core.redraw(wire, rolls, EA, EI, GJ): multiplies a rod's stiffnesses by the factors EA, EI, GJ
+ * (default 1) and sets whether friction rolls it. */
 static int mod_redraw(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_redrawing as = {.rolls = lua_toboolean(L, 2),
@@ -145,7 +147,7 @@ static int mod_redraw(lua_State *L) {
   return 0;
 }
 
-/* core.segments(wire): even ones of its mesh, before holds added nodes. */
+/* core.segments(wire) -> number of even segments of its mesh, without nodes added by holds */
 static int mod_segments(lua_State *L) {
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
@@ -170,7 +172,7 @@ static int meth_stable_dt(lua_State *L) {
   return 1;
 }
 
-/* scene:gravity() -> vector; scene:gravity(vector) sets [m/s2] */
+/* scene:gravity() -> vector; scene:gravity(vector) sets it [m/s2] */
 static int meth_gravity(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   if (lua_gettop(L) > 1) {

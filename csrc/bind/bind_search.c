@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.search(method, start, constraints, step, tolerance, seed) -> search; search:ask() -> a list
- * of places, or nil, why it has ended, was it as near as wanted; search:tell(value, list of what
- * breaks constraints); search:close(). core.eigen(list of n * n numbers, n) -> values, ascending;
- * vectors.
- */
+/* Search for a minimum and eigenvalues of a symmetric matrix, for Lua.
+ *
+ *   core.search(method, start, number of constraints, step, tolerance, seed) -> search
+ *   search:ask() -> next place as a list of numbers; or nil, reason of the end, reached the
+ *     tolerance?
+ *   search:tell(value, list of constraint violations); search:close()
+ *   core.eigen(flat list of n x n numbers, n) -> eigenvalues (ascending), list of eigenvectors */
 #include <lauxlib.h>
 #include <math.h>
 
@@ -11,11 +13,11 @@
 
 static const char SEARCH[] = "softworld.search";
 
-enum { MOST = 1000 }; /* rows of a matrix [-] */
+enum { MOST = 1000 }; /* most rows of a matrix [-] */
 
 typedef struct holder {
   sw_search *search;
-  size_t n, constraints; /* numbers in a place and of what may be broken [-] */
+  size_t n, constraints; /* parameters, constraints [-] */
 } holder;
 
 static holder *check(lua_State *L) {

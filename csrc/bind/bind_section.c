@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sections of wires that are meshes of particles: wire:section, wire:width,
+/* Read-outs of wires that are meshes of particles: wire:section, wire:width,
  * wire:contact_pressure, wire:von_mises. */
 #include <math.h>
 
 #include "bind/child.h"
 
-/* Stress of the material's E at each of the strains. */
+/* Sets the field stress: E times each strain [Pa]. */
 static void set_stress(lua_State *L, double E, const double *strain, size_t count) {
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; i < count; i++) {
@@ -15,12 +15,12 @@ static void set_stress(lua_State *L, double E, const double *strain, size_t coun
   lua_setfield(L, -2, "stress");
 }
 
-/* The width along up, where the wire does not go that way itself. */
+/* Sets the field height: the width along the vertical, unless the wire itself is vertical. */
 static void set_height(lua_State *L, lsw_self w, double s, sw_vec tangent) {
   const sw_vec g = sw_scene_gravity(w.scene);
   const sw_vec up = sw_unit_or(sw_neg(g), sw_v(0, 0, 1));
   double height;
-  if (fabs(sw_dot(up, tangent)) > 0.999) return; /* nothing across the wire points up */
+  if (fabs(sw_dot(up, tangent)) > 0.999) return; /* no direction across the wire points up */
   LSW_DO(L, sw_scene_wire_width, w.scene, w.id, s, up, &height);
   lsw_set_number(L, "height", height);
 }
@@ -75,7 +75,7 @@ int lsw_wire_width(lua_State *L) {
   return 1;
 }
 
-/* The place at index 2, which must be on the wire; NAN: none is given. */
+/* Returns the arc length at index 2, which must be on the wire; NAN if none is given. */
 static double read_place(lua_State *L, lsw_self w, const char *what) {
   sw_point_state any;
   if (lua_isnoneornil(L, 2)) return (double)NAN;
@@ -91,7 +91,7 @@ typedef struct pressed {
   double *x, *arc, *force, *normal, *area; /* [m], [m], [N], [N], [m2] */
 } pressed;
 
-/* Arrays in a userdata on the stack. */
+/* Returns the contact forces on all particles; pushes the userdata that owns the arrays. */
 static pressed read_pressed(lua_State *L, lsw_self w) {
   pressed p;
   LSW_DO(L, sw_scene_wire_particles, w.scene, w.id, &p.n);
@@ -103,7 +103,7 @@ static pressed read_pressed(lua_State *L, lsw_self w) {
   return p;
 }
 
-/* Arc length of the particles nearest to s. */
+/* Arc length of the particle nearest to s [m]. */
 static double nearest(const pressed *p, double s) {
   double best = p->arc[0];
   for (size_t i = 1; i < p->n; i++)
@@ -122,7 +122,8 @@ static void push_particle(lua_State *L, const pressed *p, size_t i) {
   lsw_set_number(L, "pressure", p->normal[i] / p->area[i]);
 }
 
-/* wire:contact_pressure([s]) -> list of the particles that obstacles press, .largest [Pa] */
+/* wire:contact_pressure([s]) -> list of the particles that obstacles press; .largest pressure [Pa],
+ * .force: sum of the forces [N] */
 int lsw_wire_contact_pressure(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const double s = read_place(L, w, "wire:contact_pressure: s");
@@ -146,7 +147,7 @@ int lsw_wire_contact_pressure(lua_State *L) {
 
 /* --- solid elements -------------------------------------------------------------------- */
 
-/* wire:von_mises([s]) -> list of the elements' stress, .largest [Pa] and where */
+/* wire:von_mises([s]) -> list of the elements' stress; .largest [Pa], .s and .at: where [m] */
 int lsw_wire_von_mises(lua_State *L) {
   size_t n, best = 0;
   lua_Integer count = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shapes in Lua: core.shape{ shape = "box", size = {1, 2, 3} } [m]. */
+/* Lua class shape: core.shape{ shape = "box", size = {1, 2, 3} } [m]. */
 #include "bind/bind_shape.h"
 
 #include <stddef.h>
@@ -19,9 +19,9 @@ typedef struct kind_args {
   int kind; /* index into sw_shape_kinds() */
 } kind_args;
 
-enum { MOST_SECTIONS = 6 }; /* the kind, its rows and the caller's */
+enum { MOST_SECTIONS = 6 }; /* of the kind, its rows, and the caller's at most 4 */
 
-/* The kind of the table at index, as a class. */
+/* Returns the class of the shape that the table at index names. */
 static const sw_shape_class *read_kind(lua_State *L, int index, const sw_params *params) {
   kind_args args;
   if (!lua_istable(L, index))
@@ -34,8 +34,8 @@ static const sw_shape_class *read_kind(lua_State *L, int index, const sw_params 
   return sw_shape_class_find(sw_shape_kinds()[args.kind]);
 }
 
-/* The points at the top of the stack as doubles in a userdata, which replaces
- * them: numbers one after the other, or tables of three. */
+/* Reads the points at the top of the stack: a flat list of numbers, or tables of three. The
+ * userdata that owns the doubles replaces them on the stack. */
 static void read_points(lua_State *L, const char *object, sw_shape_source *source) {
   if (!lua_istable(L, -1))
     luaL_error(L, "%s: points must be a table of numbers [m], got %s", object,
@@ -74,7 +74,7 @@ static void read_bytes(lua_State *L, const char *object, sw_shape_source *source
   *source = (sw_shape_source){.bytes = bytes, .byte_count = n};
 }
 
-/* Arguments that rows cannot hold (points, files); one value stays on the stack. */
+/* Reads arguments that rows cannot hold (points, data of a file); pushes one value. */
 static void read_source(lua_State *L, int index, const sw_params *params, sw_shape_source *source) {
   *source = (sw_shape_source){0};
   if (sw_params_find(params, "points")) {
@@ -170,7 +170,7 @@ static void push_closest(lua_State *L, const sw_closest *c) {
 static int meth_kind(lua_State *L) { return lua_pushstring(L, sw_shape_kind(check_shape(L))), 1; }
 
 /* shape:distance(p, reach) -> gap [m], normal, point [m], feature; nothing
- * when it is not below reach (default: any distance). */
+ * if the gap is not below reach (default: any distance). */
 static int meth_distance(lua_State *L) {
   const sw_shape *shape = check_shape(L);
   sw_closest c;
@@ -200,7 +200,7 @@ static int meth_segment(lua_State *L) {
   return 1;
 }
 
-/* shape:sweep(a0, b0, a1, b1, margin) -> moment in [0, 1] and contact, or nil. */
+/* shape:sweep(a0, b0, a1, b1, margin) -> time of the first contact in [0, 1], contact; or nil. */
 static int meth_sweep(lua_State *L) {
   const sw_shape *shape = check_shape(L);
   sw_closest c;
@@ -239,8 +239,8 @@ static int push_triangles(lua_State *L) {
   return 2;
 }
 
-/* shape:triangles([around]) -> flat vertices [m], flat indices from 1; round shapes with so many
- * vertices around (32), a multiple of 4. */
+/* shape:triangles([around]) -> flat vertices [m], flat indices from 1. around: number of vertices
+ * round a round shape, a multiple of 4 (default 32). */
 static int meth_triangles(lua_State *L) {
   enum { LEAST = 8, MOST = 1024, USUAL = 32 };
   drawn made = {check_shape(L), {0}};

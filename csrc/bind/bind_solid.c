@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.solid: one solid element, for tests of it and by itself. */
+/* core.solid: evaluates one solid element, for specs. */
 #include "bind/child.h"
 
 enum { NUMBERS = 3 * SW_SOLID_NODES };
@@ -14,9 +14,9 @@ static void read_places(lua_State *L, int index, int n, double *out) {
   }
 }
 
-/* solid(rest, mu, lambda, x [, semidefinite [, dx]]) -> energy, gradient, second derivative, J,
- * stress xx xy xz yy yz zz, von Mises stress, share of dx that is allowed. Lists are flat, 3
- * numbers a particle; of 6 or 8. */
+/* solid(rest, mu, lambda, x [, semidefinite [, dx]]) -> energy [J], gradient, second derivative, J,
+ * stress xx xy xz yy yz zz, von Mises stress; with dx also the allowed share of this step. Lists
+ * are flat, 3 numbers a particle; an element has 6 or 8 particles. */
 static int mod_solid(lua_State *L) {
   sw_solid e;
   double rest[NUMBERS], x[NUMBERS], dx[NUMBERS], g[NUMBERS], H[NUMBERS * NUMBERS];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lua class tool and scene:tool: a gripper's frame, jaws and pads (see grip/tool.h). Users meet
- * it as scene:gripper. */
+/* Lua class tool and scene:tool: a gripper's frame, jaws and pads (see grip/tool.h). Users call it
+ * through scene:gripper. */
 #include <math.h>
 
 #include "bind/child.h"
@@ -30,7 +30,8 @@ int lsw_scene_tool(lua_State *L) {
 
 static lsw_self check(lua_State *L) { return lsw_check_self(L, &lsw_class_tool); }
 
-/* tool:pad(obstacle, finger, opens): the obstacle goes with the tool from now on. */
+/* tool:pad(obstacle, finger, opens): attaches the obstacle to the tool, as a pad of this finger
+ * (from 1; 0: another part of the tool). opens: its move in the tool's axes per opening [m/m]. */
 static int meth_pad(lua_State *L) {
   const lsw_self t = check(L);
   const sw_handle o = lsw_check_child_of(L, 2, &lsw_class_obstacle, t.scene, "tool:pad");
@@ -81,7 +82,7 @@ static int meth_jaws(lua_State *L) {
   return 0;
 }
 
-/* tool:watch(slip [m], stops): slip beyond it is an event, which may end a run. */
+/* tool:watch(slip [m], stops): a larger slip is an event; stops = true: it ends the run. */
 static int meth_watch(lua_State *L) {
   const lsw_self t = check(L);
   const double slip = lsw_number(L, 2, "tool:watch: slip", "m");
@@ -91,8 +92,9 @@ static int meth_watch(lua_State *L) {
 
 static const char *const statuses[] = {"rests", "moves", "holds", "stopped", "empty"};
 
-/* tool:state() -> { opening, jaws, squeeze, normal, margin, sliding, slip, slipped, place } and,
- * when it slipped, slip_time, slip_place. */
+/* tool:state() -> { opening, jaws, squeeze, normal, most, margin, sliding, slip, slipped, place,
+ * frozen }; lost_time if the grip was lost; crash_... after a crash; slip_time and slip_place if it
+ * slipped. */
 static int meth_state(lua_State *L) {
   sw_tool_state now;
   const lsw_self t = check(L);
@@ -121,7 +123,7 @@ static int meth_state(lua_State *L) {
   return 1;
 }
 
-/* tool:force([finger]), tool:moment([point [, finger]]): on wires [N], [N m]. */
+/* tool:force([finger]), tool:moment([point [, finger]]): load on wires [N], [N m]. */
 static lsw_load load_of(lua_State *L, int point, int finger) {
   lsw_load on;
   sw_vec about;
@@ -144,12 +146,12 @@ static int meth_force(lua_State *L) { return lsw_push_vector(L, load_of(L, 0, 2)
 static int meth_moment(lua_State *L) { return lsw_push_vector(L, load_of(L, 2, 3).moment), 1; }
 
 /* tool:log() -> flat rows of 15: t, force, moment, centre, span, opening, squeeze, margin, slip;
- * number of rows. span: the time up to t that the force is the mean of; below 0: of the step at
- * whose end it is the force; 0 at an equilibrium [s]. */
+ * number of rows. span [s] above 0: the force is the mean over this time up to t; below 0: the
+ * force at the end of a step of this length; 0: an equilibrium. */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_tool, SW_LOG_TOOL_SIZE); }
 
-/* tool:touches() -> { { finger, at, force (in the tool's axes), normal, s, slid, wire = slot,
- * wire_name }, ... } */
+/* tool:touches() -> { { finger, at, force (both in the tool's axes), normal, s, slid, wire = number
+ * in frames from 0, wire_name }, ... } */
 static int meth_touches(lua_State *L) {
   size_t count;
   lua_Integer found = 0;
@@ -186,8 +188,8 @@ static int push_report(lua_State *L, const sw_freeze_report *r) {
   return 1;
 }
 
-/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N],
- * moment [N m] of the tool before, before, after = momentum { linear, angular } } */
+/* tool:freeze(wire), tool:thaw() -> { s1, s2 [m], energy_before, energy_after [J], force [N] and
+ * moment [N m] of the tool before the change, before, after = momentum { linear, angular } } */
 static int meth_freeze(lua_State *L) {
   sw_freeze_report r;
   const lsw_self t = check(L);
@@ -203,7 +205,7 @@ static int meth_thaw(lua_State *L) {
   return push_report(L, &r);
 }
 
-/* tool:limit(margin): at which a frozen grip is lost. */
+/* tool:limit(margin): sets the margin at which a frozen grip is lost. */
 static int meth_limit(lua_State *L) {
   const lsw_self t = check(L);
   const double margin = lsw_number(L, 2, "tool:limit: margin", "-");

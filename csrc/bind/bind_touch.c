@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What touches: scene:wire_contact, scene:touches, scene:contacts, scene:penetration. */
+/* Contacts of a scene: scene:wire_contact, scene:touches, scene:contacts, scene:penetration. */
 #include "bind/child.h"
 
-/* One wire or a list of them, at the top -> handles (in a userdata) and their number. */
+/* Returns the handles of the wire, or the list of wires, at the top of the stack; pushes the
+ * userdata that owns them. */
 static sw_handle *read_wires(lua_State *L, const sw_scene *scene, size_t *count) {
   static const char what[] = "scene:wire_contact: between";
   const int at = lua_gettop(L);

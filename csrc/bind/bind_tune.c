@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* core.minimise: the smallest value of a Lua function; core.quasi: points that fill a cube evenly.
- */
+/* core.minimise: finds the minimum of a Lua function. core.quasi: quasi-random points, which fill a
+ * cube evenly. core.normal_below, core.normal_at: the normal distribution. */
 #include <math.h>
 #include <string.h>
 
 #include "bind/bind_motion.h"
 #include "bind/child.h"
 
-/* The function is at stack index 2 of L, at which no one else looks. */
+/* A call of the objective. Its function is at stack index 2 of L. */
 typedef struct caller {
   lua_State *L;
   int list; /* the function takes a list, not a number */
@@ -45,8 +45,8 @@ static sw_status objective(void *user, const double *x, size_t n, double *value,
   return SW_OK;
 }
 
-/* The number or list under key of the table at index 1 as out[0..]; returns how
- * many, 0 without the key. */
+/* Reads the number or list under key of the table at index 1 into out; returns how
+ * many numbers, 0 without the key. */
 static size_t read_numbers(lua_State *L, const char *key, double *out, int *list) {
   const char *what = lua_pushfstring(L, "tune.minimise: %s", key);
   size_t n = 0;
@@ -135,7 +135,7 @@ static int mod_quasi(lua_State *L) {
   return 1;
 }
 
-/* normal_below(x) -> share of normally distributed numbers below it; normal_at(share) -> x */
+/* normal_below(x) -> share of normally distributed numbers below x; normal_at(share) -> x */
 static int mod_normal_below(lua_State *L) {
   lua_pushnumber(L, sw_normal_below(luaL_checknumber(L, 1)));
   return 1;

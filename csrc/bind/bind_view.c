@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The server of pages for Lua: core.serve(port) -> server with port, token; server:page(html,
- * policy), server:put(slot, bytes), server:take() -> text, page; server:pages() -> open, waiting;
- * server:wait(s), server:stop(). core.film_now(scene, values) -> bytes of the state as it is. */
+/* The server of live views for Lua.
+ *
+ *   core.serve(port) -> server, port, token
+ *   server:page(html, policy); server:put(slot, bytes); server:wait(s); server:stop()
+ *   server:take() -> text, page; nothing if there is no message
+ *   server:pages() -> number of open pages, number of these that wait for a frame
+ *   core.film_now(scene, values) -> bytes of a film of the present state, number of frames */
 #include <string.h>
 
 #include "bind/child.h"
@@ -9,7 +13,7 @@
 static const char SERVER[] = "softworld.server";
 static const char FILM[] = "softworld.film_now";
 
-static int running; /* servers, each with threads of its own */
+static int running; /* number of servers; each has its own threads */
 
 int lsw_servers(void) { return running; }
 
@@ -71,7 +75,7 @@ static int meth_pages(lua_State *L) {
   return 2;
 }
 
-/* Until something happens; Ctrl-C ends it with an error. */
+/* Waits until something happens, at most this long [s]; Ctrl-C ends it with an error. */
 static int meth_wait(lua_State *L) {
   sw_server *server = check(L);
   sw_server_wait(server, luaL_checknumber(L, 2));

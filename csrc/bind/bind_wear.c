@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run did to its wires, place by place; and the count of cycles alone, for specs. */
+/* Wear of wires in a run, place by place, and the rainflow count of load cycles, for specs. */
 #include "bind/child.h"
 
-/* A flat list of range, mean, number. */
+/* Pushes the cycles as a flat list of range, mean, number. */
 static int push_cycles(lua_State *L, const sw_cycle *list, size_t count) {
   _Static_assert(sizeof *list == 3 * sizeof(double), "a cycle is three numbers");
   lsw_push_flat(L, (const double *)list, 3 * count);
   return 1;
 }
 
-/* The wire at 1, and how many places of it are kept. */
+/* Returns the wire at index 1; *places: number of its places with a record. */
 static lsw_self wire_at(lua_State *L, size_t *places) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   LSW_DO(L, sw_scene_worn, w.scene, w.id, places);
   return w;
 }
 
-/* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }; nil where nothing is kept */
+/* core.worn(wire) -> { { s [m], rubbed [J/m], slid [N], side }, ... }; nothing without a record */
 static int mod_worn(lua_State *L) {
   size_t count;
   const lsw_self w = wire_at(L, &count);
@@ -35,8 +35,8 @@ static int mod_worn(lua_State *L) {
   return 1;
 }
 
-/* core.worn_sidewall(wire) -> largest pressure T/R where it touched [N/m], where [m], when [s]; nil
- * where nothing is kept */
+/* core.worn_sidewall(wire) -> largest pressure T/R where the wire touched something [N/m], where
+ * [m], when [s]; nothing without a record */
 static int mod_worn_sidewall(lua_State *L) {
   size_t count;
   const lsw_self w = wire_at(L, &count);
@@ -46,9 +46,9 @@ static int mod_worn_sidewall(lua_State *L) {
   return 3;
 }
 
-/* core.worn_cycles(wire, place, signal) -> flat list of range, mean, number, and values of the
- * reversals among them that wait for their cycle; signal 0: the tension [N], others: the bend in
- * one of 12 directions over half a turn [1/m] */
+/* core.worn_cycles(wire, place, signal) -> flat list of range, mean, number; values of the
+ * reversals that still wait for the end of their cycle. signal 0: the tension [N]; 1 to 12: the
+ * bend in one of 12 directions over half a turn [1/m] */
 static int mod_worn_cycles(lua_State *L) {
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];
   size_t count;
@@ -63,7 +63,7 @@ static int mod_worn_cycles(lua_State *L) {
   return 2;
 }
 
-/* core.cycles(list) -> flat list of range, mean, number, of a history of load */
+/* core.cycles(list) -> flat list of range, mean, number of the cycles in a load history */
 static int mod_cycles(lua_State *L) {
   sw_cycles c = {.opened = 0};
   sw_cycle list[SW_CYCLES_KEPT + SW_CYCLES_OPEN];

@@ -13,8 +13,8 @@ int lsw_read_model(lua_State *L, int table) {
   return (int)lsw_word(L, "wire: there is no model", "", names, count);
 }
 
-/* EI = {EI1, EI2}: takes the second one and puts, as the arguments, a copy of the
- * table with the first one. NAN when EI is one number. */
+/* EI = {EI1, EI2}: returns EI2 and replaces the arguments by a copy of the table
+ * with EI = EI1. Returns NAN if EI is one number. */
 static double split_stiffness(lua_State *L) {
   if (lua_getfield(L, 2, "EI") != LUA_TTABLE) {
     lua_settop(L, 2);
@@ -132,7 +132,7 @@ static int push_fibres(lua_State *L, double factor) {
   return 2;
 }
 
-/* Of the fibres outside and inside the bend: strain [-], stress [Pa]. */
+/* wire:strain(s) [-], wire:stress(s) [Pa] of the fibres outside and inside the bend */
 static int meth_strain(lua_State *L) { return push_fibres(L, 1.0); }
 static int meth_stress(lua_State *L) { return push_fibres(L, modulus(L)); }
 
@@ -142,7 +142,7 @@ static size_t node_count(lua_State *L, lsw_self w) {
   return n;
 }
 
-/* Flat {x1, y1, z1, x2, ...} of all nodes [m], and their arc lengths [m]. */
+/* wire:positions() -> flat {x1, y1, z1, x2, ...} of all nodes [m], their arc lengths [m] */
 static int meth_positions(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const size_t n = node_count(L, w);
@@ -153,8 +153,8 @@ static int meth_positions(lua_State *L) {
   return 2;
 }
 
-/* Flat {x1, y1, z1, x2, ...} of all particles of a mesh, ring by ring, and their arc lengths; of
- * any other wire its nodes [m]. */
+/* wire:particles() -> flat {x1, y1, z1, x2, ...} of all particles of a mesh, ring by ring, their
+ * arc lengths; for any other wire the same of its nodes [m] */
 static int meth_particles(lua_State *L) {
   size_t n;
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
@@ -178,7 +178,7 @@ static int meth_velocities(lua_State *L) {
 /* wire:set_velocity(v [, omega [, about]]) */
 static int meth_set_velocity(lua_State *L) { return lsw_set_velocity(L, &lsw_class_wire); }
 
-/* The options table { now = true } asks for the present value. */
+/* Returns the run's extremes; with the options table { now = true } the present values. */
 static sw_wire_extremes read_extremes(lua_State *L) {
   sw_wire_extremes present, run;
   int now = 0;
@@ -218,8 +218,8 @@ static const sw_param tension_rows[] = {
      "0: raw; else the window of the run, the only one whose means are kept"}};
 static const sw_params tension_params = SW_PARAMS("wire:max_tension", tension_rows);
 
-/* Largest tension [N], where [m], when [s]: of means over the run's window. { raw = true } or
- * { window = 0 }: of single steps, and how long that one was [s]. */
+/* Largest tension [N], where [m], when [s], as a mean over the run's window. { raw = true } or
+ * { window = 0 }: of single steps; then the fourth value is that step's length [s]. */
 static int meth_max_tension(lua_State *L) {
   sw_wire_extremes now, run;
   tension_args args;
@@ -245,13 +245,13 @@ static int meth_max_strain(lua_State *L) {
   return push_extreme(L, x.value, &x);
 }
 
-/* Its stress [Pa], where [m], when [s]. */
+/* Largest stress of an outermost fibre [Pa], where [m], when [s]. */
 static int meth_max_stress(lua_State *L) {
   const sw_extreme x = read_extremes(L).strain;
   return push_extreme(L, x.value * modulus(L), &x);
 }
 
-/* Largest torsion M_t / GJ of a line [rad/m], where [m], when [s]. */
+/* Largest torsion M_t / GJ of a wire that is no mesh [rad/m], where [m], when [s]. */
 static int meth_max_torsion(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const sw_extreme x = read_extremes(L).torsion;
@@ -274,8 +274,8 @@ static int meth_max_ovalisation(lua_State *L) {
                     sw_scene_wire_name(w.scene, w.id), sw_scene_wire_model(w.scene, w.id));
 }
 
-/* Where [m] and when [s] in the run a section of springs has first folded through itself, which
- * makes its forces wrong from then on; nothing when none has. */
+/* Where [m] and when [s] a section of springs first folded through itself in the run; its forces
+ * are wrong from then on. Nothing if no section has. */
 static int meth_folded(lua_State *L) {
   const sw_extreme x = read_extremes(L).folding;
   if (!(x.value > 0)) return 0;
@@ -284,7 +284,8 @@ static int meth_folded(lua_State *L) {
   return 2;
 }
 
-/* wire:log() -> flat rows of 3: t, largest tension, largest curvature; number of rows */
+/* wire:log() -> flat rows of 3: t [s], largest tension [N], largest curvature [1/m]; number of rows
+ */
 static int meth_log(lua_State *L) { return lsw_log(L, &lsw_class_wire, SW_LOG_WIRE_SIZE); }
 
 static int prop_length(lua_State *L) {

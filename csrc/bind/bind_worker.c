@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Workers of a study: forks of this process, with all that it has built, that take and give texts.
+/* Workers of a study: forks of this process, with all that it has built. They exchange texts with
+ * this process.
  *
- *   core.fork(f, memory) -> worker; in the fork f(channel) runs, then it leaves. memory: that it
- * may take besides [B], 0 = any. nil and the reason when there can be none. worker:send(text) ->
- * was it taken; worker:receive() -> text, or nil, "signal" or "exit", number when it has ended;
- * worker:pid(); worker:stop() kills it and what it has started channel:send(text),
- * channel:receive() -> text, or nil when there is nothing more to do core.ready(workers, seconds)
- * -> indexes of those from which something can be received core.limit_cpu(seconds): this process is
- * killed when it has computed so long; 0 = never core.limit_steps(count) -> were there more steps
- * of runs than the limit before this one allowed; 0 = any number core.processors();
- * core.checksum(text) -> integer
+ *   core.fork(f, memory) -> worker. The fork runs f(channel), then exits. memory: how much more
+ *     than now it may use [B], 0 = any. nil and the reason if no worker can be started.
+ *   worker:send(text) -> true if it was sent; worker:pid();
+ *   worker:receive() -> text; nil, "signal" or "exit", and its number if the worker has ended
+ *   worker:stop(): kills the worker and the processes it has started
+ *   channel:send(text); channel:receive() -> text, or nil if there is nothing more to do
+ *   core.ready(workers, seconds) -> indexes of the workers from which something can be received
+ *   core.limit_cpu(seconds): kills this worker after so much processor time; 0 = never
+ *   core.limit_steps(count) -> did the steps of runs exceed the limit before? Sets a new limit and
+ *     counts from 0; 0 = any number.
+ *   core.processors() -> processors that this process may use
  *
- * A text is one packet, whole or not there. A worker has its own process group, so that Ctrl-C at a
- * terminal is for the parent only and what it starts ends with it; it is killed with its parent. */
+ * A text is one packet: it arrives whole or not at all. A worker has its own process group, so
+ * Ctrl-C at a terminal reaches the parent only, and the processes it starts end with it. A worker
+ * is killed when its parent ends. */
 #include <errno.h>
 #include <lauxlib.h>
 #include <poll.h>
@@ -29,20 +33,20 @@
 #include "bind/child.h"
 #include "bind/process.h"
 
-enum { LONGEST = 1 << 16, MOST = 1024 }; /* bytes of a text, workers [-] */
+enum { LONGEST = 1 << 16, MOST = 1024 }; /* longest text [B], most workers [-] */
 
 static const char WORKER[] = "softworld.worker";
 
 typedef struct worker {
   int fd;      /* -1: closed */
-  pid_t pid;   /* 0: it has ended, or this is the worker's own end */
-  pid_t owner; /* the process that may end it */
-  int status;  /* of waitpid, -1 when there was none */
+  pid_t pid;   /* 0: the worker has ended, or this is its own end */
+  pid_t owner; /* the process that may end the worker */
+  int status;  /* exit status of waitpid; -1: none */
 } worker;
 
 static worker *check(lua_State *L, int index) { return luaL_checkudata(L, index, WORKER); }
 
-/* Take the exit status, after killing it if wanted. */
+/* Waits for the worker's end and takes its exit status; kills it first if kill_it. */
 static void bury(worker *w, int kill_it) {
   if (w->fd >= 0) close(w->fd);
   w->fd = -1;
@@ -52,7 +56,7 @@ static void bury(worker *w, int kill_it) {
   w->status = -1;
   while (waitid(P_PID, (id_t)w->pid, &info, WEXITED | WNOWAIT) < 0)
     if (errno != EINTR) break;
-  kill(-w->pid, SIGKILL); /* what it has started, while its number is still taken */
+  kill(-w->pid, SIGKILL); /* its process group, before the system can reuse its pid */
   while (waitpid(w->pid, &w->status, 0) < 0)
     if (errno != EINTR) break;
   w->pid = 0;
@@ -111,7 +115,7 @@ static worker *new_worker(lua_State *L) {
   return w;
 }
 
-/* In the fork. Index 1 is the function, 3 this end of the connection. */
+/* Runs in the fork. Stack index 1 is the function, 3 the worker's end of the connection. */
 static void work(lua_State *L, pid_t parent, double memory) {
   lsw_process_follow(parent);
   setpgid(0, 0);
@@ -128,7 +132,7 @@ static void work(lua_State *L, pid_t parent, double memory) {
   _exit(status == LUA_OK ? 0 : 1);
 }
 
-static int is_worker; /* 1: this process is one */
+static int is_worker; /* 1: this process is a worker */
 
 static int mod_fork(lua_State *L) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
@@ -145,7 +149,7 @@ static int mod_fork(lua_State *L) {
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return lsw_failed(L);
   ours->fd = ends[0], theirs->fd = ends[1];
   const pid_t parent = getpid();
-  fflush(NULL); /* or it would be written twice */
+  fflush(NULL); /* else both processes would write what is buffered */
   const pid_t pid = lsw_process_fork();
   if (pid == 0) {
     close(ours->fd);
@@ -161,7 +165,7 @@ static int mod_fork(lua_State *L) {
     return lsw_failed(L);
   }
   ours->pid = pid;
-  setpgid(pid, pid); /* whoever comes first */
+  setpgid(pid, pid); /* both processes do it, as either may run first */
   lua_settop(L, 2);
   return 1;
 }
@@ -195,7 +199,7 @@ static int mod_limit_cpu(lua_State *L) {
   if (!is_worker) return luaL_error(L, "core.limit_cpu ends its process, and is for workers alone");
   luaL_argcheck(L, seconds >= 0 && seconds < 1e9, 1, "from 0 to 1e9 s");
   struct itimerval t = {{0, 0}, {(time_t)seconds, (suseconds_t)(1e6 * (seconds - floor(seconds)))}};
-  setitimer(ITIMER_PROF, &t, NULL); /* SIGPROF, of which nothing is left to handle in a worker */
+  setitimer(ITIMER_PROF, &t, NULL); /* SIGPROF, which has no handler in a worker, kills it */
   return 0;
 }
 

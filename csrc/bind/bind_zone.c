@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene:zone, and how near wires came to zones. */
+/* scene:zone, and the distances of wires to zones. */
 
 #include "bind/bind_shape.h"
 #include "bind/child.h"
 
-/* core.zone(scene, { shape =, at =, name =, temperature =, on = obstacle }) -> its name, shape,
- * position, rotation; with on the obstacle's slot, and position and rotation in its axes */
+/* core.zone(scene, { shape =, at =, name =, temperature =, on = obstacle }) -> name, shape,
+ * position, rotation; with `on` also the obstacle's slot, and position and rotation in its axes */
 static int mod_zone(lua_State *L) {
   sw_scene *scene = lsw_check_scene(L);
   sw_zone_args args;
@@ -30,8 +30,8 @@ static int mod_zone(lua_State *L) {
   return 7;
 }
 
-/* core.zones(wire) -> { { name, temperature [degC], and where a step was watched gap [m], s [m],
- * time [s], between [m], inside [s] }, ... } */
+/* core.zones(wire) -> { { name, temperature [degC], gap [m], s [m], time [s], between [m],
+ * inside [s] }, ... }; gap to inside only if a step was watched */
 static int mod_zones(lua_State *L) {
   const lsw_self w = lsw_check_self(L, &lsw_class_wire);
   const size_t count = sw_scene_zones(w.scene);

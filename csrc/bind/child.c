@@ -25,7 +25,7 @@ static lsw_self check_at(lua_State *L, int index, const lsw_class *c) {
   const lsw_scene_handle *owner = child->h.object;
   sw_scene *scene = owner->h.object;
   if (!scene) luaL_error(L, "the scene of this %s has been closed", c->name);
-  if (c->kind == SW_OF_BODY) /* slots close up when one leaves */
+  if (c->kind == SW_OF_BODY) /* slots of bodies change when a body leaves */
     child->id = sw_scene_body_now(scene, child->id);
   return (lsw_self){scene, child->id};
 }

@@ -52,9 +52,9 @@ const lsw_class *lsw_class_of(lua_State *L, int index) {
   return NULL;
 }
 
-enum { LONGEST_SHOWN = 32 }; /* text in a message [B] */
+enum { LONGEST_SHOWN = 32 }; /* longest text shown in a message [B] */
 
-/* A short text of plain characters, as it may be shown. */
+/* 1 for a short text of printable ASCII characters. */
 static int may_be_shown(const char *text, size_t length) {
   for (size_t i = 0; i < length; i++)
     if (text[i] < ' ' || text[i] > '~') return 0;
@@ -79,7 +79,7 @@ const char *lsw_describe(lua_State *L, int index) {
   return luaL_typename(L, index);
 }
 
-/* The name under which the running C function is a method of the class, or NULL. */
+/* Name of the method of the class that is the running C function, or NULL. */
 static const char *method_name(lua_State *L, const lsw_class *c) {
   lua_Debug ar;
   if (!lua_getstack(L, 0, &ar) || !lua_getinfo(L, "f", &ar)) return NULL;
@@ -120,7 +120,7 @@ static int meta_gc(lua_State *L) {
       return luaL_error(L, "this %s cannot be closed from inside a step or a function of time",
                         c->name);
     void *object = h->object;
-    h->object = NULL; /* first: closing may run a finaliser that looks at it */
+    h->object = NULL; /* before closing, which may run a finaliser that reads the handle */
     lsw_handle old = {object};
     c->close(&old);
   }
@@ -142,19 +142,19 @@ static int meta_tostring(lua_State *L) {
 static int meta_eq(lua_State *L) {
   const lsw_class *c = class_of(L);
   lsw_handle *a = lsw_test(L, 1, c), *b = lsw_test(L, 2, c);
-  /* handles are zeroed when made, so that padding compares equal */
+  /* new handles are zeroed, so padding compares equal */
   lua_pushboolean(L, a && b && (a == b || (a->object && memcmp(a, b, c->size) == 0)));
   return 1;
 }
 
-/* What the object at index 1 is called. */
+/* Word for the object at index 1 in messages. */
 static const char *word_of(lua_State *L) {
   const lsw_class *c = class_of(L);
   const char *word = c->word && lsw_test(L, 1, c) ? c->word(L) : NULL;
   return word ? word : c->name;
 }
 
-/* Raise for the name at index 2. Upvalues as of meta_index. */
+/* Raises for the name at index 2, which the class does not have. Upvalues as of meta_index. */
 static int unknown_field(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING) return luaL_error(L, "%s has no such field", word_of(L));
   const char *names[64];
@@ -174,7 +174,7 @@ static int unknown_field(lua_State *L) {
                     word);
 }
 
-/* Method or property by name; a name that is neither is an error with a hint.
+/* Returns the method or property of a name. Any other name is an error with a hint.
  * Upvalues: the class, its methods, its properties. */
 static int meta_index(lua_State *L) {
   lua_settop(L, 2);
@@ -189,8 +189,8 @@ static int meta_index(lua_State *L) {
   return unknown_field(L);
 }
 
-/* Nothing can be put into an object; its parameters are given when it is made. Upvalues as
- * above. */
+/* Raises: fields of an object cannot be set; its parameters are given when it is made. Upvalues as
+ * of meta_index. */
 static int meta_newindex(lua_State *L) {
   lua_settop(L, 2);
   for (int up = 2; up <= 3; up++) {
@@ -207,7 +207,7 @@ static int meta_newindex(lua_State *L) {
   return unknown_field(L);
 }
 
-/* Names of all methods and properties, for completion at the prompt. */
+/* Returns the names of all methods and properties, for completion at the prompt. */
 static int meta_names(lua_State *L) {
   lua_newtable(L);
   for (int up = 2; up <= 3; up++) {
@@ -233,7 +233,7 @@ static void open_class(lua_State *L, const lsw_class *c) {
   const struct {
     const char *name;
     lua_CFunction function;
-  } life[] = {{"__gc", meta_gc}, /* the first two where there is something to close */
+  } life[] = {{"__gc", meta_gc}, /* the first two only if there is something to close */
               {"__close", meta_gc},
               {"__tostring", meta_tostring},
               {"__eq", meta_eq}};
@@ -274,7 +274,7 @@ void lsw_open_classes(lua_State *L) {
 
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err) {
   const int why = status != SW_EINTR && err && err->text[0];
-  if (status == SW_EINTR) sw_interrupt_clear(); /* this error answers the Ctrl-C */
+  if (status == SW_EINTR) sw_interrupt_clear(); /* this error handles the Ctrl-C */
   return luaL_error(L, "%s", why ? err->text : sw_status_text(status));
 }
 
@@ -287,7 +287,7 @@ void lsw_poll(lua_State *L) {
 double lsw_number(lua_State *L, int index, const char *what, const char *unit) {
   const char *space = strcmp(unit, "-") == 0 ? "" : " ";
   const char *shown = *space ? unit : "";
-  lsw_poll(L); /* it may be one of millions */
+  lsw_poll(L); /* a list may have millions of numbers */
   if (lua_type(L, index) != LUA_TNUMBER)
     return luaL_error(L, "%s must be a number%s%s%s, got %s", what, *space ? " [" : "", shown,
                       *space ? "]" : "", lsw_describe(L, index));
@@ -309,7 +309,7 @@ lua_Integer lsw_integer(lua_State *L, int index, const char *what) {
   return value;
 }
 
-/* Item i of the array at table, or its field name; pushed. */
+/* Pushes item i of the table, or its field name if there is no item i. */
 static void push_item(lua_State *L, int table, int i, const char *name) {
   if (lua_geti(L, table, i) == LUA_TNIL) {
     lua_pop(L, 1);

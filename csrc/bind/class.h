@@ -9,68 +9,66 @@
 
 #include "softworld.h"
 
-/* What every userdata starts with. A handle is born closed (object NULL); it
- * is opened as the last act of its constructor, so that a failure in between
- * is safe. */
+/* Start of every userdata. A new handle is closed (object NULL). Its constructor
+ * opens it as the last step, so that a failure before is safe. */
 typedef struct lsw_handle {
   void *object;
 } lsw_handle;
 
 typedef struct lsw_class {
   const char *name; /* "scene": the word used in messages, type() and tostring */
-  sw_kind kind;     /* kind of the scene's object; SW_OF_NONE: it is no object of a scene */
+  sw_kind kind;     /* kind of object of a scene; SW_OF_NONE: not an object of a scene */
   size_t size;      /* of the userdata; starts with an lsw_handle [B] */
   const luaL_Reg *methods;
   void (*more)(lua_State *L);        /* adds methods to the table on top, or NULL */
-  lua_CFunction describe;            /* what tostring says of an open one, or NULL */
+  lua_CFunction describe;            /* tostring of an open object, or NULL */
   const luaL_Reg *properties;        /* getters called as f(object), or NULL */
-  void (*close)(lsw_handle *h);      /* frees h->object; never called with NULL there. NULL: the
-                                      * object is another's, nothing to close */
+  void (*close)(lsw_handle *h);      /* frees h->object, which is not NULL. NULL: another userdata
+                                      * owns the object, there is nothing to close */
   const char *gone;                  /* message for a closed handle: "the scene has been closed" */
-  int (*busy)(const lsw_handle *h);  /* 1: must not be closed now; NULL = always may */
-  const char *(*word)(lua_State *L); /* for messages on the one at index 1: what it is called; NULL
-                                        = by name, as where it returns NULL. May push */
+  int (*busy)(const lsw_handle *h);  /* 1: must not be closed now; NULL: may always be closed */
+  const char *(*word)(lua_State *L); /* word for the object at index 1 in messages; may push. NULL,
+                                        or where it returns NULL: the class's name is used */
 } lsw_class;
 
-/* Make a closed handle of the class with the given number of user values and
- * push it. */
+/* Pushes and returns a new closed handle of the class with the given number of user values. */
 void *lsw_new(lua_State *L, const lsw_class *c, int user_values);
 
 /* The open handle at index; raises a clear error for anything else. */
 void *lsw_check(lua_State *L, int index, const lsw_class *c);
 
-/* The handle at index whether open or closed, or NULL when it is of another
- * type. */
+/* The handle at index, open or closed; NULL for a value of another type. */
 void *lsw_test(lua_State *L, int index, const lsw_class *c);
 
-/* Push a zeroed userdata of a kind that is no class: end(it) frees what it has, also when it was
- * closed before. methods: NULL = none. */
+/* Pushes and returns a zeroed userdata that is not of a class. end(userdata) frees what it holds;
+ * it may be called more than once. methods: NULL = none. */
 void *lsw_keep(lua_State *L, size_t size, const char *name, const luaL_Reg *methods,
                lua_CFunction end);
 
-/* The class of the userdata at index, or NULL for anything that is not ours. */
+/* The class of the userdata at index, or NULL for any other value. */
 const lsw_class *lsw_class_of(lua_State *L, int index);
 
-/* Push a name for a wrong argument, for messages: "number 3", "string '3'", "scene", "table". */
+/* Returns words for a wrong argument, for messages: "number 3", "string '3'", "scene", "table". May
+ * push. */
 const char *lsw_describe(lua_State *L, int index);
 
-/* Make the metatables of every class in classes.def and push a table of
- * method tables by class name (Lua files add methods to them). */
+/* Makes the metatables of all classes in classes.def. Pushes a table of their
+ * method tables by class name; Lua files add methods to these. */
 void lsw_open_classes(lua_State *L);
 
-/* Raise the error for a failed core call: err's text, or the status's. */
-/* Raise "interrupted" when the user wants to stop. */
+/* Raises "interrupted" when the user wants to stop. */
 void lsw_poll(lua_State *L);
 
+/* Raises the error of a failed core call: err's text, or the status's if err is NULL or empty. */
 int lsw_raise(lua_State *L, sw_status status, const sw_error *err);
 
-/* Read the table at index into args by the rows: defaults first, then every
- * key; unknown keys, wrong types and values out of range raise. object names
- * the thing in messages ("scene:wire"). nil or none at index = empty table. */
+/* Reads the table at index into args by the rows: first the defaults, then every
+ * key. Unknown keys, wrong types and values out of range raise. object is for
+ * messages ("scene:wire"). nil or none at index = empty table. */
 void lsw_arguments(lua_State *L, int index, const char *object, const sw_params *params,
                    void *args);
 
-/* The same for one table whose keys belong to several row tables, each with
+/* The same for a table whose keys belong to several tables of rows, each with
  * its own argument struct (an obstacle's keys and its shape's). */
 typedef struct lsw_section {
   const sw_params *params;
@@ -79,40 +77,41 @@ typedef struct lsw_section {
 void lsw_sections(lua_State *L, int index, const char *object, const lsw_section *sections,
                   int count);
 
-/* Which of the names is the word on top of the stack; raises what ("wire: there is no model") and
- * the nearest of them, or all after also. */
+/* Returns the index among names of the word on top of the stack. If it is none of them, raises a
+ * message of what ("wire: there is no model"), the word, and the nearest name; or, if none is near,
+ * also and all names. */
 size_t lsw_word(lua_State *L, const char *what, const char *also, const char *const *names,
                 size_t count);
 
-/* object:set{...}: read over what args has; rows that do not change raise. */
+/* object:set{...}: overwrites the given values in args. Rows that cannot be changed raise. */
 void lsw_changes(lua_State *L, int index, const char *object, const sw_params *params, void *args);
 
-/* The points under a key of the table as a flat array owned by a new userdata on the stack (so that
- * errors free it), or NULL without the key. */
+/* Returns the points under a key of the table as a flat array, or NULL without the key. A new
+ * userdata on the stack owns the array, so that errors free it. */
 double *lsw_read_points(lua_State *L, int table, const char *key, const char *object,
                         size_t *count);
 
-/* object:get(): push a table of what args has. */
+/* object:get(): pushes a table of the values in args. */
 void lsw_push_values(lua_State *L, const sw_params *params, const void *args);
 
-/* Read three finite numbers {x, y, z} (or fields x, y, z) at index. what is for
- * messages: "scene:wire: from". */
+/* Returns the three finite numbers {x, y, z} (or fields x, y, z) at index. what is
+ * for messages: "scene:wire: from". */
 sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit);
 
-/* Read a rotation: nil = identity, {axis=, angle=} [rad] or {w, x, y, z}. */
+/* Returns the rotation at index: nil = identity, {axis=, angle=} [rad] or {w, x, y, z}. */
 sw_quat lsw_rotation(lua_State *L, int index, const char *what);
 
-/* A finite number at index, named in the error. */
+/* Returns the finite number at index; what names it in the error. */
 double lsw_number(lua_State *L, int index, const char *what, const char *unit);
 
-/* An integer at index, named in the error. */
+/* Returns the integer at index; what names it in the error. */
 lua_Integer lsw_integer(lua_State *L, int index, const char *what);
 
 void lsw_push_vector(lua_State *L, sw_vec a);      /* {x, y, z} */
 void lsw_push_quaternion(lua_State *L, sw_quat q); /* {w, x, y, z} */
 
-/* Push the rows as a Lua array of tables (name, type, unit, default, min, max,
- * doc, choices): what help() and the reference pages read. */
+/* Pushes the rows as a Lua array of tables (name, type, unit, default, min, max,
+ * doc, choices), for help() and the reference pages. */
 void lsw_push_params(lua_State *L, const sw_params *params);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers with a decimal point, whatever os.setlocale says. */
+/* Keeps the decimal point in numbers, whatever os.setlocale says. */
 #ifndef LSW_LOCALE_H
 #define LSW_LOCALE_H
 
 #include <lua.h>
 
-/* This thread has a locale of its own from now on, and os.setlocale sees to it. */
+/* Gives this thread its own locale and makes os.setlocale renew it. */
 void lsw_locale_open(lua_State *L);
-/* Take over the program's present locale, its numbers aside. To be called after setlocale. */
+/* Sets this thread's locale to the program's, except for numbers. Call it after setlocale. */
 void lsw_locale_renew(void);
 
 #endif

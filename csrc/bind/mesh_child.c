@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads a mesh file in a child process. Assimp may end the process on a damaged file, spoil its
- * heap when memory runs out, and take any time; none of it polls for Ctrl-C. So a fork of this
- * process reads, with limits on memory and time, and sends the triangles through a pipe. Here and
- * for the workers of a study a process is started, nowhere else: the core does not, and the program
- * that has loaded the core may be a stock Lua, so that there is no other program to start than
- * itself.
+/* Reads a mesh file in a child process. Assimp can end the process on a damaged file, corrupt its
+ * heap when memory runs out, and take any time, and it never polls for Ctrl-C. So a fork of this
+ * process reads, with limits on memory and time, and sends the triangles through a pipe. It must be
+ * a fork: the program that has loaded the core may be a stock Lua, so no other program is there to
+ * start. Processes are started only here and for the workers of a study, never in the core.
  *
- * The child has no Lua: it reads, writes to the pipe and leaves by _exit, which runs no handlers
- * of the parent and flushes nothing of its files. Its standard files are /dev/null, for what C++
- * has to say when it ends. */
+ * The child does not use Lua. It reads, writes to the pipe and ends with _exit, which runs none of
+ * the parent's exit handlers and does not flush its files. Its standard files are /dev/null, to
+ * drop the messages of the C++ runtime at an abort. */
 #include "bind/mesh_child.h"
 
 #include <errno.h>
@@ -34,20 +33,20 @@ enum { SLOWER = 5 };
 enum { SLOWER = 1 };
 #endif
 
-#define MEMORY_LEAST (256e6)           /* allowed for any file [B] */
-#define MEMORY_PER_BYTE 150.0          /* allowed for each byte of the file [-] */
-#define CPU_LEAST 4.0                  /* allowed for any file [s] */
-#define CPU_PER_BYTE 1e-6              /* allowed for each byte of the file [s] */
-#define WALL_PER_CPU 10.0              /* other processes may have the processor [-] */
-#define WALL_LEAST 60.0                /* [s] */
-#define SLICE 0.1                      /* time between two looks for Ctrl-C [s] */
-#define MOST_ITEMS ((uint64_t)1 << 28) /* points or triangles, before memory is asked for [-] */
+#define MEMORY_LEAST (256e6)           /* memory allowed for any file [B] */
+#define MEMORY_PER_BYTE 150.0          /* more memory for each byte of the file [-] */
+#define CPU_LEAST 4.0                  /* processor time allowed for any file [s] */
+#define CPU_PER_BYTE 1e-6              /* more processor time for each byte of the file [s] */
+#define WALL_PER_CPU 10.0              /* wall time over CPU time; other processes run too [-] */
+#define WALL_LEAST 60.0                /* wall time allowed for any file [s] */
+#define SLICE 0.1                      /* time between two polls for Ctrl-C [s] */
+#define MOST_ITEMS ((uint64_t)1 << 28) /* most points or triangles in a reply [-] */
 
 typedef struct reply {
-  uint32_t word; /* REPLY; anything else was not written by us */
+  uint32_t word; /* REPLY; any other value is not from this code */
   int32_t status;
   uint64_t vertex_count, triangle_count;
-  uint64_t requests; /* for memory, which count as if made here [-] */
+  uint64_t requests; /* memory requests of the child, added to the parent's count [-] */
   sw_error err;
 } reply;
 
@@ -56,7 +55,7 @@ enum { REPLY = 0x534d4553 };
 typedef struct limits {
   double memory; /* [B] */
   double cpu;    /* [s] */
-  double wall;   /* while this process runs, too [s] */
+  double wall;   /* only time in which this process runs counts [s] */
 } limits;
 
 static limits limits_of(const sw_mesh_file *file) {
@@ -85,14 +84,14 @@ static int send_all(int fd, const void *bytes, size_t count) {
   return 1;
 }
 
-/* Assimp's buffer for OBJ files has 16 MB, whatever the file's size: in small pages, to get them
- * takes twenty times as long as to read a small mesh. */
+/* Makes malloc use huge pages. Assimp's buffer for OBJ files has 16 MB for any size of file;
+ * getting it in small pages takes twenty times as long as reading a small mesh. */
 static void widen_pages(void) {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
   enum { ROOM = 1 << 25, PAGE = 1 << 21 }; /* [B] */
   mallopt(M_MMAP_THRESHOLD, 2 * ROOM);
   mallopt(M_TRIM_THRESHOLD, 2 * ROOM);
-  char *room = malloc(ROOM); /* free, it stays the heap's */
+  char *room = malloc(ROOM); /* stays in the heap when freed */
   if (room) madvise(room + (PAGE - (uintptr_t)room % PAGE), ROOM - PAGE, MADV_HUGEPAGE);
   free(room);
 #endif
@@ -122,7 +121,7 @@ static void child(const sw_mesh_file *file, const limits *most, int fd, pid_t pa
 
 typedef enum outcome { WHOLE, SHORT, LATE, STOPPED } outcome;
 
-static lua_State *asking; /* the main thread of the Lua that asked, or NULL */
+static lua_State *asking; /* main thread of the Lua state that asked for the file, or NULL */
 
 void lsw_mesh_child_for(lua_State *L) {
   lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_MAINTHREAD);
@@ -132,10 +131,10 @@ void lsw_mesh_child_for(lua_State *L) {
 
 typedef struct reading {
   pid_t pid;
-  int fd;        /* the pipe's end that is read */
-  double waited; /* [s] */
-  double most;   /* [s] */
-  lua_Hook hook; /* what the asking Lua had when it began */
+  int fd;        /* the pipe's reading end */
+  double waited; /* so far [s] */
+  double most;   /* longest wait [s] */
+  lua_Hook hook; /* hook of the asking Lua at the start of the reading */
 } reading;
 
 static double now(void) {
@@ -144,13 +143,14 @@ static double now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Stock Lua answers Ctrl-C with a hook, and the terminal sends it to the child, too. */
+/* 1 if the user wants to stop. Stock Lua sets a hook at Ctrl-C, which the terminal sends to
+ * the child too. */
 static int stop_wanted(const reading *r) {
   return sw_interrupted() || (asking && lua_gethook(asking) != r->hook);
 }
 
-/* Wait until there is something to read. Time in which this process did not run, stopped by
- * Ctrl-Z, does not count. */
+/* Waits until there is something to read. Time in which this process was stopped (Ctrl-Z) does not
+ * count. */
 static outcome wait_for_bytes(reading *r) {
   for (;;) {
     struct pollfd p = {r->fd, POLLIN, 0};
@@ -176,7 +176,7 @@ static outcome receive(reading *r, void *bytes, size_t count) {
   return WHOLE;
 }
 
-/* What came through the pipe is checked like a file: the child's heap may have been spoilt. */
+/* Checks the data from the pipe like a file's, since the child's heap may have been corrupted. */
 static int sensible(const sw_mesh_data *data) {
   for (size_t k = 0; k < 3 * data->triangle_count; k++)
     if (data->indices[k] < 0 || (size_t)data->indices[k] >= data->vertex_count) return 0;
@@ -189,15 +189,15 @@ static outcome receive_data(reading *r, const reply *from, sw_mesh_data *out) {
   out->triangle_count = (size_t)from->triangle_count;
   out->vertices = sw_alloc(3 * out->vertex_count, sizeof *out->vertices);
   out->indices = sw_alloc(3 * out->triangle_count, sizeof *out->indices);
-  if (!out->vertices || !out->indices) return WHOLE; /* the caller sees it */
+  if (!out->vertices || !out->indices) return WHOLE; /* the caller reports SW_ENOMEM */
   outcome o = receive(r, out->vertices, 3 * out->vertex_count * sizeof *out->vertices);
   if (o == WHOLE) o = receive(r, out->indices, 3 * out->triangle_count * sizeof *out->indices);
   if (o == WHOLE && !sensible(out)) o = SHORT;
   return o;
 }
 
-/* End the child, if it has not ended, and take its exit status; -1 when there is none, as in a
- * program that ignores its children. */
+/* Waits for the child's end and returns its exit status; kills it first if kill_it. -1: no status,
+ * as in a program that ignores its children. */
 static int bury(const reading *r, int kill_it) {
   int status = -1;
   if (kill_it) kill(r->pid, SIGKILL);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mesh files are read in a child process. */
+/* Reads mesh files in a child process. */
 #ifndef LSW_MESH_CHILD_H
 #define LSW_MESH_CHILD_H
 
 #include <lua.h>
 
-/* To be called before anything that may read a mesh file for L: stock Lua tells by a hook of its
- * main thread that Ctrl-C was pressed. */
+/* Call this before anything that may read a mesh file for L. When Ctrl-C is pressed, stock Lua sets
+ * a hook on its main thread; the reading watches for this hook. */
 void lsw_mesh_child_for(lua_State *L);
 
-/* Have the core read its mesh files in a child process from now on. */
+/* Makes the core read all mesh files in a child process. */
 void lsw_mesh_child_open(void);
 
 #endif

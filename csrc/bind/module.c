@@ -23,8 +23,8 @@ static int mod_fail_allocation(lua_State *L) {
 }
 
 static const luaL_Reg functions[] = {
-    {"allocated", mod_allocated},             /* bytes in use, requests so far */
-    {"fail_allocation", mod_fail_allocation}, /* let the n-th request fail (specs) */
+    {"allocated", mod_allocated},             /* -> bytes in use, memory requests so far */
+    {"fail_allocation", mod_fail_allocation}, /* makes the n-th request fail, for specs */
     {NULL, NULL}};
 
 int luaopen_softworld_core(lua_State *L) {

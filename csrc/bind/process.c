@@ -11,8 +11,7 @@
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__)
-/* The sanitizer's shadow takes more address space than any limit allows; limited is memory that is
- * written to. */
+/* The sanitizer's shadow memory exceeds any limit on address space, so only RLIMIT_DATA is set. */
 enum { LIMIT_AS = 0 };
 #else
 enum { LIMIT_AS = 1 };
@@ -39,7 +38,7 @@ pid_t lsw_process_fork(void) {
 void lsw_process_follow(pid_t parent) {
 #ifdef PR_SET_PDEATHSIG
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  prctl(PR_SET_DUMPABLE, 0); /* no report to anybody about how it ended */
+  prctl(PR_SET_DUMPABLE, 0); /* no core dump or crash report */
 #endif
   if (getppid() != parent) _exit(1);
 }
@@ -57,7 +56,7 @@ void lsw_process_reset_signals(void) {
   sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-/* Address space and written-to memory in use [B]; 0 where the system does not tell. */
+/* Address space and data memory in use [B]; 0 if the system does not tell. */
 static void memory_now(double *space, double *data) {
   char text[256] = "";
   unsigned long pages[6] = {0};

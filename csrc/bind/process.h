@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What processes forked from this one have in common: they end with it, have signals of their own
- * and limits on what they take. */
+/* Functions for processes forked from this one: they end with their parent, have default signal
+ * handlers, and limits on memory and time. */
 #ifndef LSW_PROCESS_H
 #define LSW_PROCESS_H
 
 #include <lua.h>
 #include <sys/types.h>
 
-/* Push nil and what errno says; return 2. */
+/* Pushes nil and the text of errno; returns 2. */
 int lsw_failed(lua_State *L);
 
-/* Fork without a chance for this process's signal handlers to run in the child. As fork(2); errno.
- */
+/* Forks as fork(2), errno included. Signals are blocked in the child, so that none of this
+ * process's handlers runs there. */
 pid_t lsw_process_fork(void);
 
-/* In the child: it is killed when the parent ends, however that ends; leaves at once where it has
- * ended already. */
+/* In the child: makes the system kill it when the parent ends for any reason. Exits at once if the
+ * parent has already ended. */
 void lsw_process_follow(pid_t parent);
 
-/* In the child: the parent's handlers are not for this process; what it ignores stays ignored. */
+/* In the child: replaces the parent's signal handlers by the default ones and unblocks all signals.
+ * Ignored signals stay ignored, but for SIGXCPU. */
 void lsw_process_reset_signals(void);
 
-/* In the child: lower a limit of setrlimit(2); the one that is there stays where it is lower. */
+/* In the child: lowers a limit of setrlimit(2). A limit that is lower already stays. */
 void lsw_process_limit(int what, double soft, double hard);
 
-/* In the child: so much more memory than now [B]. */
+/* In the child: limits memory to the present use plus most [B]. */
 void lsw_process_limit_memory(double most);
 
-/* In the child: /dev/null as the files from first to last (0 standard input, 2 standard error), but
- * for the file kept. */
+/* In the child: opens /dev/null as the files from first to last (0 standard input, 2 standard
+ * error), except the file kept. */
 void lsw_process_silence(int first, int last, int kept);
 
 #endif

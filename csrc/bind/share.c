@@ -73,7 +73,7 @@ int lsw_follow(lua_State *L, const lsw_class *cls, const char *mover) {
   return 1;
 }
 
-/* How many of the rows, in the order of their times, are of times up to t; or, if before, less. */
+/* Number of rows with times up to t, or, if before, below t. The rows are sorted by time. */
 static size_t rows_until(const double *rows, size_t count, size_t size, double t, int before) {
   size_t low = 0, high = count;
   while (low < high) {

@@ -5,7 +5,7 @@
 #include "draw/show.h"
 #include "film/pack.h"
 
-static const double MOST = 25e6; /* [px]: shading takes 40 bytes for each */
+static const double MOST = 25e6; /* most pixels of a canvas; shading takes 40 bytes a pixel [px] */
 
 sw_status sw_canvas_new(size_t width, size_t height, sw_canvas *out) {
   if (!width || !height || width > SW_CANVAS_MOST || height > SW_CANVAS_MOST ||
@@ -42,7 +42,7 @@ void sw_canvas_fill(sw_canvas *canvas, sw_canvas_part w, const float colour[3]) 
             (uint8_t)(255 * fminf(1, fmaxf(0, colour[c])) + 0.5f);
 }
 
-/* --- PNG (ISO/IEC 15948): a head, the rows deflated, an end ------------------------------- */
+/* --- PNG (ISO/IEC 15948): a header, the compressed rows, an end --------------------------- */
 
 static uint8_t *put32(uint8_t *to, size_t x) {
   for (int k = 0; k < 4; k++) *to++ = (uint8_t)(x >> (24 - 8 * k));
@@ -56,7 +56,8 @@ static uint8_t *put_chunk(uint8_t *to, const char *kind, const uint8_t *data, si
   return put32(from + 4 + size, sw_crc32(from, size + 4));
 }
 
-/* A row as what it differs by from the dots to the left (1) or above (2); returns how much. */
+/* Writes a row as differences from the pixels to the left (kind 1) or above (2). Returns the sum of
+ * their magnitudes. */
 static size_t filter(const uint8_t *row, const uint8_t *above, size_t size, uint8_t kind,
                      uint8_t *out) {
   size_t sum = 0;
@@ -96,7 +97,7 @@ sw_status sw_canvas_png(const sw_canvas *canvas, uint8_t **bytes, size_t *size) 
     status = SW_ENOMEM;
   if (status == SW_OK) {
     put32(put32(head, canvas->width), canvas->height);
-    head[8] = 8, head[9] = 2; /* bits of a number; red, green, blue */
+    head[8] = 8, head[9] = 2; /* bits of a number; colour type red, green, blue */
     memcpy(*bytes, signature, 8);
     to = put_chunk(*bytes + 8, "IHDR", head, sizeof head);
     to = put_chunk(to, "IDAT", rows, count);

@@ -6,10 +6,10 @@
 #include "base/alloc.h"
 
 enum { MOST = 10000000, SIDES = 20, CAP_SIDES = SIDES };
-static const double SMOOTH = 0.866; /* cosine of 30 degrees: faces that meet flatter are one [-] */
-static const double FLAT = 0.9999;  /* faces that meet flatter have no edge [-] */
-static const double WIDEST = 1.6;   /* of a tube's ring at a corner, of its radius [-] */
-static const float LINE = 1.7f, EDGE = 1.1f; /* [px] */
+static const double SMOOTH = 0.866; /* cosine of 30 degrees: flatter edges are shaded smooth [-] */
+static const double FLAT = 0.9999;  /* cosine of the angle below which faces have no edge [-] */
+static const double WIDEST = 1.6;   /* widest ring of a tube at a corner, over its radius [-] */
+static const float LINE = 1.7f, EDGE = 1.1f; /* widths of lines and of edges [px] */
 
 sw_status sw_drawing_new(sw_drawing **out) {
   *out = sw_alloc(1, sizeof **out);
@@ -52,7 +52,8 @@ static void add_face(sw_drawing *d, sw_corner a, sw_corner b, sw_corner c, float
 
 /* --- meshes ---------------------------------------------------------------------- */
 
-/* A mesh on its way in: places and normals of faces, and which faces are around each point. */
+/* A mesh while it is added: positions of points, normals of faces, and the faces around each point.
+ */
 typedef struct mesh {
   sw_vec *place, *normal;
   uint32_t *first, *around;
@@ -78,7 +79,7 @@ static sw_status read_mesh(mesh *m, const double *points, sw_pose pose) {
   for (size_t i = 0; i < m->points; i++) m->first[i + 1] += m->first[i];
   for (size_t k = 3 * m->count; k-- > 0;)
     m->around[--m->first[m->corners[k] + 1]] = (uint32_t)(k / 3);
-  /* first[i + 1] is now where the faces of point i begin */
+  /* first[i + 1] is the start of point i's faces in around */
   return SW_OK;
 }
 
@@ -97,7 +98,7 @@ static sw_vec normal_at(const mesh *m, size_t face, uint32_t point) {
   return sw_unit_or(sum, m->normal[face]);
 }
 
-/* The other face at an edge of a face, or the face itself. */
+/* Returns the other face at the edge a b of a face; the face itself if there is none. */
 static size_t beyond(const mesh *m, size_t face, uint32_t a, uint32_t b) {
   const uint32_t *list;
   for (size_t k = faces_of(m, a, &list); k-- > 0;) {
@@ -158,7 +159,8 @@ sw_status sw_drawing_mesh(sw_drawing *d, const double *points, size_t point_coun
 
 /* --- tubes ------------------------------------------------------------------------- */
 
-/* The direction across two neighbours' mean direction, carried along without twist. */
+/* Returns the unit vector nearest to across that is normal to along; so across is carried along the
+ * tube without twist. */
 static sw_vec carried(sw_vec across, sw_vec along) {
   return sw_unit_or(sw_madd(across, along, -sw_dot(across, along)), sw_perpendicular(along));
 }
@@ -176,7 +178,7 @@ static ring ring_at(sw_vec p, sw_vec along, sw_vec *across, double radius, doubl
     const double a = 2 * M_PI * k / SIDES;
     const sw_vec n = sw_add(sw_scale(*across, cos(a)), sw_scale(side, sin(a)));
     const double in = sw_dot(n, inward);
-    /* wider in the plane of the bend only, so that the tube keeps its width there */
+    /* the ring is wider only in the plane of the bend, so that the tube keeps its width */
     r.c[k] =
         corner_of(sw_madd(sw_madd(p, n, radius), inward, radius * in * (widen - 1)), n, colour);
   }

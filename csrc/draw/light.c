@@ -5,10 +5,11 @@
 
 enum { MAP = 2048, BLOCK = 16, ROUGH = MAP / BLOCK, STEPS = 1024 };
 static const double AMBIENT = 0.30, SKY = 0.26, KEY = 0.62, FILL = 0.16;
-static const double SHARP = 36; /* exponent of a gloss (Blinn 1977) [-] */
+static const double SHARP = 36; /* exponent of the gloss (Blinn 1977) [-] */
 static const double BEHIND =
-    2.0; /* what throws a shadow is so far from where it falls [map's dots] */
+    2.0; /* a shadow begins this far behind its caster: no self-shadowing [cells of the map] */
 
+/* IEC 61966-2-1, from a table, because pictures have many points. */
 float sw_linear(float c) {
   static float table[STEPS + 2];
   if (table[STEPS] == 0)
@@ -19,7 +20,8 @@ float sw_linear(float c) {
   const float at = STEPS * (c > 1 ? 1 : c > 0 ? c : 0);
   const int i = (int)at;
   return table[i] + (at - (float)i) * (table[i < STEPS ? i + 1 : i] - table[i]);
-} /* IEC 61966-2-1; a table of it, for pictures have many points. */
+}
+
 uint8_t sw_srgb_table[SW_SRGB_STEPS + 1];
 
 static void fill_table(void) {
@@ -39,7 +41,7 @@ static void roughen(sw_light *l) {
       float most = 0;
       for (size_t b = 0; b < BLOCK; b++)
         for (size_t a = 0; a < BLOCK; a++) most = larger(most, map[MAP * b + a]);
-      /* what is read lies up to two dots beside */
+      /* sw_light_seen reads up to two cells beside */
       for (size_t y = k ? k - 1 : 0; most > 0 && y <= k + 1 && y < ROUGH; y++)
         for (size_t x = j ? j - 1 : 0; x <= j + 1 && x < ROUGH; x++)
           l->rough.near[ROUGH * y + x] = larger(l->rough.near[ROUGH * y + x], most);
@@ -68,7 +70,7 @@ sw_status sw_light_new(const sw_drawing *d, const sw_camera *c, sw_light *out) {
 
 void sw_light_free(sw_light *light) { sw_layer_free(&light->map), sw_layer_free(&light->rough); }
 
-/* The share of the lamp that is seen, of 3 x 3 dots of its map. */
+/* The mean over 3 x 3 cells of the lamp's map. */
 double sw_light_seen(const sw_light *l, sw_vec p, sw_vec n) {
   const double dot = 1 / l->lamp.scale;
   if (!l->map.near) return 1;
@@ -76,7 +78,7 @@ double sw_light_seen(const sw_light *l, sw_vec p, sw_vec n) {
   const double x = (sw_dot(p, l->lamp.right) - l->lamp.left) * l->lamp.scale - 0.5;
   const double y = (sw_dot(p, l->lamp.up) - l->lamp.bottom) * l->lamp.scale - 0.5;
   const double above = sw_dot(p, l->lamp.toward) - l->lamp.middle;
-  const float z = above > 0 ? (float)above : 0; /* the map has 0 where nothing is */
+  const float z = above > 0 ? (float)above : 0; /* the map is 0 where there is nothing */
   if (!(x >= 1 && y >= 1 && x < MAP - 3 && y < MAP - 3)) return 1;
   const size_t j = (size_t)x, k = (size_t)y;
   if (l->rough.near[ROUGH * (k / BLOCK) + j / BLOCK] <= z) return 1;

@@ -5,10 +5,11 @@
 #include "base/each.h"
 
 enum { MOST_STEPS = 20000 };
-static const double STEP = 2.0;       /* [samples] */
-static const double LENIENT = 1.0015; /* what is so much nearer is in front [-] */
+static const double STEP = 2.0; /* length of the tested parts of a line [samples] */
+/* Distance of a line over a face's up to which the line is visible [-] */
+static const double LENIENT = 1.0015;
 
-/* The least near of a sample and those around it: lines lie on the rims of faces. */
+/* The smallest near (farthest face) of a sample and its neighbours, as lines lie on faces' rims. */
 static double near_around(const sw_layer *l, double x, double y) {
   double least = HUGE_VAL;
   for (int k = -1; k <= 1; k++)
@@ -45,7 +46,7 @@ static sw_status add(sw_pieces *p, const double from[3], const double to[3], int
   return SW_OK;
 }
 
-/* The stretch of the line a b that lies within the view, by shares of it; 0: none. */
+/* Finds the stretch of the line a b inside the view, as shares of the line; 0: none. */
 static int within(const sw_view *v, const double a[3], const double b[3], double *from,
                   double *to) {
   const double size[2] = {v->width, v->height};

@@ -5,8 +5,8 @@
 #include "base/each.h"
 #include "base/simd.h"
 
-static const double NEAREST = 1e-4; /* of the drawing's size [-] */
-enum { POLL = 4096 };
+static const double NEAREST = 1e-4; /* near plane's distance over the drawing's size [-] */
+enum { POLL = 4096 };               /* faces or balls between two polls for Ctrl-C [-] */
 
 sw_status sw_layer_new(size_t width, size_t height, int ids, sw_layer *out) {
   *out = (sw_layer){width, height, sw_alloc(width * height, sizeof *out->near), NULL};
@@ -54,7 +54,7 @@ sw_vec sw_view_ray(const sw_view *v, double x, double y) {
 
 /* --- triangles --------------------------------------------------------------------- */
 
-/* Where the line y crosses the triangle's sides. */
+/* Finds where the line y crosses the triangle's sides; 0: it does not. */
 static int span_at(const double p[3][3], double y, double *left, double *right) {
   *left = HUGE_VAL, *right = -HUGE_VAL;
   for (int k = 0; k < 3; k++) {
@@ -70,7 +70,8 @@ static size_t clipped(double x, size_t most) {
   return x <= 0 ? 0 : x >= (double)most ? most : (size_t)x;
 }
 
-/* Samples lie at half numbers; what is linear over them is the third coordinate. */
+/* Fills a triangle. Sample centres have half-integer coordinates; the third coordinate (near) is
+ * linear over the samples. */
 SW_HOT static void fill(sw_layer *layer, const double p[3][3], uint32_t id) {
   const double low = fmin(p[0][1], fmin(p[1][1], p[2][1]));
   const double high = fmax(p[0][1], fmax(p[1][1], p[2][1]));
@@ -100,7 +101,7 @@ SW_HOT static void fill(sw_layer *layer, const double p[3][3], uint32_t id) {
   }
 }
 
-/* The part of a triangle that is far enough ahead: up to four corners. */
+/* Cuts a triangle at the near plane; returns the number of corners that are left, up to four. */
 static int cut(const sw_view *v, const sw_vec c[3], sw_vec out[4]) {
   int n = 0;
   for (int k = 0; k < 3; k++) {

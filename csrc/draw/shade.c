@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A drawing on a canvas: four samples a dot, each face or ball among them lit once. */
+/* Shades a drawing on a canvas: four samples a pixel; each object among them is lit once. */
 #include <string.h>
 
 #include "base/each.h"
@@ -7,17 +7,18 @@
 #include "draw/light.h"
 #include "draw/show.h"
 
-/* Compiled into the hot loop, for each of its instruction sets. */
+/* Functions that are compiled into the hot loop, for each of its instruction sets. */
 #define INSIDE static inline __attribute__((always_inline))
 
 enum { SS = 2, SAMPLES = SS * SS };
-static const float RIM = 0.72f;   /* light that is left where one thing ends before another [-] */
+static const float RIM = 0.72f;   /* factor on light where an object ends before another one [-] */
 static const float PAPER = 0.93f; /* linear light of the background at its top [-] */
 
+/* A floor, prepared for shading. */
 typedef struct tile {
-  sw_vec normal, a, b;           /* across, of one square [1/m] */
+  sw_vec normal, a, b;           /* a, b: along the squares, of length 1 / side [1/m] */
   double height, from_a, from_b; /* of the camera [m], [squares], [squares] */
-  double reach, dot;             /* [squares]; a sample's dot one m ahead [squares/m] */
+  double reach, dot;             /* [squares]; width of a pixel 1 m ahead [squares/m] */
   float shade, sun, colour[3];
 } tile;
 
@@ -44,7 +45,7 @@ INSIDE void paper(const stage *g, double y, float out[3]) {
   out[2] = PAPER + 0.02f - 0.12f * down;
 }
 
-/* --- what a sample shows ---------------------------------------------------------------- */
+/* --- the surface at a sample ------------------------------------------------------------ */
 
 static void on_ball(const stage *g, const sw_ball *b, sw_vec ray, float near, sw_lit *at) {
   at->p = sw_madd(g->view.camera.at, ray, 1 / (double)near);
@@ -53,7 +54,8 @@ static void on_ball(const stage *g, const sw_ball *b, sw_vec ray, float near, sw
   at->gloss = b->gloss;
 }
 
-/* Shares of the corners at the place of a face nearest to where the ray meets its plane. */
+/* Finds position, normal, colour and gloss where the ray meets a face. They are interpolated
+ * between the corners, at the point of the face nearest to where the ray meets its plane. */
 static void on_face(const stage *g, const sw_face *f, sw_vec ray, float near, sw_lit *at) {
   const sw_vec a = sw_vec_of(f->c[0].p);
   const sw_vec u = sw_sub(sw_vec_of(f->c[1].p), a), v = sw_sub(sw_vec_of(f->c[2].p), a);
@@ -80,7 +82,7 @@ static void on_face(const stage *g, const sw_face *f, sw_vec ray, float near, sw
 
 /* --- floors -------------------------------------------------------------------------------- */
 
-/* A floor that is seen from above: what is the same in all dots. */
+/* Prepares a floor: computes the values that are the same for all pixels. */
 static tile tile_of(const stage *g, const sw_floor *f) {
   const sw_vec r = sw_sub(g->view.camera.at, f->point), side = sw_cross(f->normal, f->across);
   tile t = {.normal = f->normal};
@@ -94,7 +96,7 @@ static tile tile_of(const stage *g, const sw_floor *f) {
   return t;
 }
 
-/* The floor that a ray meets first, in front of `near`; how far ahead [m]. */
+/* Returns the floor that a ray meets first, in front of `near`; *ahead: how far ahead [m]. */
 INSIDE const tile *floor_at(const stage *g, sw_vec ray, float near, double *ahead) {
   const tile *first = NULL;
   *ahead = near > 0 ? 1 / (double)near : HUGE_VAL;
@@ -106,7 +108,7 @@ INSIDE const tile *floor_at(const stage *g, sw_vec ray, float near, double *ahea
   return first;
 }
 
-/* The share of dark squares in a stretch of this width around x, of squares of side 1. */
+/* Returns the share of dark squares (side 1) in a stretch of this width around x. */
 INSIDE double squares(double x, double width) {
   const double from = 0.5 * (x - 0.5 * width), to = 0.5 * (x + 0.5 * width);
   const double low = floor(from), high = floor(to), a = from - low, b = to - high;
@@ -114,12 +116,13 @@ INSIDE double squares(double x, double width) {
   return (0.5 * (high - low) + (b < 0.5 ? b : 0.5) - (a < 0.5 ? a : 0.5)) / (to - from);
 }
 
-/* Squares seen from afar are their mean; beyond the reach the floor becomes the background. */
+/* Shades a floor. Distant squares blend to their mean; beyond the reach the floor fades to the
+ * background. */
 INSIDE void on_floor(const stage *g, const tile *t, sw_vec ray, double ahead, double y,
                      float out[3]) {
   const double u = t->from_a + ahead * sw_dot(t->a, ray), v = t->from_b + ahead * sw_dot(t->b, ray);
   const double away2 = u * u + v * v, near = 0.9 * t->reach;
-  /* a dot's width across the floor, of which it sees height / ahead */
+  /* width of a pixel on the floor; it is foreshortened by height / ahead */
   double wide = t->dot * ahead * ahead / t->height;
   wide = wide > 60 ? 60 : wide > 1e-3 ? wide : 1e-3;
   const double a = squares(u, wide), b = squares(v, wide);
@@ -135,7 +138,7 @@ INSIDE void on_floor(const stage *g, const tile *t, sw_vec ray, double ahead, do
   for (int c = 0; c < 3; c++) out[c] = behind[c] + (out[c] - behind[c]) * share;
 }
 
-/* --- dots ------------------------------------------------------------------------------------ */
+/* --- pixels ---------------------------------------------------------------------------------- */
 
 INSIDE void shade_sample(const stage *g, uint32_t id, float near, double x, double y,
                          float out[3]) {
@@ -156,7 +159,7 @@ INSIDE void shade_sample(const stage *g, uint32_t id, float near, double x, doub
   }
 }
 
-/* Whether one thing ends before another one within a dot and its neighbours right and below. */
+/* 1 if an object ends in front of another one between a pixel and its right or lower neighbour. */
 INSIDE int is_rim(const stage *g, size_t x, size_t y) {
   const sw_layer *l = &g->layer;
   const size_t right = x + SS < l->width ? x + SS : x, below = y + SS < l->height ? y + SS : y;
@@ -170,7 +173,7 @@ INSIDE int is_rim(const stage *g, size_t x, size_t y) {
   return 0;
 }
 
-/* Samples of one dot: each thing among them is lit once, in the middle of its samples. */
+/* Shades one pixel: each object among its samples is lit once, in the middle of its samples. */
 INSIDE void shade_dot(const stage *g, size_t x, size_t y, float out[3]) {
   const sw_layer *l = &g->layer;
   const size_t first = l->width * y + x, next = first + l->width;

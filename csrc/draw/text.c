@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Letters, from outlines that scripts/font.lua took from a font when this program was built: their
- * number; of each its code point, advance, number of outlines, and of these their number of points
- * and the points, in 16 bits, little-endian, y upwards, by code point. */
+/* Draws letters from outlines. scripts/font.lua takes the outlines from a font when this program is
+ * built. Data: number of letters; for each letter, sorted by code point: code point, advance,
+ * number of outlines; for each outline: number of points, points. All numbers have 16 bits,
+ * little-endian; y points upwards. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,8 @@
 
 extern const unsigned char sw_font_start[];
 
-enum { ROWS = 5, CROSSINGS = 64, EM = 2048 }; /* lines of samples in a dot; of outlines on one */
+/* Sample lines in a pixel, most crossings of outlines on a line, font units of a letter's size. */
+enum { ROWS = 5, CROSSINGS = 64, EM = 2048 };
 
 static int u16(const unsigned char *p) { return p[0] | p[1] << 8; }
 static int i16(const unsigned char *p) { return (int16_t)u16(p); }
@@ -25,7 +27,7 @@ static const unsigned char *letter(unsigned code) {
   return code == '?' ? sw_font_start + 2 : letter('?');
 }
 
-/* The next code point; what is no UTF-8 becomes a question mark. */
+/* Returns the next code point; bytes that are not UTF-8 become question marks. */
 static unsigned decode(const char **text, const char *end) {
   const unsigned char first = (unsigned char)*(*text)++;
   if (first < 0x80) return first;
@@ -48,7 +50,8 @@ static int by_x(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Where the outlines of a letter cross a line; x y: of its origin, s: size of a unit [px]. */
+/* Finds where the outlines of a letter cross a line. x, y: the letter's origin [px]; s: size of a
+ * font unit [px]. Returns the number of crossings, sorted by x. */
 static int cross(const unsigned char *p, double line, double x, double y, double s, crossing *out) {
   const int outlines = u16(p + 4);
   int n = 0;
@@ -68,7 +71,7 @@ static int cross(const unsigned char *p, double line, double x, double y, double
   return n;
 }
 
-/* Mix a colour into a dot. */
+/* Mixes a share of a colour into a pixel. */
 static void mix(sw_canvas *c, size_t x, size_t y, double share, const float colour[3]) {
   uint8_t *dot = c->rgb + 3 * (c->width * y + x);
   for (int k = 0; k < 3; k++)

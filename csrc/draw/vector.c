@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A drawing as SVG: faces that a picture would show, from back to front; over them edges, wires and
- * balls as far as nothing is in front of them. */
+/* Writes a drawing as SVG: first the visible faces, from back to front; over them the edges, wires
+ * and balls that have nothing in front of them. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,8 +12,9 @@
 #include "draw/pieces.h"
 
 enum { FINE = 2, RIM_SIDES = 72, LONGEST = 240, POLL = 1024, SQUARES = 60, RINGS = 14 };
-static const float BACKGROUND = 0.84f; /* light far away [-] */
-static const double GLIMPSE = 0.1; /* of a face seen from within: less of it is a rounding [-] */
+static const float BACKGROUND = 0.84f; /* linear light of the background [-] */
+/* Least visible share of a face seen from within; a smaller one is a rounding error [-] */
+static const double GLIMPSE = 0.1;
 
 typedef struct item {
   double depth; /* [m] */
@@ -31,7 +32,7 @@ typedef struct paper {
   size_t item_count, item_room;
   char *text;
   size_t size, room;
-  double scale; /* of samples to units of the picture */
+  double scale; /* units of the picture a sample [-] */
   sw_status status;
   int (*interrupted)(void);
 } paper;
@@ -49,7 +50,7 @@ __attribute__((format(printf, 2, 3))) static void put(paper *g, const char *form
   g->size += (size_t)n;
 }
 
-/* Decimal points whatever the locale. */
+/* Writes a number with a decimal point, in any locale. */
 static void put_number(paper *g, double x) {
   const long hundredths = lrint(100 * fmin(1e7, fmax(-1e7, x)));
   put(g, "%s%ld.%02ld", hundredths < 0 ? "-" : "", labs(hundredths) / 100, labs(hundredths) % 100);
@@ -90,7 +91,7 @@ static double ahead_of(const paper *g, const float *p) {
 
 /* --- floors ------------------------------------------------------------------------------ */
 
-/* A polygon of points of a floor; nothing if one of them is behind the camera. */
+/* Writes a polygon on a floor; nothing if one of its points is behind the camera. */
 static void put_polygon(paper *g, const sw_vec *p, size_t count, const float linear[3]) {
   double at[RIM_SIDES][3];
   for (size_t k = 0; k < count; k++)
@@ -104,7 +105,7 @@ static void put_polygon(paper *g, const sw_vec *p, size_t count, const float lin
 
 static float mixed(float a, float b, double share) { return a + (b - a) * (float)share; }
 
-/* Rings, each nearer to the background than the one within. */
+/* Writes a floor's base as discs, the largest first; outer rings fade to the background. */
 static void put_disc(paper *g, const sw_floor *f, const float light[3]) {
   const sw_vec side = sw_cross(f->normal, f->across);
   sw_vec p[RIM_SIDES];
@@ -145,8 +146,8 @@ static void put_floor(paper *g, const sw_floor *f) {
 
 /* --- faces -------------------------------------------------------------------------------- */
 
-/* Twice the area of a face in samples, below 0 seen from within; 0: it reaches behind the camera.
- */
+/* Returns twice the area of a face in samples; below 0: seen from within; 0: it reaches behind the
+ * camera. */
 static double area_of(const paper *g, const sw_face *f) {
   double p[3][3];
   for (int k = 0; k < 3; k++)
@@ -229,7 +230,7 @@ static void put_lines(paper *g, const sw_line *lines, size_t count, int hidden, 
 
 /* --- wires and balls ------------------------------------------------------------------------- */
 
-/* A piece of a wire: its rim, itself, and the light that it throws back. */
+/* Writes a piece of a wire: its dark rim, its body, and its highlight. */
 static void put_piece(paper *g, const sw_piece *q) {
   const double ahead = 0.5 * (ahead_of(g, q->p[0]) + ahead_of(g, q->p[1]));
   const double width = (double)q->radius * g->scale * g->view.width / (g->view.camera.tx * ahead);
@@ -327,7 +328,7 @@ sw_status sw_drawing_svg(const sw_drawing *d, const sw_camera *camera, sw_techni
   sw_light_free(&g.light); /* no shadows */
   if (g.status == SW_OK)
     g.status = sw_layer_new((size_t)(FINE * width), (size_t)(FINE * height), 1, &g.layer);
-  sw_drawing bare = *d; /* balls are drawn by themselves */
+  sw_drawing bare = *d; /* without balls, which are drawn separately */
   bare.ball_count = 0;
   if (g.status == SW_OK)
     g.status = sw_raster(&bare, &g.view, technique != SW_DRAW_WIREFRAME, &g.layer, interrupted);

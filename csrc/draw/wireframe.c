@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edges and lines on white; those behind something are pale. */
+/* Draws edges and lines on white; hidden ones are pale. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -7,8 +7,8 @@
 #include "draw/show.h"
 
 enum { SS = 3, POLL = 256 };
-static const float PALE = 0.80f; /* how near to white hidden lines are [-] */
-static const double PART = 24;   /* of a line, drawn at once [samples] */
+static const float PALE = 0.80f; /* share of white in hidden lines [-] */
+static const double PART = 24;   /* length of line that is drawn at once [samples] */
 
 typedef struct sheet {
   size_t width, height; /* [samples] */
@@ -20,7 +20,7 @@ static size_t clipped(double x, size_t most) {
   return x <= 0 ? 0 : x >= (double)most ? most : (size_t)x;
 }
 
-/* All samples that are nearer than half the width to a line. */
+/* Colours all samples up to half the width from a line. */
 static void stroke(sheet *g, const double a[2], const double b[2], double half,
                    const uint8_t colour[3]) {
   const double dx = b[0] - a[0], dy = b[1] - a[1], long2 = dx * dx + dy * dy;
@@ -53,7 +53,8 @@ static void draw_stretch(sheet *g, const sw_stretch *s, const sw_line *l) {
   }
 }
 
-/* The hidden ones first, so that they never cover others. */
+/* Draws the hidden or the visible stretches. The caller draws the hidden ones first, so that they
+ * never cover visible ones. */
 static sw_status draw_lines(sheet *g, const sw_line *lines, size_t count, int hidden,
                             int (*interrupted)(void)) {
   for (size_t i = 0; i < count; i++) {

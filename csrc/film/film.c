@@ -9,37 +9,37 @@
 #include "film/pack.h"
 
 enum { LEVELS = 4095, ARC_LEVELS = 1 << 20, FAR = 1 << 29 };
-static const double PLACE = 1e-3;           /* step of places, of the radius [-] */
-static const double EXTENT = 1e-6;          /* or of how far they reach, without a radius [-] */
-static const double SMALLEST = 1e-12;       /* [m] */
-static const double TURN = 1.0 / (1 << 20); /* step of a rotation's numbers [-] */
+static const double PLACE = 1e-3;           /* rounding step of positions over the radius [-] */
+static const double EXTENT = 1e-6;          /* the same over their extent, without a radius [-] */
+static const double SMALLEST = 1e-12;       /* smallest rounding step [m] */
+static const double TURN = 1.0 / (1 << 20); /* rounding step of a quaternion's numbers [-] */
 
 typedef struct track {
   uint8_t kind, channel;
   uint16_t width;
   uint32_t object, line;
   double scale, offset;
-  int values;  /* code 0: no number */
-  size_t slot; /* in the scene */
+  int values;  /* 1: code 0 means no number */
+  size_t slot; /* of the object in the scene [-] */
 } track;
 
 typedef struct maker {
   const sw_scene *s;
   int (*interrupted)(void);
-  size_t *frame; /* (frames) numbers of those that are in it */
+  size_t *frame; /* (frames) numbers of the film's frames */
   size_t frames, broken;
   sw_pack *pack;
   track *tracks;
   size_t track_count, track_capacity;
-  uint32_t *codes[2]; /* of this frame, of the one before */
+  uint32_t *codes[2]; /* of this frame, of the previous frame */
   size_t room[2];
 } maker;
 
-/* --- what a track has in a frame --------------------------------------------- */
+/* --- the items of a track in a frame ------------------------------------------ */
 
 typedef struct items {
-  const float *p; /* the first one's numbers */
-  size_t count, step;
+  const float *p;     /* numbers of the first item */
+  size_t count, step; /* number of items; floats from one item to the next */
 } items;
 
 static items look_at_wire(const sw_scene *s, const track *t, size_t frame, size_t *around) {
@@ -88,7 +88,7 @@ static sw_status add_track(maker *m, track t) {
   return SW_OK;
 }
 
-/* Bounds of its numbers, over all frames; 0: it has no numbers. */
+/* Finds the bounds of the track's numbers over all frames; 0 if it has no numbers. */
 static int range_of(const maker *m, const track *t, double *low, double *high) {
   *low = HUGE_VAL, *high = -HUGE_VAL;
   for (size_t f = 0; f < m->frames; f++) {
@@ -117,7 +117,7 @@ static sw_status add_values(maker *m, track t, double levels) {
   t.width = t.width ? t.width : 1, t.line = t.line ? t.line : 1, t.values = 1;
   if (!range_of(m, &t, &low, &high)) return SW_OK;
   t.scale = high > low ? (high - low) / levels : 1.0;
-  t.offset = low - t.scale; /* codes begin with 1 */
+  t.offset = low - t.scale; /* the smallest code is 1 */
   return add_track(m, t);
 }
 
@@ -249,7 +249,7 @@ static sw_status put_all(maker *m) {
   return SW_OK;
 }
 
-/* --- which frames ----------------------------------------------------------------- */
+/* --- choice of frames ------------------------------------------------------------- */
 
 static int all_finite(const float *p, size_t count) {
   for (size_t i = 0; i < count; i++)

@@ -56,7 +56,7 @@ static void squeeze(sw_pack *p, int flush) {
     if (p->status == SW_OK) p->status = sw_grow((void **)&p->out, &p->capacity, p->size + ROOM, 1);
     if (p->status != SW_OK) return;
     p->z.next_out = p->out + p->size, p->z.avail_out = ROOM;
-    (void)deflate(&p->z, flush); /* Z_BUF_ERROR: nothing was left to do */
+    (void)deflate(&p->z, flush); /* Z_BUF_ERROR only means that nothing was left to do */
     p->size += ROOM - p->z.avail_out;
   } while (p->z.avail_out == 0);
 }

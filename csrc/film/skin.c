@@ -13,15 +13,15 @@ typedef struct tailor {
   size_t sections, around;
   int loose, meshed;
   double radius;
-  sw_vec across; /* of the first section, carried on from frame to frame */
+  sw_vec across; /* direction to corner 0 of the first section, from the frame before */
 } tailor;
 
-/* The points of a frame, or of the nearest one that has them; step: numbers from one to the next.
- */
+/* Returns the points of frame k, or of the nearest frame that has any; step: floats from one point
+ * to the next. NULL: no frame has points. */
 static const float *points_of(const tailor *t, size_t k, size_t *count, size_t *step) {
   for (size_t away = 0; away < t->a->count; away++)
     for (int side = 0; side < 2; side++) {
-      const size_t at = side ? k + away : k - away; /* below 0 it is huge */
+      const size_t at = side ? k + away : k - away; /* below 0 it wraps to a huge number */
       size_t around;
       if (at >= t->a->count) continue;
       const float *p =
@@ -34,7 +34,7 @@ static const float *points_of(const tailor *t, size_t k, size_t *count, size_t *
   return NULL;
 }
 
-/* Section i of the wanted number of them, between those that the frame has; k: point in it. */
+/* Point k of section i of t->sections, interpolated between the sections of the frame. */
 static sw_vec point_at(const tailor *t, const float *p, size_t count, size_t step, size_t i,
                        size_t k) {
   const size_t each = t->meshed ? t->around : 1, there = count / each;
@@ -89,7 +89,7 @@ static void meshed(const tailor *t, const float *p, size_t count, size_t step, f
     }
 }
 
-/* Rings of their own and a middle at both ends, so that the edges there stay sharp. */
+/* Makes the ends: a separate ring and a middle point at each end, so that the edges stay sharp. */
 static void ends(const tailor *t, float *at, float *n) {
   const size_t w = t->around, body = w * t->sections;
   for (size_t e = 0; e < 2; e++) {
@@ -125,7 +125,7 @@ static void put_triangles(const tailor *t, uint32_t *to) {
 
 /* --- all frames ------------------------------------------------------------------------------ */
 
-/* Makes frame k; the caller goes over them in order. */
+/* Makes frame k. Call it for the frames in order. */
 static void fill(tailor *t, size_t k, const sw_skin *skin, float *at) {
   size_t count, step;
   const float *p = points_of(t, k, &count, &step);

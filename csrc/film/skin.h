@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Surfaces of wires in frames, as other programs read them: round tubes along a wire's nodes, the
- * outside of a mesh of particles, or the particles themselves. */
+/* Makes the surfaces of wires in frames, for export to other programs: round tubes along a wire's
+ * nodes, the outside of a mesh of particles, or the particles themselves. */
 #ifndef SW_FILM_SKIN_H
 #define SW_FILM_SKIN_H
 
@@ -9,26 +9,27 @@
 #include "read/frames.h"
 
 typedef struct sw_skin_args {
-  size_t wire;          /* its number in the scene */
-  const size_t *frames; /* numbers of frames */
-  size_t count;         /* of them */
-  size_t sides;         /* of a tube, 3 to 64 [-] */
-  double thickness;     /* factor on its radius [-] */
-  int differences;      /* 1: all frames but the first are what they differ from it by */
+  size_t wire;          /* number of the wire in the scene, from 0 [-] */
+  const size_t *frames; /* (count) numbers of frames */
+  size_t count;
+  size_t sides;     /* of a tube, 3 to 64 [-] */
+  double thickness; /* factor on the radius [-] */
+  int differences;  /* 1: all frames after the first contain differences from the first */
 } sw_skin_args;
 
-/* Corners run round each section, section by section, then both ends: a ring of their own and its
- * middle. Of an object of particles there are no normals and no triangles. */
+/* The corners run round each section, section by section. Then come both ends: a separate ring and
+ * its middle point for each. An object of particles has no normals and no triangles. */
 typedef struct sw_skin {
-  float *data;        /* of each frame: corners, three numbers each [m], then their normals [-] */
-  float *bounds;      /* of each frame: least x y z, largest x y z of its corners [m] */
-  uint32_t *triangle; /* three corners each, outwards */
+  float *data;        /* for each frame: corners, three numbers each [m], then their normals [-] */
+  float *bounds;      /* for each frame: smallest x y z, largest x y z of its data [m] */
+  uint32_t *triangle; /* three corners each; they face outwards */
   size_t corners, triangles;
   int normals;
 } sw_skin;
 
-/* As many sections in all frames: those of the first one that has the wire; a frame without it has
- * the nearest one's. SW_EINVAL: no frame has it. SW_ENOMEM, SW_EINTR. */
+/* Makes the skin. All frames get the number of sections of the first frame that has the wire. A
+ * frame without the wire gets the points of the nearest frame that has it. SW_EINVAL: no frame has
+ * the wire. SW_ENOMEM, SW_EINTR. */
 sw_status sw_skin_make(const sw_scene *scene, const sw_skin_args *args, int (*interrupted)(void),
                        sw_skin *out, sw_error *err);
 void sw_skin_free(sw_skin *skin);

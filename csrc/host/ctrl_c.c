@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A debug hook stops pure Lua code, but hooks belong to one coroutine each and
- * a permanent one halves the speed of Lua. So the handler arms a hook at the
- * moment of the Ctrl-C, on the coroutine that runs and on all those waiting
- * for it; resume and wrap keep that chain. The first hook (or polling C code)
- * that sees the flag takes it and raises; the others then find nothing to do
- * and go away. Coroutines resumed by other C code are not in the chain: they
- * stop when they come back to one that is. */
+/* Stops Lua code at a Ctrl-C. A debug hook can stop pure Lua code, but a hook belongs
+ * to one coroutine, and a permanent hook halves the speed of Lua. So the signal
+ * handler sets hooks when the Ctrl-C comes, on the running coroutine and on all
+ * coroutines that wait for it; resume and wrap keep this chain. The first hook (or
+ * polling C code) that sees the flag clears it and raises. The other hooks then find
+ * the flag cleared and remove themselves. Coroutines resumed by other C code are not
+ * in the chain: they stop when they return to a coroutine that is. */
 #include "host/ctrl_c.h"
 
 #include <errno.h>
@@ -29,13 +29,13 @@ static frame base;
 static frame *volatile running;
 static pthread_t owner; /* the thread that runs Lua */
 static volatile sig_atomic_t seen, prompt, cancelled;
-static struct timespec last; /* the Ctrl-C before; tv_sec 0 = none */
+static struct timespec last; /* time of the previous Ctrl-C; tv_sec 0 = none */
 
-/* Push the place of the script's line that is being done, whatever of the library that calls;
- * without one, of what runs. */
+/* Pushes the position of the script's innermost running line, also when the library was called from
+ * it; without one, the position of what runs. */
 static void push_place(lua_State *L) {
   lua_Debug at;
-  for (int level = 0; lua_getstack(L, level, &at); level++) { /* in a hook 0 is what it stopped */
+  for (int level = 0; lua_getstack(L, level, &at); level++) { /* 0: the function the hook stopped */
     if (!lua_getinfo(L, "Sl", &at) || at.currentline < 0 || host_is_library(L, at.source)) continue;
     lua_pushfstring(L, "%s:%d: ", at.short_src, at.currentline);
     return;
@@ -54,7 +54,7 @@ static void stop(lua_State *L, lua_Debug *ar) {
   lua_error(L);
 }
 
-/* Time since the Ctrl-C before [s]. */
+/* Returns the time since the previous Ctrl-C [s], and notes this one. */
 static double since_last(void) {
   struct timespec now = {0, 0};
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -65,8 +65,9 @@ static double since_last(void) {
   return first ? 1e9 : since;
 }
 
-/* Twice within a second ends what swallows errors or never polls. Programs
- * like timeout(1) send the signal twice at once, which no finger can do. */
+/* A second Ctrl-C within a second ends the process, in case code catches the error or
+ * never polls. Signals less than 0.05 s apart count as one: programs like timeout(1)
+ * send two at once. */
 static void stop_running(void) {
   const double since = since_last();
   if (since < 0.05) return;
@@ -79,7 +80,7 @@ static void stop_running(void) {
 static void on_sigint(int number) {
   const int kept = errno;
   if (!pthread_equal(pthread_self(), owner)) {
-    pthread_kill(owner, number); /* hooks may be set by the thread of Lua only */
+    pthread_kill(owner, number); /* only the thread of Lua may set hooks */
   } else if (prompt) {
     cancelled = 1;
   } else {
@@ -88,20 +89,20 @@ static void on_sigint(int number) {
   errno = kept;
 }
 
-/* --- which coroutine runs ------------------------------------------------- */
+/* --- the chain of running coroutines --------------------------------------- */
 
 static void enter(frame *f, lua_State *co) {
   f->L = co;
   f->outer = running;
-  atomic_signal_fence(memory_order_seq_cst); /* the handler must see a whole frame */
+  atomic_signal_fence(memory_order_seq_cst); /* the handler must see a complete frame */
   running = f;
 }
 
 static void leave(const frame *f) { running = f->outer; }
 
-/* Move count arguments from L's top into co and run it. Gives the number of
- * results, left on top of co, or -1 with the error value there. Never raises,
- * so the chain cannot keep a frame that is gone. */
+/* Moves count arguments from L's top into co and runs it. Returns the number of
+ * results, which are on top of co, or -1 with the error value there. It never raises,
+ * so no dead frame stays in the chain. */
 static int transfer(lua_State *L, lua_State *co, int count) {
   frame f;
   int results = 0;
@@ -123,8 +124,8 @@ static int transfer(lua_State *L, lua_State *co, int count) {
   return results;
 }
 
-/* Move the error value from the top of co to L. Only here its calls are still known, so the
- * position is added now. */
+/* Moves the error value from the top of co to L. Corrects its position here, because the calls of
+ * co are known only now. */
 static void take_error(lua_State *L, lua_State *co) {
   const int dead = lua_status(co) != LUA_OK && lua_status(co) != LUA_YIELD;
   lua_xmove(co, L, 1);
@@ -137,7 +138,7 @@ static int co_resume(lua_State *L) {
   const int results = transfer(L, co, lua_gettop(L) - 1);
   lua_settop(L, L == co ? lua_gettop(L) : 1);
   lua_pushboolean(L, results >= 0);
-  if (L == co) { /* resuming itself: the message is already here */
+  if (L == co) { /* co resumes itself: the message is already here */
     lua_insert(L, -2);
     return 2;
   }
@@ -158,14 +159,14 @@ static int wrap_call(lua_State *L) {
   }
   const int status = lua_status(co);
   take_error(L, co);
-  if (status != LUA_OK && status != LUA_YIELD) { /* it died: close its variables */
+  if (status != LUA_OK && status != LUA_YIELD) { /* co died: close its variables */
     frame f;
     lua_pushvalue(L, -1);
     lua_xmove(L, co, 1);
     enter(&f, co);
     lua_resetthread(co);
     leave(&f);
-    lua_xmove(co, L, 1); /* the same error, or that of a variable's __close */
+    lua_xmove(co, L, 1); /* the same error, or the error of a variable's __close */
   }
   if (status != LUA_ERRMEM && lua_type(L, -1) == LUA_TSTRING) {
     luaL_where(L, 1);
@@ -184,7 +185,7 @@ static int co_wrap(lua_State *L) {
   return 1;
 }
 
-/* --- the host's side ------------------------------------------------------ */
+/* --- functions for the host ------------------------------------------------ */
 
 void host_ctrl_c_open(lua_State *L) {
   static const luaL_Reg functions[] = {{"resume", co_resume}, {"wrap", co_wrap}, {NULL, NULL}};
@@ -200,8 +201,8 @@ void host_ctrl_c_open(lua_State *L) {
 void host_ctrl_c_install(void) {
   struct sigaction action = {.sa_handler = on_sigint}, before;
   sigemptyset(&action.sa_mask);
-  /* A shell starts background jobs with SIGINT ignored; leave it so. Without
-   * SA_RESTART a read from the terminal returns and the hook gets its turn. */
+  /* A shell starts background jobs with SIGINT ignored; that stays so. Without
+   * SA_RESTART a read from the terminal returns, so that the hook can run. */
   if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
     sigaction(SIGINT, &action, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lines of earlier sessions. No file, no folder, no right to write: then
- * there is no history, which is no reason to bother anybody. */
+/* Stores the lines of earlier sessions in a file. Without a file, a folder, or the
+ * permission to write there is no history, and no error message. */
 #include <fcntl.h>
 #include <limits.h>
 #include <readline/history.h>
@@ -27,12 +27,12 @@ static void find_file(void) {
   if (n < 0 || n >= (int)sizeof file) file[0] = 0;
 }
 
-/* Make the folders above the file and the file. */
+/* Makes the file and the folders above it. */
 static int make_file(void) {
   for (char *p = file + 1; *p; p++) {
     if (*p != '/') continue;
     *p = 0;
-    (void)mkdir(file, 0700); /* there already, or the open below fails */
+    (void)mkdir(file, 0700); /* if this fails, the folder exists or the open below fails */
     *p = '/';
   }
   const int fd = open(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
@@ -53,7 +53,7 @@ void host_history_add(const char *line) {
   const HIST_ENTRY *before = history_length ? history_get(history_base + history_length - 1) : NULL;
   if (before && strcmp(before->line, line) == 0) return;
   add_history(line);
-  /* at once, so that nothing is lost when the session ends badly */
+  /* each line at once, so that nothing is lost if the program is killed */
   if (file[0] && append_history(1, file) != 0 && !(make_file() && append_history(1, file) == 0))
     file[0] = 0;
 }

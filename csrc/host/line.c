@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The line editor: GNU readline on a terminal, plain reading elsewhere.
- * readline's own loop cannot give up a line on a signal, so this one feeds it
- * key by key; SIGINT is let through only while waiting for a key, where no
- * Ctrl-C can be missed. */
+ * readline's own loop cannot cancel a line at a signal, so this loop passes it key
+ * by key. SIGINT is unblocked only while waiting for a key; so no Ctrl-C is missed. */
 #include <errno.h>
 #include <lauxlib.h>
 #include <locale.h>
@@ -18,15 +17,15 @@
 #include "host/ctrl_c.h"
 #include "host/host.h"
 
-static lua_State *state; /* completions are asked here; readline has no user pointer */
+static lua_State *state; /* for the completer; readline has no user pointer */
 static const char completer_key;
 static sigset_t open_mask; /* the signal mask outside the editor */
-static char *typed;        /* the line, after done */
+static char *typed;        /* the line, once done is 1 */
 static int done;
 
 /* --- completion ----------------------------------------------------------- */
 
-/* Is the cursor inside a string? */
+/* 1 if the cursor is inside a string. */
 static int in_string(void) {
   char quote = 0;
   for (int i = 0; i < rl_point; i++) {
@@ -43,13 +42,14 @@ static int in_string(void) {
   return quote != 0;
 }
 
-/* Inside strings words are file names, elsewhere Lua names. */
+/* Returns the characters that end a word: inside strings words are file names, elsewhere Lua
+ * names. */
 static char *word_breaks(void) {
   static char string[] = "\"'", code[] = " \t\n\"'`@$><=;|&{([+-*/%^~#)]},.:!?";
   return in_string() ? string : code;
 }
 
-/* The candidates are in the table on top of the stack. */
+/* Returns a copy of the next candidate of the table on top of the stack; NULL at its end. */
 static char *next_candidate(const char *word, int first) {
   static int i;
   (void)word;
@@ -61,15 +61,15 @@ static char *next_candidate(const char *word, int first) {
   return copy;
 }
 
-/* Call the completer; leaves its answer or an error value on the stack. */
+/* Calls the completer and leaves its answer or an error value on the stack; 1 if it is a table. */
 static int ask_completer(const char *word, int start) {
   sigset_t kept;
   lua_rawgetp(state, LUA_REGISTRYINDEX, &completer_key);
   lua_pushlstring(state, rl_line_buffer, (size_t)start);
   lua_pushstring(state, word);
   host_ctrl_c_reset();
-  /* The user's metamethods may run. Ctrl-C must stop them, and a closed window
-   * the program: readline's handlers would only take notes until they end. */
+  /* The completer may run the user's metamethods. Ctrl-C must stop them, and closing the
+   * window must end the program; readline's handlers would only record the signals. */
   rl_clear_signals();
   host_ctrl_c_at_prompt(0);
   sigprocmask(SIG_SETMASK, &open_mask, &kept);
@@ -87,7 +87,7 @@ static char **complete(const char *word, int start, int end) {
   (void)end;
   rl_completion_append_character = 0;
   const int quoted =
-      in_string(); /* choices of a parameter, else readline goes on with file names */
+      in_string(); /* choices of a parameter; without any, readline completes file names */
   rl_attempted_completion_over = !quoted;
   if (!lua_checkstack(state, 8)) return NULL;
   if (ask_completer(word, start)) matches = rl_completion_matches(word, next_candidate);
@@ -101,7 +101,7 @@ static char **complete(const char *word, int start, int end) {
 static void take_line(char *line) {
   typed = line;
   done = 1;
-  rl_callback_handler_remove(); /* puts the terminal back */
+  rl_callback_handler_remove(); /* restores the terminal */
 }
 
 static void give_up_line(void) {
@@ -111,8 +111,8 @@ static void give_up_line(void) {
   rl_callback_handler_remove();
 }
 
-/* A new window size, a stop (Ctrl-Z), an end: readline's, but after a stop it
- * leaves the line to be drawn anew. */
+/* Lets readline handle a new window size, a stop (Ctrl-Z) or an end. After a stop the line must be
+ * redrawn here. */
 static void handle_signal(void) {
   const int number = rl_pending_signal();
   if (!number) return;
@@ -122,7 +122,7 @@ static void handle_signal(void) {
   rl_redisplay();
 }
 
-/* Feed keys to readline until the line is done; 0 when it was given up. */
+/* Passes keys to readline until the line is done; 0 if the user cancelled it. */
 static int feed(void) {
   struct pollfd input = {STDIN_FILENO, POLLIN, 0};
   while (!done) {
@@ -147,13 +147,13 @@ static int edit_line(lua_State *L, const char *prompt) {
   typed = NULL;
   done = 0;
   rl_callback_handler_install(prompt, take_line);
-  host_ctrl_c_install(); /* over readline's, which would keep the line */
+  host_ctrl_c_install(); /* replaces readline's handler, which would not cancel the line */
   const int whole = feed();
   host_ctrl_c_at_prompt(0);
   sigprocmask(SIG_SETMASK, &open_mask, NULL);
   if (!whole) return LINE_CANCELLED;
   if (!typed) {
-    fputc('\n', rl_outstream); /* so that the shell's prompt gets its own line */
+    fputc('\n', rl_outstream); /* the shell's prompt begins on a new line */
     return LINE_END;
   }
   host_history_add(typed);
@@ -162,7 +162,7 @@ static int edit_line(lua_State *L, const char *prompt) {
   return LINE_READ;
 }
 
-/* No editor and no prompts: lines may hold any bytes and have any length. */
+/* Reads a line without editor and prompt. It may contain any bytes and have any length. */
 static int read_line(lua_State *L) {
   char *line = NULL;
   size_t size = 0;
@@ -175,7 +175,7 @@ static int read_line(lua_State *L) {
 }
 
 int host_line(lua_State *L, const char *prompt) {
-  clearerr(stdin); /* a Ctrl-C during io.read leaves a mark there */
+  clearerr(stdin); /* a Ctrl-C during io.read sets the error flag of stdin */
   return isatty(STDIN_FILENO) ? edit_line(L, prompt) : read_line(L);
 }
 
@@ -183,11 +183,11 @@ void host_line_open(lua_State *L) {
   const int completes = lua_isfunction(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &completer_key);
   if (!isatty(STDIN_FILENO)) return;
-  setlocale(LC_CTYPE, ""); /* wide characters in the editor; numbers stay as they are */
+  setlocale(LC_CTYPE, ""); /* for wide characters in the editor; numbers do not change */
   lsw_locale_renew();
   state = L;
   rl_readline_name = "softworld";    /* for $if softworld in ~/.inputrc */
-  rl_persistent_signal_handlers = 1; /* else they are gone while waiting for a key */
+  rl_persistent_signal_handlers = 1; /* else readline removes them while it waits for a key */
   rl_outstream = isatty(STDOUT_FILENO) ? stdout : stderr;
   rl_completion_word_break_hook = word_breaks;
   if (completes) rl_attempted_completion_function = complete;

@@ -20,7 +20,7 @@ static void open_libraries(lua_State *L) {
   lua_pop(L, 1);
 }
 
-/* A command; or -e codes, then the script, then the prompt: as far as asked for. */
+/* Runs a command; or the -e codes, then the script, then the prompt, as the options ask. */
 static int run_all(lua_State *L, const host_options *o) {
   int status = HOST_OK, at = 1;
   const char *code;
@@ -38,12 +38,12 @@ static int run_all(lua_State *L, const host_options *o) {
   if (status == HOST_OK && o->view)
     status = host_run_code(L, "require('softworld.view.view').stay()");
   if (!o->interactive) return status;
-  /* the prompt also follows a failure: its globals are what one wants to see */
+  /* the prompt also follows a failure, so that the user can look at the globals */
   const int left = host_repl(L);
   return left == HOST_OK ? status : left;
 }
 
-/* In protected mode: even running out of memory ends with a message. */
+/* Runs in protected mode, so that even running out of memory ends with a message. */
 static int protected_main(lua_State *L) {
   const host_options *o = lua_touserdata(L, 1);
   open_libraries(L);
@@ -54,7 +54,7 @@ static int protected_main(lua_State *L) {
   return 1;
 }
 
-/* Output that could not be written (a full disk) is a failure too. */
+/* Returns status, or a failure if the output cannot be written (full disk). */
 static int flush_output(int status) {
   if (fflush(stdout) == 0 && !ferror(stdout)) return status;
   fprintf(stderr, "softworld: cannot write the output: %s\n", strerror(errno));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command line. */
+/* Reads the command line. */
 #include <lauxlib.h>
 #include <stdio.h>
 #include <string.h>
@@ -48,7 +48,7 @@ static int is_help(const char *word) {
   return strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0;
 }
 
-/* Read the option at argv[*at]; *at ends on its last word. */
+/* Reads the option at argv[*at] and sets *at to its last word. */
 static int read_option(host_options *o, int *at) {
   const char *word = o->argv[*at];
   if (strncmp(word, "-e", 2) == 0) {
@@ -111,7 +111,7 @@ const char *host_options_code(const host_options *o, int *at) {
   const int end = o->script ? o->script : o->argc;
   for (int i = *at; i < end; i++) {
     if (strcmp(o->argv[i], "--") == 0) break;
-    if (strcmp(o->argv[i], "--log") == 0) i++; /* its file may be called -e */
+    if (strcmp(o->argv[i], "--log") == 0) i++; /* the log file may be called -e */
     if (i >= end || strncmp(o->argv[i], "-e", 2) != 0 || strcmp(o->argv[i - 1], "--log") == 0)
       continue;
     const char *code = o->argv[i][2] ? o->argv[i] + 2 : o->argv[++i];

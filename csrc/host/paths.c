@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the program and its Lua files are. In the tree the program is
- * build/softworld beside lua/; installed it is bin/softworld beside
+/* Finds the program and its Lua files. In the source tree the program is
+ * build/softworld beside lua/. Installed it is bin/softworld beside
  * share/lua/5.4. */
 #include <lauxlib.h>
 #include <limits.h>
@@ -14,7 +14,7 @@
 
 static const char library_key; /* its address is the registry key of the prefix */
 
-/* Push the absolute path when it is a file that can be run. */
+/* Pushes the absolute path and returns 1 if path is an executable file; else returns 0. */
 static int push_runnable(lua_State *L, const char *path) {
   struct stat info;
   char *real = realpath(path, NULL);
@@ -25,7 +25,7 @@ static int push_runnable(lua_State *L, const char *path) {
   return good;
 }
 
-/* Push the program's absolute path, or its name as called when nothing helps. */
+/* Pushes the program's absolute path; if it cannot be found, its name as called. */
 static void push_executable(lua_State *L, const char *name) {
   char path[PATH_MAX];
   const ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
@@ -51,7 +51,7 @@ static void push_executable(lua_State *L, const char *name) {
   lua_pushstring(L, name);
 }
 
-/* Push path without its last component ("." when it has one only). */
+/* Pushes path without its last component ("." if it has only one). */
 static void push_parent(lua_State *L, const char *path) {
   const char *slash = strrchr(path, '/');
   if (!slash) {
@@ -61,7 +61,8 @@ static void push_parent(lua_State *L, const char *path) {
   }
 }
 
-/* Push the directory that holds the folder softworld; 0 and nothing when none. */
+/* Pushes the directory that contains the folder softworld and returns 1; if there is none, pushes
+ * nothing and returns 0. */
 static int push_library(lua_State *L, const char *executable) {
   static const char *const places[] = {"lua", "share/lua/5.4"};
   struct stat info;
@@ -83,16 +84,16 @@ static int push_library(lua_State *L, const char *executable) {
   return 0;
 }
 
-/* Add the folder's templates to the buffer, unless its name would be read as
- * templates of its own. */
+/* Adds the folder's templates to the buffer, unless its name contains characters that
+ * have a meaning in templates. */
 static void add_templates(luaL_Buffer *b, const char *folder) {
   if (strpbrk(folder, ";?")) return;
   luaL_addstring(b, folder), luaL_addstring(b, "/?.lua;");
   luaL_addstring(b, folder), luaL_addstring(b, "/?/init.lua;");
 }
 
-/* library (or NULL) comes first, so that another installed copy is not mixed
- * with this program's core; then the script's folder; then what was there. */
+/* Sets package.path: first library (or NULL), so that no other installed copy is used
+ * with this program's core; then the script's folder; then the old value. */
 static void set_package_path(lua_State *L, const char *library, const char *script) {
   luaL_Buffer b;
   const int top = lua_gettop(L);
@@ -114,7 +115,7 @@ static void set_package_path(lua_State *L, const char *library, const char *scri
   lua_settop(L, top);
 }
 
-/* Width of the terminal messages go to [characters]. */
+/* Width of the terminal for messages (stderr) [characters]. */
 static int host_columns(lua_State *L) {
   struct winsize size = {0};
   const char *told = getenv("COLUMNS");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The prompt: read a chunk, run it, print its values, again. What is pleasant
- * about it (completion, printing of tables) is in lua/softworld/prompt/repl.lua; it
- * also works, plainly, without that. */
+/* The prompt: reads a chunk, runs it, prints its values, and repeats. Completion and
+ * printing of tables are in lua/softworld/prompt/repl.lua; the prompt also works without
+ * that file. */
 #include <lauxlib.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static const char show_key; /* its address is the registry key of repl.show */
 
 /* --- setting up ----------------------------------------------------------- */
 
-/* Push require(name); nil after a note when that fails. */
+/* Pushes require(name); nil after a note if that fails. */
 static void require_module(lua_State *L, const char *name) {
   lua_getglobal(L, "require");
   lua_pushstring(L, name);
@@ -26,7 +26,7 @@ static void require_module(lua_State *L, const char *name) {
   lua_pushnil(L);
 }
 
-/* The globals sw, help and time. */
+/* Sets the globals sw, help and time. */
 static int set_globals(lua_State *L) {
   require_module(L, "softworld");
   if (lua_isnil(L, -1)) return 0;
@@ -46,7 +46,7 @@ static int set_globals(lua_State *L) {
   return 0;
 }
 
-/* Show and completion from softworld.prompt.repl. */
+/* Sets the printing and completion from softworld.prompt.repl. */
 static int set_tools(lua_State *L) {
   require_module(L, "softworld.prompt.repl");
   if (!lua_istable(L, -1)) lua_newtable(L);
@@ -73,7 +73,7 @@ static void set_up(lua_State *L) {
 
 /* --- reading a chunk ------------------------------------------------------ */
 
-/* Could more lines make sense of the text this message is about? */
+/* 1 if the syntax error on top means that more lines may complete the text. */
 static int is_unfinished(lua_State *L) {
   static const char mark[] = "<eof>";
   size_t length;
@@ -85,7 +85,7 @@ static int load_with(lua_State *L, int text, const char *before) {
   size_t length;
   lua_pushstring(L, before);
   lua_pushvalue(L, text);
-  lua_pushliteral(L, "\n"); /* or an open quote would look unfinished */
+  lua_pushliteral(L, "\n"); /* without it an open quote would look unfinished */
   lua_concat(L, 3);
   const char *whole = lua_tolstring(L, -1, &length);
   const int status = luaL_loadbufferx(L, whole, length, "=input", "t");
@@ -93,9 +93,9 @@ static int load_with(lua_State *L, int text, const char *before) {
   return status;
 }
 
-/* Load the text on top as an expression, else as statements. Replaces it by
- * the function, or by a message (LUA_ERRSYNTAX), or leaves it (LUA_YIELD: more
- * lines are needed). */
+/* Loads the text on top as an expression, or else as statements. Replaces it by
+ * the function (LUA_OK) or by a message (LUA_ERRSYNTAX); leaves it if more lines
+ * are needed (LUA_YIELD). */
 static int load_text(lua_State *L) {
   const int text = lua_gettop(L);
   int status = load_with(L, text, "return ");
@@ -114,7 +114,7 @@ static int load_text(lua_State *L) {
   return status;
 }
 
-/* A line "=x" means "return x", a line "?x" asks for help on x. */
+/* Replaces the marks of a line: "=x" means "return x"; "?x" asks for help on x. */
 static void expand_mark(lua_State *L) {
   size_t length;
   const char *line = lua_tolstring(L, -1, &length);
@@ -133,8 +133,8 @@ static void expand_mark(lua_State *L) {
   lua_remove(L, -2);
 }
 
-/* The first line is on top: replace it by the function of the whole chunk
- * (LUA_OK), a message (LUA_ERRSYNTAX) or nothing (LUA_YIELD: given up). */
+/* Reads the rest of the chunk whose first line is on top. Replaces the line by the chunk's
+ * function (LUA_OK), a message (LUA_ERRSYNTAX) or nothing (LUA_YIELD: cancelled). */
 static int read_rest(lua_State *L) {
   const int text = lua_gettop(L);
   expand_mark(L);
@@ -152,7 +152,7 @@ static int read_rest(lua_State *L) {
       lua_settop(L, text - 1);
       return LUA_YIELD;
     }
-    status = load_with(L, text, ""); /* no more lines: say what is missing */
+    status = load_with(L, text, ""); /* no more lines: the message says what is missing */
     lua_remove(L, text);
     return status;
   }
@@ -172,7 +172,7 @@ static int print_plainly(lua_State *L) {
   return 0;
 }
 
-/* The function is on top of an otherwise empty stack. */
+/* Runs the function at base + 1, the top of the stack, and prints its results. */
 static int run_chunk(lua_State *L, int base) {
   host_ctrl_c_reset();
   int status = host_call(L, 0, LUA_MULTRET);
@@ -189,8 +189,8 @@ static int run_chunk(lua_State *L, int base) {
   return status;
 }
 
-/* Each line is a chunk, so a local is gone at its end: a trap for everyone who
- * pastes `local sw = require "softworld"`. Told once. */
+/* Prints, once, a note about locals. Each line is a chunk, so a local is lost at the
+ * line's end; users who paste `local sw = require "softworld"` run into this. */
 static void hint_about_locals(lua_State *L) {
   static int told;
   const char *line = lua_tostring(L, -1);
@@ -200,7 +200,7 @@ static void hint_about_locals(lua_State *L) {
   fputs("note: a local ends with its line here; without 'local' it stays\n", stderr);
 }
 
-/* One round; 0 at the end of input. */
+/* Reads and runs one chunk; 0 at the end of input. */
 static int round_trip(lua_State *L) {
   const int base = lua_gettop(L);
   const int got = host_line(L, "> ");

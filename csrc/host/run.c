@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Running chunks and telling what went wrong. */
+/* Runs chunks and reports their errors. */
 #include <errno.h>
 #include <lauxlib.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ int host_call(lua_State *L, int count, int results) {
   lua_pushcfunction(L, host_traceback);
   lua_insert(L, place);
   int status = lua_pcall(L, count, results, place);
-  if (status == LUA_OK && sw_interrupted()) { /* it came too late for a hook to fire */
+  if (status == LUA_OK && sw_interrupted()) { /* the Ctrl-C came too late for a hook */
     sw_interrupt_clear();
     lua_settop(L, place);
     lua_pushliteral(L, "interrupted");
@@ -25,7 +25,7 @@ int host_call(lua_State *L, int count, int results) {
   return status;
 }
 
-/* Let softworld.program.log, if it is there, have a text; nothing is left on the stack. */
+/* Passes a text to softworld.program.log if that is loaded; leaves the stack as it was. */
 static void log_text(lua_State *L, const char *text) {
   const int top = lua_gettop(L);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
@@ -52,7 +52,7 @@ int host_log_open(lua_State *L, const host_options *o) {
 int host_report(lua_State *L) {
   size_t length = 0;
   const char *text = lua_tolstring(L, -1, &length);
-  fflush(stdout); /* what the script printed comes before */
+  fflush(stdout); /* the script's output comes first */
   fwrite(text ? text : "(no message)", 1, text ? length : 12, stderr);
   fputc('\n', stderr);
   if (text) log_text(L, text);
@@ -61,13 +61,13 @@ int host_report(lua_State *L) {
   return stopped ? HOST_INTERRUPTED : HOST_FAILED;
 }
 
-/* A message of the program's own, in place of a chunk. */
+/* Prints a message instead of running a chunk; returns HOST_FAILED. */
 static int refuse(const char *name, const char *why) {
   fprintf(stderr, "softworld: cannot run '%s': %s\n", name, why);
   return HOST_FAILED;
 }
 
-/* Push the words after the one at argv[at] (0 = none), give their number. */
+/* Pushes the words after argv[at] and returns their number; at = 0: none. */
 static int push_arguments(lua_State *L, const host_options *o, int at) {
   const int count = at ? o->argc - at - 1 : 0;
   luaL_checkstack(L, count, "too many arguments to the script");
@@ -75,7 +75,8 @@ static int push_arguments(lua_State *L, const host_options *o, int at) {
   return count;
 }
 
-/* Runs that failed without the script looking: told at its end. */
+/* At a script's end, reports failed runs whose results the script has not read. Returns
+ * HOST_FAILED if there are any. */
 static int tell_unread(lua_State *L) {
   const int top = lua_gettop(L);
   int status = HOST_OK;
@@ -95,7 +96,7 @@ static int tell_unread(lua_State *L) {
   return status;
 }
 
-/* Call a function of softworld.unread, which keeps what checks found. Gives a Lua status. */
+/* Calls a function of softworld.unread, which keeps the results of checks. Returns a Lua status. */
 static int call_unread(lua_State *L, const char *name, int results) {
   lua_getglobal(L, "require");
   lua_pushliteral(L, "softworld.unread");
@@ -106,7 +107,7 @@ static int call_unread(lua_State *L, const char *name, int results) {
   return host_call(L, 0, results);
 }
 
-/* What the checks of a script that has ended found: the exit code of --check. */
+/* Prints the result of the checks of a script that has ended; returns the exit code of --check. */
 static int check_exit(lua_State *L) {
   const int top = lua_gettop(L);
   int status;
@@ -148,7 +149,8 @@ int host_run_script(lua_State *L, const host_options *o) {
   return o->check && unread != HOST_INTERRUPTED ? check_exit(L) : unread;
 }
 
-/* Push the module of the command's name; 0 and an error's text when there is none. */
+/* Pushes the module of the command's name and returns 1; if there is none, pushes an error text and
+ * returns 0. */
 static int push_command(lua_State *L, const char *name) {
   lua_getglobal(L, "require");
   lua_pushfstring(L, "softworld.program.%s", name);

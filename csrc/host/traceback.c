@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Error texts that point at the user's line. Calls inside the library's Lua
- * files and the host are left out: the user cannot mend those. */
+/* Makes error texts that point to the user's line. Calls inside the library's Lua
+ * files and the host are left out, because the user cannot change those. */
 #include <ctype.h>
 #include <lauxlib.h>
 #include <stdio.h>
@@ -10,8 +10,8 @@
 #include "host/host.h"
 
 enum {
-  SCANNED = 60, /* levels looked at from either end: a runaway recursion has 2e5 */
-  SHOWN = 10    /* calls printed from either end */
+  SCANNED = 60, /* levels read from each end; an endless recursion has 2e5 [-] */
+  SHOWN = 10    /* calls printed from each end [-] */
 };
 
 typedef enum kind { USER, LIBRARY, NATIVE } kind;
@@ -25,8 +25,8 @@ static kind kind_of(lua_State *L, const lua_Debug *ar) {
   return host_is_library(L, ar->source) ? LIBRARY : USER;
 }
 
-/* A C function is worth a line when the user's own code called it, except for
- * those that only pass the error on. */
+/* 1 if the call is shown: the user's calls, and C functions that the user's code called,
+ * except error and assert, which only pass the error on. */
 static int is_shown(lua_State *L, int level, const lua_Debug *ar) {
   lua_Debug caller;
   const kind k = kind_of(L, ar);
@@ -37,7 +37,7 @@ static int is_shown(lua_State *L, int level, const lua_Debug *ar) {
 
 /* --- the message's position ----------------------------------------------- */
 
-/* Length of "file.lua:12: " at the start of text when it names this frame's
+/* Length of "file.lua:12: " at the start of text if it names this frame's
  * file, else 0. */
 static size_t position_length(const char *text, const lua_Debug *ar) {
   const size_t file = strlen(ar->short_src);
@@ -67,7 +67,7 @@ void host_move_position(lua_State *L, lua_State *co, int level) {
 
 /* --- the calls ------------------------------------------------------------ */
 
-/* Push "\n\tscript.lua:3: in function 'lay'". */
+/* Pushes "\n\tscript.lua:3: in function 'lay'". */
 static void push_call(lua_State *L, const lua_Debug *ar) {
   lua_pushfstring(L, "\n\t%s:", ar->short_src);
   if (ar->currentline > 0) {
@@ -100,7 +100,7 @@ static int count_levels(lua_State *L) {
   return low + 1;
 }
 
-/* Append the calls to the text on top. */
+/* Appends the calls to the text on top. */
 static void add_calls(lua_State *L) {
   lua_Debug ar;
   int seen[2 * SCANNED], count = 0;
@@ -112,7 +112,7 @@ static void add_calls(lua_State *L) {
   }
   const char *text = lua_tolstring(L, top, &length);
   if (count == 1 && get_level(L, seen[0], &ar) && *ar.what == 'm' && position_length(text, &ar))
-    return; /* the message says it already */
+    return; /* the message has this position already */
   if (count == 0) return;
   luaL_checkstack(L, 2 * SHOWN + 8, NULL);
   lua_pushliteral(L, "\ncalled from:");
@@ -128,8 +128,8 @@ static void add_calls(lua_State *L) {
 
 /* --- values that were called ----------------------------------------------- */
 
-/* "attempt to call a number value (method 'time')": the name of a value that is no function, within
- * text; 0 when it says something else. */
+/* Finds in a text such as "attempt to call a number value (method 'time')" the name of the value
+ * that is no function. 0 if the text is another one. */
 static int called_value(const char *text, const char **name, size_t *length) {
   static const char *const kinds[] = {"number", "string", "boolean"};
   static const char *const places[] = {"method", "field"};
@@ -148,7 +148,7 @@ static int called_value(const char *text, const char **name, size_t *length) {
   return 0;
 }
 
-/* Say how the value of the text on top is read. */
+/* Adds to the text on top how this value is read. */
 static void hint_at_value(lua_State *L) {
   const char *name;
   size_t length;
@@ -177,8 +177,8 @@ static int shown_value(lua_State *L) {
   return 1;
 }
 
-/* Push what the function makes of the value at index 1; 0 and nothing when it
- * fails: an error on the way to an error. */
+/* Pushes the text that the function makes of the value at index 1 and returns 1; if the
+ * function fails, pushes nothing and returns 0. */
 static int push_text(lua_State *L, lua_CFunction function) {
   lua_pushcfunction(L, function);
   lua_pushvalue(L, 1);
@@ -187,7 +187,7 @@ static int push_text(lua_State *L, lua_CFunction function) {
   return 0;
 }
 
-/* Replace the error value at index 1 by a text. */
+/* Replaces the error value at index 1 by a text. */
 static void make_text(lua_State *L) {
   const char *type = luaL_typename(L, 1);
   if (lua_isstring(L, 1)) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The fields of a scene's objects as they lie in memory. Specs compare them before a snapshot and
- * after restoring it in place, to see that a tape has every field. */
+/* Returns the bytes of the structs of a scene's objects. Specs compare them before a snapshot and
+ * after restoring it in place, to check that a tape has every field. */
 #include "bind/child.h"
 #include "body/touching.h"
 #include "link/joint.h"
@@ -12,7 +12,7 @@
 #include "scene/world.h"
 #include "watch/zone.h"
 
-/* Blank the fields that a tape need not have: they are computed again, or are room that grows. */
+/* Clears the fields that a tape need not have: they are computed again, or are growing buffers. */
 static void blank_scene(sw_scene *s) {
   s->serial = 0, s->snapshots = NULL, s->restoring = NULL;
   s->contact_steps = (sw_log){0};
@@ -27,7 +27,7 @@ static void blank_scene(sw_scene *s) {
   s->frames.memory = 0;
   memset(&s->why, 0, sizeof s->why);
   s->contact = NULL, s->pairs = NULL, s->grains = NULL, s->crowd = NULL, s->hold_loads = NULL;
-  sw_books *b = &s->books; /* fields that it computes again */
+  sw_books *b = &s->books; /* these fields are computed again */
   memset(&b->now, 0, sizeof b->now);
   memset(&b->powers, 0, sizeof b->powers);
   memset(&b->step, 0, sizeof b->step);

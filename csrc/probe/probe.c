@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Lua module softworld.probe: solvers and a scene's fields as specs see them. It is no part of
- * what is installed, and takes the core from the program that loads it. band3(rows, right) -> x,
- * negative pivots, product. rows: flat, 24 numbers a node as in solve/band3.h; right: flat, 3 a
- * node. product is rows times right. */
+/* The Lua module softworld.probe: solvers and a scene's fields, for specs. It is not installed, and
+ * uses the core of the program that loads it. */
 #include "probe/probe.h"
 
 #include <math.h>
@@ -33,6 +31,8 @@ static void push_flat(lua_State *L, const double *p, size_t n) {
   }
 }
 
+/* band3(rows, right) -> x, negative pivots, product. rows: flat, 24 numbers a node as in
+ * solve/band3.h; right: flat, 3 numbers a node. product is rows times right. */
 static int mod_band3(lua_State *L) {
   sw_error err = {""};
   size_t negative = 0;
@@ -71,9 +71,9 @@ static int mod_band4(lua_State *L) {
   return 2;
 }
 
-/* sparse(block, own, pairs, values, right) -> x, negative pivots, fill. own: flat,
- * block * block numbers a node; pairs: flat, two node numbers from 0 each; values: flat,
- * block * block numbers a pair; right: flat, block numbers a node. */
+/* sparse(block, own, pairs, values, right) -> x, negative pivots, fill. block: 3 or 4. own: flat,
+ * diagonal blocks, block * block numbers a node; pairs: flat, two node numbers from 0 each; values:
+ * flat, block * block numbers a pair; right: flat, block numbers a node. */
 static int mod_sparse(lua_State *L) {
   sw_error err = {""};
   sw_sparse *s = NULL;
@@ -116,7 +116,7 @@ static size_t field(lua_State *L, const char *name) {
   return (size_t)value;
 }
 
-/* Nodes in rings { rings, per_ring } or with pairs { nodes, pairs }. */
+/* Makes blocks for nodes in rings { rings, per_ring } or with pairs { nodes, pairs }. */
 static sw_status new_blocks(lua_State *L, sw_blocks **out) {
   const size_t rings = field(L, "rings"), per_ring = field(L, "per_ring");
   const size_t nodes = field(L, "nodes");
@@ -131,7 +131,7 @@ static sw_status new_blocks(lua_State *L, sw_blocks **out) {
   return sw_blocks_new_sparse(nodes, pairs, count, NULL, out);
 }
 
-/* The blocks that exist, from a dense matrix row by row; returns how many. */
+/* Writes the existing blocks from a dense matrix (row by row); returns their number. */
 static size_t write_blocks(sw_blocks *b, const double *dense) {
   const size_t n = sw_blocks_nodes(b), stride = sw_blocks_stride(b);
   size_t count = 0;
@@ -148,10 +148,10 @@ static size_t write_blocks(sw_blocks *b, const double *dense) {
   return count;
 }
 
-/* blocks(layout, dense, right, fixed, before) -> x, negative pivots, product, the same row
- * by row, blocks. dense: flat, all numbers of the matrix; fixed, and before, with which it is
- * factorised once more beforehand: a number a node, or nil. product is of all values with
- * right. */
+/* blocks(layout, dense, right, fixed, before) -> x, negative pivots, product, the product computed
+ * row by row, number of blocks. dense: flat, all numbers of the matrix; fixed: a number a node (not
+ * 0: fixed), or nil; before: the same, for a first factorisation before the one with fixed. product
+ * is the whole matrix times right. */
 static int mod_blocks(lua_State *L) {
   sw_error err = {""};
   sw_blocks *b = NULL;
@@ -192,7 +192,7 @@ static int mod_blocks(lua_State *L) {
   return 5;
 }
 
-/* Any matrix of rings that can be factorised: large on the diagonal, small beside it. */
+/* Writes a matrix of rings that can be factorised: large on the diagonal, small elsewhere. */
 static void write_any(sw_blocks *b, size_t per_ring) {
   const size_t n = sw_blocks_nodes(b), stride = sw_blocks_stride(b);
   for (size_t i = 0; i < n; i++)
@@ -210,7 +210,7 @@ static double seconds(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* blocks_time(rings, per ring, repeats) -> least time of a factorisation, of a solve [s] */
+/* blocks_time(rings, per ring, repeats) -> shortest time of a factorisation, of a solve [s] */
 static int mod_blocks_time(lua_State *L) {
   sw_error err = {""};
   sw_blocks *b = NULL;

@@ -4,7 +4,7 @@
 
 #include <lua.h>
 
-/* fields(scene) -> string: its objects' fields as they lie in memory */
+/* fields(scene) -> string: the bytes of the structs of its objects */
 int lsw_probe_fields(lua_State *L);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A server for pages in browsers of this machine: it hands out one page, and the latest of what
- * there is to show through websockets. It knows bytes only. Its threads never touch a scene or
- * Lua: what is to be shown is put into slots, what pages say waits to be taken.
+/* A server for pages in browsers of this machine. It serves one page, and sends the latest data to
+ * it through websockets. It handles bytes only. Its threads never touch a scene or Lua: the
+ * program puts data to show into slots, and takes the messages of pages from a queue.
  *
- * A slot has the latest bytes only, so that a page that does not read costs nothing. That of
- * frames is sent once the page has said that it has drawn the one before. Whoever wants the page
- * needs the token, 128 random bits in its address; names and origins of other sites are refused. */
+ * A slot holds only the latest bytes, so a page that does not read costs nothing. A frame is sent
+ * once the page has reported that it has drawn the previous one. The page's address contains a
+ * token of 128 random bits, without which nobody gets it. Host names and origins of other sites
+ * are refused. */
 #ifndef SW_VIEW_SERVER_H
 #define SW_VIEW_SERVER_H
 
@@ -14,36 +15,36 @@
 #include "base/status.h"
 
 enum {
-  SW_SERVER_FRAME,     /* bytes; a page gets the next one once it has said "a" */
-  SW_SERVER_TEXT,      /* this one and those after it: texts in UTF-8 */
-  SW_SERVER_SLOTS = 8, /* [-] */
-  SW_SERVER_PAGES = 8, /* at one time [-] */
-  SW_SERVER_TOKEN = 33,
+  SW_SERVER_FRAME,      /* slot of frames (bytes); a page gets the next one after its message "a" */
+  SW_SERVER_TEXT,       /* this slot and the following ones: texts in UTF-8 */
+  SW_SERVER_SLOTS = 8,  /* [-] */
+  SW_SERVER_PAGES = 8,  /* most open pages [-] */
+  SW_SERVER_TOKEN = 33, /* 32 hexadecimal digits and a terminating zero [B] */
   SW_SERVER_MESSAGE = 1 << 16 /* longest message of a page [B] */
 };
 
 typedef struct sw_server sw_server;
 
-/* Listen on 127.0.0.1 only. port 0: any that is free. SW_EINVAL: the port is taken, or not
- * allowed; SW_ENOMEM. */
+/* Starts a server that listens on 127.0.0.1 only. port 0: any free one. SW_EINVAL: the port is
+ * taken, or not allowed; SW_ENOMEM. */
 sw_status sw_server_start(int port, sw_server **out, sw_error *err);
-/* Ends within 2 s, whatever pages do; NULL is allowed. */
+/* Stops the server within 2 s, whatever pages do; NULL is allowed. */
 void sw_server_stop(sw_server *server);
 
 int sw_server_port(const sw_server *server);
 const char *sw_server_token(const sw_server *server);
 
-/* The page, a copy; policy: its Content-Security-Policy. SW_ENOMEM. */
+/* Sets the page to a copy of bytes; policy: its Content-Security-Policy. SW_ENOMEM. */
 sw_status sw_server_set_page(sw_server *server, const void *bytes, size_t size, const char *policy);
-/* Show these bytes, a copy, from now on. SW_ENOMEM. */
+/* Sets the slot to a copy of bytes. SW_ENOMEM. */
 sw_status sw_server_put(sw_server *server, int slot, const void *bytes, size_t size);
 
-/* Pages that are open; those of them that wait for a frame. */
+/* Returns the number of open pages; *waiting: number of these that wait for a frame. */
 size_t sw_server_pages(sw_server *server, size_t *waiting);
 /* Takes the oldest message: returns its size, or 0 if there is none; copies up to room bytes of it,
  * and sets the number of its page. */
 size_t sw_server_take(sw_server *server, char *out, size_t room, int *page);
-/* Wait until there is a message, or a page came, went or can take a frame, for so long at most
+/* Waits until there is a message, or a page opens, closes or can take a frame; at most this long
  * [s]. */
 void sw_server_wait(sw_server *server, double seconds);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The server, by CivetWeb: a thread of its own reads from each page, another one of ours writes to
- * it, so that a page that stops reading holds up nobody else. */
+/* The server, with the library CivetWeb. For each page a thread of CivetWeb reads from it and a
+ * thread of this program writes to it. So a page that stops reading delays no other page. */
 #include <arpa/inet.h>
 #include <civetweb.h>
 #include <errno.h>
@@ -25,7 +25,7 @@ static int say_nothing(const struct mg_connection *c, const char *message) {
 
 /* --- starting and stopping ------------------------------------------------------------ */
 
-/* Is the port free? Sets it when any will do. */
+/* Checks that the port is free; port 0: finds a free one and sets it. */
 static sw_status find_port(int *port, sw_error *err) {
   struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((unsigned short)*port)};
   socklen_t size = sizeof at;
@@ -56,7 +56,8 @@ static sw_status draw_token(sw_server *s, sw_error *err) {
   return SW_OK;
 }
 
-/* Signals stay with the thread of Lua: its threads are born with all of them blocked. */
+/* Starts CivetWeb. Its threads start with all signals blocked, so that the thread of Lua gets
+ * them. */
 static struct mg_context *start_quietly(sw_server *s, const char **options) {
   static const struct mg_callbacks callbacks = {.log_message = say_nothing,
                                                 .log_access = say_nothing};
@@ -71,7 +72,7 @@ static struct mg_context *start_quietly(sw_server *s, const char **options) {
   return context;
 }
 
-/* Waits use the monotonic clock. */
+/* Makes the lock and its condition, which waits by the monotonic clock. */
 static void init_lock(sw_server *s) {
   pthread_mutex_init(&s->lock, NULL);
   pthread_condattr_t clock;
@@ -98,7 +99,7 @@ sw_status sw_server_start(int port, sw_server **out, sw_error *err) {
                            "no",
                            "tcp_nodelay",
                            "1",
-                           NULL}; /* names and values */
+                           NULL}; /* name, value, name, value, ... */
   SW_TRY(find_port(&port, err));
   sw_server *s = sw_alloc(1, sizeof *s);
   if (!s) return sw_fail(err, SW_ENOMEM, "out of memory for the server of pages");
@@ -138,8 +139,8 @@ static void retire(sw_server *s, sw_parcel *p) {
   if (p) p->next = s->old, s->old = p;
 }
 
-/* Its listening thread looks at the wish to stop every two seconds, or when somebody comes: so
- * somebody comes, until it has stopped. */
+/* Connects to the server again and again until it has stopped. CivetWeb's listening thread checks
+ * for the stop every two seconds, or at a connection; this makes it check at once. */
 static void *wake(void *user) {
   sw_server *s = user;
   struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((unsigned short)s->port)};
@@ -188,9 +189,9 @@ void sw_server_stop(sw_server *s) {
 int sw_server_port(const sw_server *s) { return s->port; }
 const char *sw_server_token(const sw_server *s) { return s->token; }
 
-/* --- the side of Lua's thread ---------------------------------------------------------- */
+/* --- functions for Lua's thread -------------------------------------------------------- */
 
-/* Put a copy of the bytes in the place of others. */
+/* Replaces the parcel at *place by a copy of bytes. */
 static sw_status replace(sw_server *s, sw_parcel **place, const void *bytes, size_t size) {
   sw_parcel *p = sw_alloc_bytes(sizeof *p + size);
   if (!p) return SW_ENOMEM;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The inside of the server. Of its files only. */
+/* The inner structs of the server, for its files only. */
 #ifndef SW_VIEW_SERVER_INNER_H
 #define SW_VIEW_SERVER_INNER_H
 
@@ -13,20 +13,20 @@ struct mg_context;
 
 enum { INBOX = 1 << 19, HEAD = 2 * sizeof(unsigned), ADDRESS = 40, POLICY = 512 };
 
-/* Bytes on their way; freed by the thread of sw_server_put, which alone allocates. */
+/* Bytes to be sent. Only the thread of sw_server_put allocates and frees them. */
 typedef struct sw_parcel {
-  struct sw_parcel *next; /* of those that are out of date */
+  struct sw_parcel *next; /* in the list of old parcels */
   size_t size;
-  int readers; /* threads that send it */
+  int readers; /* number of threads that send it now */
   char bytes[];
 } sw_parcel;
 
 typedef struct sw_page {
   sw_server *server;
-  struct mg_connection *connection; /* NULL: this place is free */
+  struct mg_connection *connection; /* NULL: this entry is free */
   pthread_t writer;
   int number, ready, closing, broken;
-  unsigned long sent[SW_SERVER_SLOTS]; /* number of the bytes that it has got */
+  unsigned long sent[SW_SERVER_SLOTS]; /* for each slot: version last sent to this page */
 } sw_page;
 
 struct sw_server {
@@ -34,19 +34,19 @@ struct sw_server {
   int port;
   char token[SW_SERVER_TOKEN], path[ADDRESS], socket[ADDRESS];
   char policy[POLICY];
-  pthread_mutex_t lock; /* of all below */
-  pthread_cond_t news;  /* for writers, and for who waits */
+  pthread_mutex_t lock; /* protects everything below */
+  pthread_cond_t news;  /* wakes writers and sw_server_wait */
   sw_page pages[SW_SERVER_PAGES];
   sw_parcel *html, *slots[SW_SERVER_SLOTS], *old;
   unsigned long numbers[SW_SERVER_SLOTS];
   int stopping, stopped, count, stirred;
-  size_t filled; /* of the inbox: page, size, bytes; again and again [B] */
+  size_t filled; /* bytes in the inbox; each message: page, size, bytes [B] */
   char inbox[INBOX];
 };
 
-/* The server has changed: wakes writers, and who waits. Its lock is held. */
+/* Wakes writers and sw_server_wait after a change. The caller holds the lock. */
 void sw_server_stir(sw_server *server);
-/* Its context gives the page and takes connections from now on. */
+/* Makes the server's context serve the page and accept connections. */
 void sw_server_receive(sw_server *server);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Visits of pages: who may come, the page itself, and its connection, of which CivetWeb's thread
- * reads and another one of ours writes. */
+/* Visits of pages: checks requests, serves the page, and handles its connection. CivetWeb's thread
+ * reads from the connection; a thread of this program writes to it. */
 #include <civetweb.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -8,9 +8,9 @@
 
 #include "view/server_inner.h"
 
-/* --- who may come ------------------------------------------------------------- */
+/* --- checks of requests --------------------------------------------------------- */
 
-/* In a time that does not depend on where they differ. */
+/* 1 if both texts are equal. The time does not depend on where they differ. */
 static int same_text(const char *a, const char *b) {
   const size_t n = strlen(b);
   unsigned char differs = strlen(a) != n;
@@ -18,7 +18,7 @@ static int same_text(const char *a, const char *b) {
   return !differs;
 }
 
-/* Is it this machine's name, with our port, after a scheme? */
+/* 1 if given is the scheme and this machine's name with the server's port. */
 static int is_ours(const sw_server *s, const char *given, const char *scheme) {
   static const char *const names[] = {"127.0.0.1", "localhost"};
   char own[64];
@@ -71,7 +71,7 @@ static int give_page(struct mg_connection *c, void *user) {
 
 /* --- writing to a page ------------------------------------------------------------ */
 
-/* What the page has not got yet, and may get now; texts come first. */
+/* Returns the next slot that the page needs and may get now, texts first; -1: none. */
 static int next_slot(const sw_server *s, const sw_page *p) {
   for (int k = SW_SERVER_TEXT; k < SW_SERVER_SLOTS; k++)
     if (s->slots[k] && p->sent[k] != s->numbers[k]) return k;
@@ -99,13 +99,13 @@ static void *write_to(void *user) {
     const int written = mg_websocket_write(p->connection, type, bytes->bytes, bytes->size);
     pthread_mutex_lock(&s->lock);
     bytes->readers--;
-    if (written <= 0 || (size_t)written < bytes->size) p->broken = 1; /* it stopped reading */
+    if (written <= 0 || (size_t)written < bytes->size) p->broken = 1; /* page stopped reading */
   }
   pthread_mutex_unlock(&s->lock);
   return NULL;
 }
 
-/* --- reading from it ---------------------------------------------------------------- */
+/* --- reading from a page ------------------------------------------------------------- */
 
 static int open_pages(const sw_server *s) {
   int count = 0;
@@ -142,7 +142,8 @@ static void enter(struct mg_connection *c, void *user) {
   pthread_mutex_unlock(&s->lock);
 }
 
-/* 0: there is no room, the page says more than anybody can do. */
+/* Adds a message to the inbox; 0 if it is full, because the page sends faster than messages are
+ * taken. */
 static int keep_message(sw_server *s, const sw_page *p, const char *data, size_t size) {
   const unsigned head[2] = {(unsigned)p->number, (unsigned)size};
   if (s->filled + HEAD + size > INBOX) return 0;
@@ -152,7 +153,7 @@ static int keep_message(sw_server *s, const sw_page *p, const char *data, size_t
   return 1;
 }
 
-/* 0 closes the connection. */
+/* Handles a message of a page; returning 0 closes the connection. */
 static int hear(struct mg_connection *c, int bits, char *data, size_t size, void *user) {
   sw_server *s = user;
   sw_page *p = mg_get_user_connection_data(c);
@@ -179,7 +180,7 @@ static void leave(const struct mg_connection *c, void *user) {
   p->closing = 1;
   sw_server_stir(s);
   pthread_mutex_unlock(&s->lock);
-  pthread_join(p->writer, NULL); /* a write ends by its time-out */
+  pthread_join(p->writer, NULL); /* a pending write ends at its time-out */
   pthread_mutex_lock(&s->lock);
   p->connection = NULL;
   sw_server_stir(s);

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Writes a guide block as an STL file in mm: 100 long (x), 60 wide (y), 60 high (z), with a groove
--- along x that narrows to 10 mm at a height of 30.
+-- Writes a guide block as an STL file in mm: 100 long (x), 60 wide (y), 60 high (z). A groove along x
+-- narrows to 10 mm at a height of 30.
 --   softworld examples/data/make_guide.lua guide.stl
 local path = ...
 
--- Outline seen along x, and the triangles that fill it.
+-- Outline in the y-z plane, and the triangles that fill it.
 local outline = { { -30, 0 }, { 30, 0 }, { 30, 60 }, { 20, 60 }, { 5, 30 },
   { -5, 30 }, { -20, 60 }, { -30, 60 } }
 local caps = { { 1, 2, 5 }, { 1, 5, 6 }, { 2, 3, 4 }, { 2, 4, 5 }, { 1, 6, 7 }, { 1, 7, 8 } }
@@ -12,7 +12,7 @@ local half = 50
 
 local lines = { "solid guide" }
 local function triangle(a, b, c)
-  lines[#lines + 1] = "facet normal 0 0 0\n outer loop" -- readers work the normal out themselves
+  lines[#lines + 1] = "facet normal 0 0 0\n outer loop" -- programs compute the normal from the corners
   for _, p in ipairs { a, b, c } do
     lines[#lines + 1] = ("  vertex %g %g %g"):format(p[1], p[2], p[3])
   end

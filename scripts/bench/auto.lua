@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Runs that choose their model: scenes drawn at random, each with a tolerance of 10, 3 or 1 %, against every
--- fixed model and against far finer runs of the dearest one.
+--- Compares runs that choose their model with every fixed model and with far finer runs of the most expensive
+-- model. The scenes are drawn at random, each with a tolerance of 10, 3 or 1 %.
 -- @module bench.auto
 local autoguided = require "bench.autoguided"
 local autohandled = require "bench.autohandled"
@@ -13,7 +13,7 @@ local sw = require "softworld"
 
 local auto = {}
 
--- --- scenes: each takes a source of random numbers, gives build(options) -> scene, arguments of the run ---
+-- --- scenes: of(random) -> build(options) -> scene, names of quantities, duration [s] ----------------------
 
 local between, pick, wire_of = draw.between, draw.pick, draw.wire_of
 local made, finish = draw.made, draw.finish
@@ -113,7 +113,7 @@ end
 
 -- --- one scene -------------------------------------------------------------------------------
 
--- To know what is true, from which fixed models that tell nothing of the one chosen are left out [s].
+-- Time to find the true values; above it, fixed models that say nothing about the chosen one are skipped [s].
 local SLOW = 5
 
 local run = autotruth.run
@@ -129,7 +129,7 @@ local function size(a) return type(a) == "number" and math.abs(a) or near(a, { 0
 
 local letters = { round = "o", springs = "s", elements = "e" }
 
--- The rungs of a run with model = "auto", in the order of fixed models.
+-- Returns the word for a chosen model: letters for motion, twist, contact and section, as in fixed.
 local function rungs_of(model)
   return (model.motion == "poses" and "p" or "d") .. (model.twist == "rolling" and "r" or "h")
     .. (model.contact == "wires" and "w" or "n") .. letters[model.section]
@@ -144,7 +144,7 @@ end
 
 local rank = { p = 1, d = 2, h = 1, r = 2, n = 1, w = 2, o = 1, s = 2, e = 3 }
 
--- Is a cheaper than b, in no choice dearer?
+-- Returns true if model a is cheaper than b in one choice, and more expensive in none.
 local function cheaper(a, b)
   for k = 1, #a do
     if rank[a:sub(k, k)] > rank[b:sub(k, k)] then return false end
@@ -152,8 +152,8 @@ local function cheaper(a, b)
   return a ~= b
 end
 
--- The fixed models to compute: all, or of slow scenes what may be better than the model chosen. flat: none
--- that roll, what is true is known without.
+-- Returns the fixed models to compute: all; for slow scenes only the chosen one and cheaper ones. flat: no
+-- models that roll, unless cheaper or chosen, because the true values are known without them.
 local function fixed_of(rungs, took, flat)
   local list = {}
   for _, word in ipairs(fixed) do
@@ -190,23 +190,23 @@ local function one(kind, random, share)
     options.settle = not moves
     return (run(build, options, share))
   end) or nil
-  local twice = out.steady and out.steady.model or r.model -- the machine may be busy once
+  local twice = out.steady and out.steady.model or r.model -- take the shorter time of two runs
   out.probes, out.cost = math.min(out.probes, twice.cost), math.min(out.cost, twice.run_cost)
-  out.finest = (kind.pressed or not known) and autopressed.finest(build, moves) or nil -- minutes on a peg
+  out.finest = (kind.pressed or not known) and autopressed.finest(build, moves) or nil -- on a peg: minutes
   for _, word in ipairs(kind.pressed and autopressed.fixed or {}) do
-    local asked = word == out.rungs or cheaper(word, out.rungs) -- others are slow, and tell nothing of it
-    if asked and word:sub(4) == "o" then out.enough[word], out.times[word] = false, 0 -- no line is squeezed
+    local asked = word == out.rungs or cheaper(word, out.rungs) -- others are slow, and not comparable
+    if asked and word:sub(4) == "o" then out.enough[word], out.times[word] = false, 0 -- lines have no squeeze
     elseif asked then out.enough[word], out.times[word] = autopressed.suffices(build, word, share, known) end
   end
   for _, word in ipairs(kind.pressed and {} or fixed_of(out.rungs, took, kind.flat)) do
     local options = { rolls = word:sub(2, 2) == "r", contact = word:sub(3, 3) == "w", settle = not moves }
     local static = word:sub(1, 1) == "p" or nil
-    local plain = run(build, options, share, nil, static) -- as the model was chosen for
-    local f = run(build, options, share / 4, 5, static) or plain -- poses may fail on finer edges
+    local plain = run(build, options, share, nil, static) -- with the tolerance of the choice
+    local f = run(build, options, share / 4, 5, static) or plain -- poses may fail with finer edges
     local enough, away = f ~= nil, 0
     for name, q in pairs(f and f.quantities or {}) do
       local t = truth.quantities[name]
-      local most = share * size(t.value) -- and no more for bars that are longer than was asked for
+      local most = share * size(t.value) -- allowed error; longer error bars do not raise it
       local off = near(q.value, t.value)
       enough = enough and off <= most + math.min(q.error, most / 4) + t.error
       away = math.max(away, off / most)
@@ -216,7 +216,8 @@ local function one(kind, random, share)
   return out
 end
 
--- Too cheap, or dearer than need be? Where no model suffices, and the run says so, there is none to choose.
+-- Rates a row: was the chosen model too cheap, or more expensive than needed? row.some is false if no model
+-- suffices and the run said so; then there was nothing to choose.
 local function rate(row)
   row.too_cheap = row.met and not row.enough[row.rungs]
   row.some = row.met
@@ -229,9 +230,9 @@ local function rate(row)
   end
 end
 
---- Scenes drawn by a seed, until so many are known well enough: { name =, share =, rungs =, held =, rows =,
--- cheapest =, too_cheap =, cost =, probes = }. kinds: a set of names, or nil for all. Each scene is drawn by
--- its own numbers, so that it is the same whatever else is drawn.
+--- Draws scenes by a seed until the true values of count scenes are known well enough. Returns a list of
+-- { name =, share =, rungs =, held =, rows =, cheapest =, too_cheap =, cost =, probes = }. kinds: a set of
+-- names, or nil for all. Each scene has its own random numbers, so it does not depend on other scenes.
 function auto.draw(count, seed, tell, kinds)
   local design, list = require "softworld.study.design", {}
   local k, known, drawn = 0, 0, 0
@@ -239,7 +240,7 @@ function auto.draw(count, seed, tell, kinds)
     k = k + 1
     local kind, round = auto.scenes[1 + (k - 1) % #auto.scenes], (k - 1) // #auto.scenes
     if not kinds or kinds[kind.name] then
-      local share = ({ 0.1, 0.03, 0.01 })[1 + (k - 1 + round) % 3] -- another one in each round
+      local share = ({ 0.1, 0.03, 0.01 })[1 + (k - 1 + round) % 3] -- a kind gets another one in each round
       local row, why = one(kind, design.generator(seed, 17, k), share)
       row = row or { failed = tostring(why), no_truth = true }
       row.name, row.share = kind.name, share
@@ -252,14 +253,15 @@ function auto.draw(count, seed, tell, kinds)
   return list
 end
 
--- Aims: of rows that hold, of models that are the cheapest, of models too cheap; of the cost of choosing
--- over the run of the model chosen (20 ms are allowed), of the dearest model over choosing and running.
+-- Aims: share of error bars that hold, share of chosen models that are the cheapest, share of models that are
+-- too cheap; cost of choosing over the chosen model's run (20 ms are always allowed); cost of the most
+-- expensive model over choosing and running.
 auto.aims = { held = 0.95, cheapest = 0.9, too_cheap = 0.02, choosing = 0.3, gain = 10 }
 
---- Did the choice cost more than it may?
+--- Returns true if the choice cost more than allowed.
 function auto.is_over(row) return row.probes > math.max(0.02, auto.aims.choosing * row.cost) end
 
---- Figures of a list of rows.
+--- Returns the sums of a list of rows.
 function auto.figures(list)
   local f = { scenes = 0, choices = 0, rows = 0, held = 0, cheapest = 0, too_cheap = 0, choosing = 0, run = 0,
     rods = 0, finest = 0, failed = 0, over = 0, looked = 0, same = 0, choice = 0, near = 0, near_rows = 0 }
@@ -282,7 +284,7 @@ function auto.figures(list)
   return f
 end
 
--- The front: how often each fixed model suffices, and what all its runs cost, beside the models chosen.
+-- Prints how often each fixed model suffices and what all its runs cost, and the same for the chosen models.
 local function print_front(list)
   local chosen, good = 0, 0
   for _, r in ipairs(list) do
@@ -304,7 +306,7 @@ end
 
 local function verdict(met) return met and "met" or "missed" end
 
--- A line on a scene where an aim is missed.
+-- Prints a line for a scene in which an aim is missed.
 local function print_missed(r)
   if r.failed then return print(("    %-8s %g: %s"):format(r.name, r.share, r.failed)) end
   local words = {}
@@ -348,8 +350,8 @@ local function check_kinds(kinds)
   end
 end
 
---- Draw so many scenes (20) by each of two seeds, or by the one given, and print what comes of it. kinds: a
--- set of names, or nil for all.
+--- Draws count scenes (default 20) by each of two seeds, or by the given seed, and prints the results. kinds:
+-- a set of names, or nil for all.
 function auto.print(seed, kinds, count)
   check_kinds(kinds)
   for k = 1, seed and 1 or 2 do

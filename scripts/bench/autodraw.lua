@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What scenes for bench.auto are drawn from.
+--- Random parts of scenes for bench.auto.
 -- @module bench.autodraw
 local draw = {}
 
---- From a to b.
+--- Returns a number from a to b.
 function draw.between(random, a, b) return a + (b - a) * random() end
---- One of a list.
+--- Returns an item of a list.
 function draw.pick(random, list) return list[1 + math.floor(random() * #list)] end
 
---- A wire's section.
+--- Returns a wire's section.
 function draw.wire_of(random)
   return draw.pick(random, { { E = 5e6, density = 1500, radius = 0.0025 }, { E = 50e6, density = 1500,
     radius = 0.0025 },
@@ -18,7 +18,7 @@ end
 
 local STIFF = { E = true, EI = true, EA = true, GJ = true }
 
---- A wire of that section, with more arguments, as the options of a model say; options.stiffer: a factor.
+--- Adds a wire of this section, with more arguments and the options of a model; options.stiffer: a factor.
 function draw.made(scene, section, options, more)
   local args = { segments = 24, rolls = options.rolls, model = options.auto and "auto" or nil }
   for key, value in pairs(section) do args[key] = STIFF[key] and value * (options.stiffer or 1) or value end
@@ -26,7 +26,7 @@ function draw.made(scene, section, options, more)
   return scene:wire(args)
 end
 
---- What all scenes have.
+--- Adds the parts that all scenes have.
 function draw.finish(scene, options)
   scene:force{ kind = "damping", mass = 5 }
   if options.contact then scene:wire_contact{} end

@@ -1,22 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Scenes for bench.auto in which a wire is drawn over a peg: one that hangs down beyond it, and one without
--- weight or stiffness to speak of, of which the capstan's law tells what is true.
+--- Scenes for bench.auto in which a wire is drawn over a peg: a wire that hangs down behind the peg, and a
+-- nearly weightless and limp wire, for which the capstan equation gives the true force.
 -- @module bench.autoguided
 local draw = require "bench.autodraw"
 local sw = require "softworld"
 
 local autoguided = {}
 
-local LENGTH, FREE = 0.5, 0.2 -- of a wire, and of it from the hand to the peg [m]
+local LENGTH, FREE = 0.5, 0.2 -- length of a wire, of its part from the hand to the peg [m]
 
--- A cylinder along y.
+-- Adds the peg: a cylinder along y.
 local function peg(scene, radius, friction, z)
   scene:obstacle { name = "peg", shape = "cylinder", radius = radius, length = 0.4, friction = friction,
     at = { 0, 0, z }, rotation = { axis = { 1, 0, 0 }, angle = math.pi / 2 } }
 end
 
--- It lies on the peg, its far end free. The hand draws it along, and up or down. (Both ends held and drawn
--- down make an arch, which falls off the peg to the side that chance tells.)
+-- The wire lies on the peg, its far end is free. The hand draws it along, and up or down. (If both ends were
+-- held and drawn down, the wire would form an arch that falls off the peg to a random side.)
 local function pegged(random)
   local section, duration = draw.wire_of(random), draw.pick(random, { 1, 5, 20 })
   local mu, radius = draw.pick(random, { 0, 0.1, 0.3 }), draw.between(random, 0.02, 0.04)
@@ -32,16 +32,16 @@ local function pegged(random)
   end
 end
 
-local ERROR = 0.003 -- of the capstan's law: bending, EI/(T R^2) = 0.001, and stretch [-]
-local ENDS, WAY = 0.1, 0.03 -- of the wire beside the arc, how far it is drawn [m]
-local POINTS = 40 -- of a drawn arc
+local ERROR = 0.003 -- of the capstan equation: bending, EI/(T R^2) = 0.001, and stretch [-]
+local ENDS, WAY = 0.1, 0.03 -- straight length at each end of the arc, how far the wire is drawn [m]
+local POINTS = 40 -- intervals of the arc
 
--- A place on the arc about the peg's middle, angle a from the x axis, and the way along it.
+-- Point of the arc about the peg's axis at the angle a from the x axis; direction of the wire there.
 local function on_arc(R, a) return { R * math.cos(a), 0, R * math.sin(a) } end
 local function along(a) return { math.sin(a), 0, -math.cos(a) } end
 local function beyond(p, t, way) return { p[1] + way * t[1], 0, p[3] + way * t[3] } end
 
--- Straight, round the peg by an angle, straight.
+-- Returns the wire's path (straight, round the peg by an angle, straight) and its directions at both ends.
 local function round(R, angle)
   local first, path = math.pi / 2 + angle / 2, {}
   for i = 10, 1, -1 do path[#path + 1] = beyond(on_arc(R, first), along(first), -ENDS * i / 10) end
@@ -52,7 +52,7 @@ local function round(R, angle)
   return path, along(first), along(first - angle)
 end
 
--- A weight's pull at its start, a hand at its end: drawn with exp(mu angle) times the pull.
+-- A force T pulls at the wire's start, a hand at its end. The hand needs exp(mu angle) times this force.
 local function capstan(random)
   local mu, angle = draw.between(random, 0.05, 0.4), draw.between(random, 0.5, 1.2) * math.pi
   local T, R, duration = draw.between(random, 0.5, 3), draw.between(random, 0.03, 0.05),

@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Scenes for bench.auto that snap, spring or coil: a clip that a cable is pressed into, wire that has the
--- bend of its spool, a cable that is turned and given slack until it may throw a loop.
+--- Scenes for bench.auto with snapping, springing and coiling: a cable is pressed into a clip; a wire has the
+-- curvature of its spool; a cable is twisted and given slack until it may form a loop.
 -- @module bench.autohandled
 local draw = require "bench.autodraw"
 local sw = require "softworld"
 
 local autohandled = {}
 
-local HIGH = 0.035   -- where the cable begins, above the clip [m]
-local POINTS = 40    -- of a drawn arc
+local HIGH = 0.035   -- height of the cable above the clip at the start [m]
+local POINTS = 40    -- intervals of an arc
 
--- Both ends are pushed down past the clip, by a share of the way on which the cable, as a beam that is
--- clamped at both ends, would press with the insertion force.
+-- Both ends are pushed down past the clip by a share of a deflection: the one at which the cable, as a beam
+-- clamped at both ends, presses on the clip with the insertion force.
 local function clipped(random)
   local section = { E = draw.pick(random, { 20e6, 60e6 }), density = 1500,
     radius = draw.pick(random, { 0.0025, 0.004 }) }
@@ -33,7 +33,7 @@ local function clipped(random)
   end
 end
 
--- It lies on a table as it came off the spool, and is lifted and drawn along by its start.
+-- The wire lies on a table with the curvature of its spool. Its start is lifted and drawn along.
 local function spooled(random)
   local section, duration = draw.wire_of(random), draw.pick(random, { 2, 10 })
   local bend, mu = draw.between(random, 0.12, 0.4), draw.between(random, 0.05, 0.4)
@@ -53,7 +53,7 @@ local function spooled(random)
   end
 end
 
--- Straight cables buckle to the side at a turn of 8.99 EI/GJ between clamps.
+-- A twisted cable. Straight cables between clamps buckle sideways at a turn of 8.99 EI/GJ.
 local function kinked(random)
   local section, duration = draw.wire_of(random), draw.pick(random, { 2, 8 })
   local turn, slack = draw.between(random, 2, 14), draw.between(random, 0, 0.12)

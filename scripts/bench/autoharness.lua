@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Scenes for bench.auto with several wires: a trunk and two branches that are joined to its end, on a table
--- or in the air; cables side by side that are tied to each other.
+--- Scenes for bench.auto with several wires: a trunk with two branches joined to its end, on a table or in
+-- the air; cables side by side that are tied to each other.
 -- @module bench.autoharness
 local draw = require "bench.autodraw"
 local sw = require "softworld"
@@ -8,10 +8,10 @@ local sw = require "softworld"
 local autoharness = {}
 
 local TRUNK, BRANCH = 0.3, 0.2 -- lengths [m]
-local HANDS = 0.05 -- between hands at least: pushed through each other they tell nothing [m]
-local SPAN = 0.5   -- of tied cables [m]
+local HANDS = 0.05 -- smallest distance between the hands: they must not pass through each other [m]
+local SPAN = 0.5   -- length of tied cables [m]
 
--- Trunk, branches at angles to it at the height z, and the joint; way_of(side): how a hand goes.
+-- Adds a trunk, branches at angles to it at the height z, and the joint; way_of(side): the hand's motion.
 local function branched(scene, section, options, angles, z, way_of)
   local trunk = draw.made(scene, section, options, { name = "trunk", from = { 0, 0, z },
     to = { TRUNK, 0, z }, segments = 16 })
@@ -28,14 +28,14 @@ local function branched(scene, section, options, angles, z, way_of)
   return trunk
 end
 
--- The branches leave the trunk at different angles: of a harness that is the same on both sides chance tells
--- to which one a trunk goes that is pushed, and nobody knows what is true.
+-- Returns different angles for the two branches. In a symmetric harness a pushed trunk would buckle to a
+-- random side, and there would be no true value.
 local function angles_of(random)
   local angle = draw.between(random, 0.3, 0.9)
   return { angle, angle * draw.between(random, 0.3, 0.7) }
 end
 
--- By how much each hand goes away from the other one, at random [m].
+-- Returns how far each hand moves away from the other one, at random [m].
 local function apart_of(random, angles)
   local room = BRANCH * (math.sin(angles[1]) + math.sin(angles[2])) - HANDS
   return draw.between(random, -math.min(0.05, room / 2), 0.01)
@@ -57,7 +57,7 @@ local function harness(random)
   end
 end
 
--- In the air: it sags, and is turned or raised by its hands.
+-- A harness in the air: it sags; its hands turn and raise it.
 local function hanging(random)
   local section, duration = draw.wire_of(random), draw.pick(random, { 1, 4, 16 })
   local angles = angles_of(random)
@@ -73,7 +73,7 @@ local function hanging(random)
   end
 end
 
--- Cables side by side, tied to the next one at places along them; one is drawn away, and takes them with it.
+-- Cables side by side; each is tied to the next one at some places. One is drawn away and pulls the others.
 local function tied(random)
   local section, duration = draw.wire_of(random), draw.pick(random, { 1, 4, 16 })
   local count, ties = draw.pick(random, { 2, 3 }), draw.pick(random, { 1, 2 })
@@ -99,7 +99,7 @@ local function tied(random)
   end
 end
 
--- Of the tolerance: how well the truth is known. An eighth would take several minutes each.
+-- Error of the true values over the tolerance [-]. The usual eighth would take several minutes a scene.
 local TRUTH = 1 / 4
 
 autoharness.scenes = { { name = "harness", of = harness, truth = TRUTH },

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Scenes for bench.auto in which wires are squeezed: their fixed models are lines and meshes, and what is
--- true is known from far finer computations of others (reference case 11).
+--- Scenes for bench.auto in which wires are squeezed. Their fixed models are lines and meshes. The true
+-- values are from far finer, independent computations (reference case 11).
 -- @module bench.autopressed
 local sw = require "softworld"
 local core = sw.core
@@ -9,14 +9,14 @@ local mesh = require "softworld.model.mesh"
 
 local autopressed = {}
 
-local ERROR = 0.005 -- of the references, over their values [-]
-local LEVELS = 3    -- on which fixed models are computed
-local SEEN = 5      -- steps from which the cost of the finest model is told
-local COARSE = 0.04 -- steps of the coarsest level [s]
+local ERROR = 0.005 -- relative error of the references [-]
+local LEVELS = 3    -- levels of a fixed model
+local SEEN = 5      -- steps from which the cost of the finest model is estimated
+local COARSE = 0.04 -- time step of the coarsest level [s]
 
 local function pick(random, list) return list[1 + math.floor(random() * #list)] end
 
--- A piece of a long wire between long plates, in plane strain; share: approach over diameter.
+-- A piece of a long wire between two long plates, in plane strain; share: approach over the diameter.
 local function between(section, share, friction, duration)
   return function(options)
     local scene = sw.scene { name = "plates", gravity = { 0, 0, 0 } }
@@ -37,9 +37,9 @@ local function between(section, share, friction, duration)
   end
 end
 
--- Approach over diameter, force over E R; nu = 0.3, plates that stick.
+-- Approach over diameter, force per length over E R; nu = 0.3, no sliding on the plates.
 local solid = { { 0.05, 0.03478504828 }, { 0.1, 0.08485878573 }, { 0.2, 0.2240633922 } }
--- The same of a tube with an inner radius of 0.7 R, frictionless.
+-- The same for a tube with an inner radius of 0.7 R, without friction.
 local tube = { { 0.02, 0.000869108883 }, { 0.05, 0.002121184817 }, { 0.1, 0.004049114355 },
   { 0.2, 0.007463310733 } }
 
@@ -65,7 +65,7 @@ autopressed.scenes = {
 
 autopressed.fixed = { "phno", "dhno", "phns", "dhns", "phne", "dhne" }
 
--- One run of a mesh on level k: value and time, or nil.
+-- Runs a mesh on level k; returns value, time [s] and name of the quantity, or nil.
 local function computed(build, word, k)
   local scene, names, duration = build {}
   local wire = core.data(scene).wires[1].object
@@ -79,7 +79,8 @@ local function computed(build, word, k)
   return core.data(scene).obstacles[2].object:force()[3], run.cpu, names[1]
 end
 
---- A fixed model by hand, as runs with error bars go with lines alone: does it suffice, and its time [s].
+--- Returns whether a fixed model of a mesh suffices, and its time [s]. The levels are run here, because runs
+-- with error bars work with lines only.
 function autopressed.suffices(build, word, share, truth)
   local total, last, before, name, value = 0, nil, nil, nil, nil
   for k = 1, LEVELS do
@@ -92,7 +93,7 @@ function autopressed.suffices(build, word, share, truth)
   return math.abs(value - t.value[3]) <= share * math.abs(t.value[3]) + before + t.error, total
 end
 
--- Solid elements all along; springs where EA, EI and GJ are not those of elements.
+-- Makes the whole wire a mesh of solid elements; of springs if elements cannot have its EA, EI and GJ.
 local function fill(wire)
   local segments = math.max(2, math.ceil(wire.length / wire.radius))
   local filled = pcall(wire.remodel, wire, { model = "radial", body = "solid", particles = 12, layers = 2,
@@ -100,8 +101,8 @@ local function fill(wire)
   if not filled then wire:remodel { model = "radial", segments = 3 * segments } end
 end
 
---- What the finest model everywhere costs at least: its coarsest level alone, of wires that are meshes all
--- along, from a few steps [s]; nil: it cannot be computed.
+--- Returns a lower bound for the cost of the finest model everywhere [s]: its coarsest level, with all wires
+-- as meshes, estimated from a few steps. nil: it cannot be computed.
 function autopressed.finest(build, moves)
   local scene, _, duration = build {}
   local fine, run = pcall(function()

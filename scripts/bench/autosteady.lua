@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Whether runs that choose their model give the same bits twice, and another model of a wire that is 1 %
--- stiffer.
+--- Checks whether runs that choose their model give the same bits twice, and the same model for a wire that
+-- is 1 % stiffer.
 -- @module bench.autosteady
 local autosteady = {}
 
-local CHANGE = 0.01 -- of the stiffness [-]
-local MORE = 2      -- times that a value may change by itself [-]
+local CHANGE = 0.01 -- relative change of the stiffness [-]
+local MORE = 2      -- allowed relative change of a value over CHANGE [-]
 
 local function bits(run)
   local text = tostring(run:why()):gsub(", [%d.e-]+ s; the run [%d.e-]+ s", "")
   return tostring(run:error_bars()) .. text
 end
 
---- Compare with a run of build, by run_of(options): { same =, choice = both are as before, held = so many
--- values within their bars, rows = of so many, model = of the same run again }; nil where one fails.
+--- Compares the run `first` with two more runs by run_of(options). Returns { same = same bits, choice = same
+-- model if stiffer, held = number of values within their error bars, rows = number of values, model = of the
+-- repeated run }; nil if a run fails.
 function autosteady.look(first, rungs_of, distance, size, run_of)
   local again, other = run_of { auto = true }, run_of { auto = true, stiffer = 1 + CHANGE }
   if not again or not other then return nil end

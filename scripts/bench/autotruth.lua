@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What is true of a scene of bench.auto.
+--- Finds the true values of a scene of bench.auto.
 -- @module bench.autotruth
 local sw = require "softworld"
 
 local autotruth = {}
 
-local COARSE, FINE = 4, 6 -- levels: of a first look at how long it takes to know, and to know [-]
-local LONGEST = 120       -- that it may take [s]
+local COARSE, FINE = 4, 6 -- levels of a first run, to estimate the time; levels of the final run [-]
+local LONGEST = 120       -- longest allowed time [s]
 
 local function tolerance(names, share)
   local t = {}
@@ -14,8 +14,8 @@ local function tolerance(names, share)
   return t
 end
 
---- A run of build(options) with that share of its quantities as tolerance; else nil and why. Also its
--- time [s].
+--- Runs build(options) with the relative tolerance share for each quantity. Returns the run, its reason and
+-- its time [s]; nil and the reason if it fails.
 function autotruth.run(build, options, share, levels, static)
   local scene, names, duration = build(options)
   if options.settle ~= false then scene:settle() end
@@ -27,14 +27,14 @@ function autotruth.run(build, options, share, levels, static)
   return r.ok and r or nil, r.reason, sw.core.clock() - clock
 end
 
---- What is true, by far finer runs of the dearest model; nil where that would take too long, and why. flat: a
--- single wire that stays in a plane; there friction does not twist it, and one that does not roll meets pegs
--- by its curve, of which far coarser edges tell as much.
+--- Returns the true values, from far finer runs of the most expensive model; nil and the reason if that would
+-- take too long. flat: a single wire that stays in a plane. There friction does not twist it, and a wire that
+-- does not roll touches pegs with a smooth curve, so much coarser edges are enough.
 function autotruth.values(build, moves, share, flat)
   local options = { rolls = not flat, contact = not flat, settle = not moves }
   local truth, why, took = autotruth.run(build, options, share, COARSE)
   if not truth or truth.met then return truth, why, took end
-  local n = #truth.levels -- fewer than COARSE, where those would not tell
+  local n = #truth.levels -- fewer than COARSE if the run ended early
   local last, before = truth.levels[n].cpu, truth.levels[n - 1].cpu
   local growth, expected = last / math.max(before, 1e-3), 0
   for k = 1, FINE - n do expected = expected + last * growth ^ k end

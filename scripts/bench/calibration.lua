@@ -1,25 +1,25 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Calibrations of cables that are known: how long one takes, how often its 95 % intervals hold the truth.
+--- Calibrates known cables: measures the time, and how often the 95 % intervals contain the true values.
 --
--- Each cable is drawn at random: its weight, weight L^3 / EI from 2 to 300, GJ / EI from 0.5 to 2, slack
--- from 3 to 40 %, ends at other heights. It hangs as a rod of 200 segments, a mesh that the calibration does
--- not use; 20 points along it are off by normal noise of half a millimetre on 1 m, the twist at which it
--- buckles by 2 %.
+-- Each cable is drawn at random: its weight, weight L^3 / EI from 2 to 300, GJ / EI from 0.5 to 2, slack from
+-- 3 to 40 %, ends at different heights. It hangs as a rod of 200 segments, a mesh that the calibration does
+-- not use. 20 points along it (length 1 m) have normal noise of 0.5 mm; the twist at which it buckles has
+-- noise of 2 %.
 -- @module bench.calibration
 local sw = require "softworld"
 local twisted = require "softworld.calibration.twisted"
 
 local calibration = {}
 
-calibration.aims = { time = 1, low = 0.93, high = 0.97 } -- [s], share of intervals [-]
+calibration.aims = { time = 1, low = 0.93, high = 0.97 } -- [s], range of the share of intervals [-]
 
-local NOISE, POINTS, SEGMENTS = 5e-4, 20, 200 -- [m]
+local NOISE, POINTS, SEGMENTS = 5e-4, 20, 200 -- [m], [-], [-]
 
 local function normal()
   return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random())
 end
 
--- The wire as it hangs: places along it, by moving one clamp step by step.
+-- Returns a scene in which the wire hangs at rest; one clamp is moved to its place step by step.
 local function hang(c)
   local scene = sw.core.scene{ gravity = { 0, 0, -9.81 } }
   local wire = scene:wire{ EA = 1e6 * c.mass * 9.81, EI = c.EI, GJ = c.EI, mass_per_length = c.mass,
@@ -34,7 +34,7 @@ local function hang(c)
   return scene, wire
 end
 
---- A cable and what a bench measures of it.
+--- Draws a cable and its measurements.
 function calibration.draw()
   local c = { mass = 0.01 * 5 ^ math.random() }
   c.EI = c.mass * 9.81 / (2 * 150 ^ math.random())
@@ -59,8 +59,8 @@ function calibration.draw()
   return c
 end
 
---- Of count cables the shares whose intervals hold EI and GJ; longest and mean CPU time of a calibration [s].
--- estimated: without telling the sigma of the points.
+--- Calibrates count cables. Returns the shares whose intervals contain EI and GJ, and the longest and mean
+-- CPU time of a calibration [s]. estimated: the calibration estimates the sigma of the points itself.
 function calibration.coverage(count, seed, estimated)
   math.randomseed(seed)
   local held, longest, sum, bad = { EI = 0, GJ = 0 }, 0, 0, 0

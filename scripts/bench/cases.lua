@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The scenes that are benchmarked: those of softworld.cases with a known answer, and laying over
--- thin walls, where the depth of contact is the answer.
+--- The benchmarked scenes: those of softworld.cases with a known result, and laying over thin walls,
+-- where the penetration depth is the result.
 --
--- A case: name, title, static; make(config) gives a state with `scene` and `duration`; run(state,
--- options) computes it and gives a report; judge(state, row) fills in the row's error.
+-- A case: name, title, static; make(config) returns a state with `scene` and `duration`; run(state,
+-- options) computes it and returns a report; judge(state, row) sets the row's error.
 -- @module bench.cases
 local cases = require "softworld.cases"
 
@@ -26,14 +26,14 @@ known("transport", "Transport of a hanging wire, 2 s", false)
 known("catenary", "Catenary, L/span = 1.5", true, "%")
 known("arc", "A curved wire's droop out of its plane, w L^3/EI = 20", true)
 known("lift", "One end lifted from a table", true, "%")
--- A snapshot of a wire that lies exactly on a table and was never run does not restore its touch.
+-- Restoring a snapshot of a wire that lies exactly on a table and was never run does not restore its contact.
 if benchcases.lift then benchcases.lift.remake = true end
 
 -- Wires that are meshes -------------------------------------------------------
 
-local thick = 0.0125 -- radius of a wire of 1 m that is 40 times as long as thick [m]
+local thick = 0.0125 -- radius of a wire whose length (1 m) is 40 times its diameter [m]
 
---- The models drawn against each other, as rows call them.
+--- The models that charts compare, by their names in rows.
 benchcases.meshes = { "rod", "tube", "radial", "cubic", "composite", "radial, solid", "cubic, solid" }
 
 local function of_meshes(name, title, static)
@@ -54,9 +54,9 @@ of_meshes("release", "A wire of length 40 times its diameter, released, 1 s", fa
 -- Laying over three walls -----------------------------------------------------
 
 local walls = { x = { 0.4, 0.9, 1.4 }, high = 0.1 } -- as in softworld.cases.laying [m]
-local looks = 50 -- per second
+local looks = 50 -- checks of the state per second
 
--- Where the wire passes the walls' middle planes: passes, and those below the top.
+-- Counts where the wire passes the walls' middle planes: all passes, and passes below the top.
 local function count_crossings(state)
   local p = state.wire:positions()
   for _, x in ipairs(walls.x) do
@@ -106,7 +106,7 @@ end
 
 local edge, node_steps, least_steps = 0.01, 1e6, 20 -- [m], [-], [-]
 
--- A wavy wire between two pins starts to fall: nothing of it is straight or at rest.
+-- A wavy wire between two pins starts to fall, so that no part of it is straight or at rest.
 local function wavy(config, changes)
   local sw = require "softworld"
   local n, points = config.segments, {}

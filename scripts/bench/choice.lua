@@ -1,18 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a bench runs: cases x models x resolutions x integrators x steps.
+--- The rows that a bench runs: cases x models x resolutions x integrators x steps.
 local bench = require "bench.rows"
 local benchcases = require "bench.cases"
 
 local choice = {}
 
-local plan = {} -- of { case, config }
+local plan = {} -- list of { case, config }
 local function add(case, config)
   if not benchcases[case] then return end
   config.model = config.model or "rod"
   plan[#plan + 1] = { case = benchcases[case], config = config }
 end
 
--- A second-order step that keeps its error near the mesh's: 5 ms at 20 segments of the release.
+-- { segments, step [s] } at which a second-order method's error is near the mesh's: 5 ms at 20 segments of
+-- the release.
 local matched = { { 5, 0.02 }, { 10, 0.01 }, { 12, 1 / 120 }, { 20, 0.005 }, { 40, 0.002 }, { 80, 0.001 },
   { 160, 0.0005 } }
 
@@ -39,7 +40,7 @@ local function add_implicit_release(quick)
     end
   end
   if quick then return end
-  for _, n in ipairs{ 10, 20, 40 } do -- a first-order method wants steps of its own
+  for _, n in ipairs{ 10, 20, 40 } do -- a first-order method needs other steps
     for _, dt in ipairs{ 1e-3, 5e-4, 2e-4, 1e-4 } do
       add("release", { segments = n, integrator = "implicit-euler", dt = dt })
     end
@@ -112,7 +113,7 @@ local function add_scale(quick)
   end
 end
 
--- Slices of meshes: springs have coarsest ones, beyond which there are none of EA, EI and GJ.
+-- Numbers of slices. Springs have a coarsest mesh; a coarser one cannot have the EA, EI and GJ.
 local slices = { rod = { 10, 20, 40, 80, 160 }, tube = { 80, 120, 160, 240 }, radial = { 120, 160, 240 },
   cubic = { 120, 160, 240 }, composite = { 120, 160 }, ["radial, solid"] = { 10, 20, 40, 80, 160 },
   ["cubic, solid"] = { 10, 20, 40, 80, 160 } }
@@ -131,7 +132,7 @@ end
 local order = { "droop", "arc", "catenary", "lift", "release", "transport", "walls", "scale", "curved",
   "flat", "rolling", "mesh_droop", "mesh_release" }
 
---- All rows { case =, config = } that fits(entry) takes, case by case.
+--- Returns all rows { case =, config = } for which fits(entry) is true, case by case.
 function choice.jobs(quick, fits)
   plan = {}
   add_statics(quick)

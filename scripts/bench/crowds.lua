@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What crowds cost: many obstacles, many nodes that land at once, many wires, a bundle of them.
+--- Cost of crowds: many obstacles, many nodes that land at once, many wires, a bundle of wires.
 -- @module bench.crowds
 local sw = require "softworld"
 
@@ -9,15 +9,15 @@ local function wire(scene, from, to, segments)
   return scene:wire{ E = 5e6, density = 1500, radius = 0.0025, from = from, to = to, segments = segments }
 end
 
--- CPU time of a run of the scene [s], and its report.
+-- Returns the CPU time of a run of the scene [s], and its report.
 local function cost(scene, duration)
   local start = os.clock()
   local row = scene:advance({ dt = 0.01 }, scene.time + duration)
   return os.clock() - start, row
 end
 
--- Small boxes in a square on a table, and a wire of 500 segments over them: time to make them [s], of
--- a step [s].
+-- Small boxes in a square on a table, and a wire of 500 segments over them. Returns the time to make them
+-- and the time of a step [s].
 function benchcrowds.boxes(count)
   local scene, side, start = sw.scene{}, math.ceil(math.sqrt(count)), os.clock()
   scene:obstacle{ shape = "plane", friction = 0.3 }
@@ -33,8 +33,8 @@ function benchcrowds.boxes(count)
   return made, time / row.steps
 end
 
--- A straight wire of so many segments falls flat on a table: the step that costs most, and one in
--- which it lies there [s].
+-- A straight wire of so many segments falls flat on a table. Returns the time of the most expensive step, and
+-- of a step in which the wire lies at rest [s].
 function benchcrowds.landing(nodes)
   local scene, most, last = sw.scene{}, 0, 0
   scene:obstacle{ shape = "plane", friction = 0.3 }
@@ -47,8 +47,8 @@ function benchcrowds.landing(nodes)
   return most, last
 end
 
--- So many wires of 50 segments fall aslant on a table: time per node and 10 ms while they land, and
--- while they lie there [s]; whether they may touch each other.
+-- count wires of 50 segments fall on a table at an angle. Returns the time per node and 10 ms while they land
+-- and while they lie [s]. touching: they may touch each other.
 function benchcrowds.wires(count, touching)
   local scene, draw = sw.scene{}, 1
   local function height()
@@ -65,9 +65,9 @@ function benchcrowds.wires(count, touching)
   return landing / 30 / (51 * count), lying / 30 / (51 * count)
 end
 
--- So many wires fall on a table in a bundle, then lie there: time per simulated second of the first
--- 0.2 s and of the next [s/s], solves of a step in both; cable: an entry of the catalogue; apart: the
--- wires do not touch each other.
+-- count wires fall on a table in a bundle, then lie there. Returns the time per simulated second of the first
+-- 0.2 s and of the next 0.2 s [s/s], and the solves per step in both. cable: an entry of the catalogue;
+-- apart: the wires do not touch each other.
 function benchcrowds.bundle(count, cable, apart)
   local scene = sw.scene{}
   scene:obstacle{ shape = "plane", friction = 0.3 }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Energy from nowhere, by integrator, cable and step: a wire thrown at a wall, a wire dropped on one.
+--- Spurious energy gains by integrator, cable and step: a wire thrown at a wall, a wire dropped on one.
 -- @module bench.energy
 local sw = require "softworld"
 
@@ -46,7 +46,7 @@ local function measure(integrator, cable, item, dt)
   return row
 end
 
---- Rows of all; add(row), say(format, ...).
+--- Measures all rows; calls add(row) for each, and say(format, ...) for progress.
 function energy.measure(integrators, quick, add, say)
   for _, integrator in ipairs(integrators) do
     for _, cable in ipairs(energy.cables) do
@@ -60,7 +60,7 @@ function energy.measure(integrators, quick, add, say)
   end
 end
 
---- Table on the terminal: gains [% of what was in play] by step; f: the run failed and said so.
+--- Prints a table of gains [% of the energy in play] by step; f: the run failed and reported it.
 function energy.print(rows)
   print "\nenergy from nowhere [% of what was in play]; f: the run failed and said so; -: refused\n"
   local head = ("  %-26s %-18s"):format("scene", "integrator")

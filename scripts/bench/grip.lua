@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Grippers measured: the two-plate test (a wire on a table is gripped, lifted, carried, laid down) by
--- each way of handling, and grips treated as no gripper should be.
+--- Measures grippers: the two-plate test (a wire on a table is gripped, lifted, carried, laid down) with each
+-- way of handling, and grips under extreme conditions.
 -- @module bench.grip
 local core = require "softworld.core"
 
 local benchgrip = {}
 
 local radius, length, width, force = 0.003, 0.2, 0.02, 20 -- [m], [N]
-local table_friction = 0.4 -- friction of a table that has some [-]
+local table_friction = 0.4 -- friction of a rough table [-]
 
---- Ways of handling, as rows call them; with the friction of the table, 0 unless it is there.
+--- Ways of handling, by their names in rows; with the friction of the table (default 0).
 benchgrip.ways = { { "imposed", "rod", "imposed" }, { "plates, rod", "rod", "plates" },
   { "mixed", "rod", "mixed" }, { "plates, mesh near pads", "rod", "mixed", freeze = false },
   { "plates, radial", "radial", "plates" },
@@ -29,13 +29,13 @@ local function scene_of(o)
   return scene, wire, scene:gripper{ name = "hand", pads = pads }
 end
 
---- What others are compared with: a finer mesh between plates, in small steps.
+--- The reference for the others: a finer mesh between plates, with small steps.
 benchgrip.reference = { "reference", "radial", "plates", particles = 12 }
 
---- The two-plate test by one of the ways: { name, phases = { { name, wall, time } }, force, moment,
--- height, droop } with seconds of computing and of motion per phase, and what there was aloft: force
--- and moment of the gripper, height of the section, how far the wire's end hangs down [m]. Phases
--- are grasp, lift, carry and lay.
+--- Runs the two-plate test with one of the ways. Returns { name, phases = { { name, wall, time } }, force,
+-- moment, height, droop }: computing time and simulated time of each phase (grasp, lift, carry, lay) [s];
+-- and, while lifted, force [N] and moment [N m] of the gripper, height of the section [m], droop of the
+-- wire's end [m].
 function benchgrip.two_plates(way, dt)
   local scene, wire, hand = scene_of{ model = way[2], particles = way.particles,
     friction = way.friction }
@@ -70,8 +70,8 @@ function benchgrip.two_plates(way, dt)
   return row
 end
 
---- Ways and steps against the reference: rows with dt and error, of the end's droop over the wire's
--- length [%]. each(row) is called with every row.
+--- Compares ways and steps with the reference. Returns rows with dt and error (of the end's droop over the
+-- wire's length [%]). Calls each(row) for every row.
 function benchgrip.compare(each)
   local reference = benchgrip.two_plates(benchgrip.reference, 0.005)
   each(reference)
@@ -85,7 +85,7 @@ function benchgrip.compare(each)
   end
 end
 
--- --- grips that are hard ---------------------------------------------------------------
+-- --- difficult grips -------------------------------------------------------------------
 
 local function grip(o, body, check)
   local scene, wire, hand = scene_of(o)
@@ -117,7 +117,7 @@ local function held(hand, _, row)
   return ("%.2f N per finger, slip %.2g mm"):format(hand:state().squeeze, 1e3 * hand:state().slip)
 end
 
--- Thrown to and fro at a high speed.
+-- The gripper moves to and fro at a high speed.
 local function fast(o)
   return grip(o, function(p, hand, wire)
     hold(p, hand, wire, o)
@@ -125,7 +125,7 @@ local function fast(o)
   end, held)
 end
 
--- Lifted with some friction or none.
+-- The wire is lifted with different friction of the pads, also without friction.
 local function rough(o)
   return grip(o, function(p, hand, wire)
     hold(p, hand, wire, o)
@@ -134,18 +134,18 @@ local function rough(o)
   end, held)
 end
 
--- Jaws that meet the wire at an angle.
+-- The jaws meet the wire at an angle.
 local function slanted(o)
   return grip(o, function(p, hand, wire, scene)
     local half = o.angle / 2
-    hand.rotation = { math.cos(half), 0, 0, math.sin(half) } -- about z, from along the wire
+    hand.rotation = { math.cos(half), 0, 0, math.sin(half) } -- about z, relative to the wire
     hold(p, hand, wire, o)
     hand:move{ by = { 0, 0, 0.1 }, duration = 0.5 }
     p:wait(scene.time > 0 and 0.2 or 0)
   end, held)
 end
 
---- Call add(item, run, options) for every row of the stability map.
+--- Calls add(item, run, options) for every row of the stability map.
 function benchgrip.add_all(add)
   for _, model in ipairs{ "rod", "radial" } do
     local function put(item, run, o)

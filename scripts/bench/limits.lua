@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Scenes in which methods are known to fail, each reported as a row: it survives, it fails and
--- says so, or it gains energy that nobody put in.
+--- Scenes in which methods are known to fail. A row reports the result: the run succeeds, it fails and
+-- reports this, or it gains spurious energy.
 -- @module bench.limits
 local core = require "softworld.core"
 
 local limits = {}
 
-local looks = 50 -- at the energy, in one run
+local looks = 50 -- checks of the energy in one run [-]
 
--- Energy now in shares of `unit`, relative to the start.
+-- Runs a scene; returns a row with its energy changes since the start, in shares of `unit`.
 local function follow(scene, options, duration, unit)
   local start, row = scene:energy().total, { gain = 0, loss = 0, rejected = 0, steps = 0 }
   local began = core.clock()
@@ -28,7 +28,7 @@ local function follow(scene, options, duration, unit)
   return row
 end
 
--- The released cantilever, with stiffnesses in shares of the usual ones; m g L / 2 is the unit.
+-- The released cantilever, with stiffnesses as factors on the usual ones; the unit of energy is m g L / 2.
 local function cantilever(o)
   local sw = require "softworld"
   local A, r = math.pi * 0.0025 ^ 2, 0.0025
@@ -49,7 +49,7 @@ local function release(o)
   return row
 end
 
--- A wire of two halves that lie nearly on each other; nothing else acts.
+-- A wire of two halves that nearly lie on each other; no other loads.
 local function folded(o)
   local sw = require "softworld"
   local half = 0.5 * (math.pi - o.angle)
@@ -65,7 +65,7 @@ local function folded(o)
   return row
 end
 
--- Free flight against a wall 10 mm thick: nothing may come out behind it.
+-- A wire flies against a wall of 10 mm thickness and must not pass through it.
 local function flung(o)
   local sw = require "softworld"
   local scene = sw.scene{ name = "flung" }
@@ -134,7 +134,7 @@ local function add_all(implicit)
   require("bench.grip").add_all(add)
 end
 
---- All rows, in order. progress(k, count, item) is called before each.
+--- Returns all rows, in order. Calls progress(k, count, item) before each.
 function limits.run(implicit, progress)
   list = {}
   add_all(implicit)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What it costs that nodes of different places are solved together: a wire that touches itself,
--- wires that are joined. Each against the same wire without, in turns.
+--- Cost of coupling distant nodes in the solver: a wire that touches itself, wires that are joined. Each is
+-- compared with the same wire without coupling; both are measured alternately.
 -- @module bench.links
 local sw = require "softworld"
 
@@ -9,7 +9,7 @@ local EI = modulus * math.pi * radius ^ 4 / 4 -- [N m2]
 
 local benchlinks = { batches = 40, batch = 0.5, warm = 7 } -- [-], [s], [s] of simulated time
 
--- A wire given slack and turned at one end: it coils up on itself where it touches.
+-- A wire with slack that is twisted at one end. If touching, it coils up on itself.
 local function coiled(touching, turns)
   local scene, path = sw.scene{ gravity = { 0, 0, 0 } }, {}
   for i = 0, 200 do
@@ -28,7 +28,7 @@ local function coiled(touching, turns)
   return scene
 end
 
--- A cantilever in one piece or in two that are joined.
+-- A cantilever of one piece, or of two joined pieces.
 local function cantilever(pieces)
   local scene = sw.scene{}
   local last
@@ -46,7 +46,7 @@ local function cantilever(pieces)
   return scene
 end
 
--- Best time of a Newton iteration [s] of each scene, looked at in turns.
+-- Returns the shortest time of a Newton iteration of each scene [s], measured alternately.
 local function iteration_times(scenes, dt)
   local best = {}
   for i, scene in ipairs(scenes) do
@@ -73,7 +73,7 @@ local function row(name, scenes, aim, places)
   return found
 end
 
---- Rows { name, plain, linked [s per Newton iteration], ratio, places, aim, ok, reason }.
+--- Returns rows { name, plain, linked [s per Newton iteration], ratio, places, aim, ok, reason }.
 function benchlinks.rows()
   local coil = coiled(true, 6.5)
   return {

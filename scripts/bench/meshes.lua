@@ -1,26 +1,26 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What wires that are meshes of particles cost: by the second, by the ring, by the model.
--- Times are of the processor, the least of several repeats; compare those of one run only.
+--- Cost of wires that are meshes of particles: per simulated second, per ring, per model. Times are processor
+-- times, the shortest of several repeats. Compare only times of the same run.
 -- @module bench.meshes
 local sw = require "softworld"
 
--- repeats [-], after which long ones [s of the processor] are enough, factorisations [-], share of
--- the simulated times [-]
+-- Repeats [-]; processor time after which repeats end early [s]; factorisations [-]; share of the simulated
+-- times [-].
 local benchmeshes = { repeats = 5, patience = 2, solves = 400, share = 1 }
 
---- The models with the sections they may have; the first is what others are compared with.
+--- The models with their sections; the others are compared with the first one.
 benchmeshes.models = { { "rod" }, { "string" }, { "tube" }, { "radial" }, { "cubic" }, { "composite" },
   { "radial", "solid" }, { "cubic", "solid" }, { "composite", "solid" } }
 
--- Microseconds a ring of n unknowns may take, factor and solve: measured with plain blocks of C. Of
--- solving the ends are known, 0.5 and 2.1 us; a power of n lies between.
+-- Reference times { n, time to factor [us] } for a ring of n unknowns, measured with plain blocks of C. The
+-- time to solve is 0.5 us for n = 24 and 2.1 us for n = 72; between, a power law in n.
 local known = { { 24, 1.05 }, { 36, 3.9 }, { 48, 5.9 }, { 60, 15.6 }, { 72, 19.9 } }
 local function known_solve(n) return 0.5 * (n / 24) ^ (math.log(2.1 / 0.5) / math.log(3)) end
 
 local function name_of(entry) return entry[1] .. (entry[2] and ", " .. entry[2] or "") end
 
--- Least processor time [s] of advance(options) through a duration in scenes that make() gives, and
--- the report of the last one. A step before makes the system and touches its memory.
+-- Returns the shortest processor time [s] of advance(options) through a duration in scenes from make(), and
+-- the last report. A step before the measurement makes the system and touches its memory.
 local function least_time(make, options, duration)
   local best, all, report = math.huge, 0, nil
   for _ = 1, benchmeshes.repeats do
@@ -42,7 +42,7 @@ local function row_of(name, make, dt, duration)
     steps = r.steps, rejected = r.rejected, iterations = r.iterations, iteration = time / r.iterations }
 end
 
--- A tube of 9 particles a ring, 10.1 mm from ring to ring, that droops from a clamp.
+-- A tube that droops from a clamp: 9 particles a ring, rings 10.1 mm apart.
 local function tube(rings)
   local scene = sw.scene{}
   local wire = scene:wire{ model = "tube", E = 1e7, density = 1500, radius = 0.02, segments = rings - 1,
@@ -51,14 +51,14 @@ local function tube(rings)
   return scene
 end
 
---- The tube of the design: 100 rings, 1 s in steps of 10 ms; `wall` is s a simulated second.
+--- The design's tube: 100 rings, 1 s in steps of 10 ms; `wall` is the time per simulated second [s/s].
 function benchmeshes.second()
   local row = row_of("tube, 100 rings of 9 particles, 10 ms", function() return tube(100) end, 0.01, 1)
   row.aim = 0.15
   return row
 end
 
---- A ring of n unknowns in the solver: factor and solve [s], and over what is known.
+--- Times of the solver for a ring of n unknowns: factor and solve [s], ratio to the reference times.
 function benchmeshes.blocks()
   local rows = {}
   for i, entry in ipairs(known) do
@@ -70,7 +70,7 @@ function benchmeshes.blocks()
   return rows
 end
 
---- Cost of a ring in one Newton iteration, for ever longer tubes: `ratio` over the first.
+--- Cost of a ring in one Newton iteration, for tubes of increasing length; `ratio` to the first tube.
 function benchmeshes.rings()
   local rows = {}
   for i, rings in ipairs{ 100, 400, 1600 } do
@@ -82,7 +82,7 @@ function benchmeshes.rings()
   return rows
 end
 
--- A thick wire of 20 rings between two plates, the upper one of which comes down.
+-- A thick wire of 20 rings between two plates; the upper plate moves down.
 local function squeezed(body)
   local scene, r = sw.scene{ gravity = { 0, 0, 0 } }, 0.01
   scene:wire{ model = "radial", section = body, particles = 12, layers = 2, E = 1e7, density = 1200,
@@ -94,7 +94,7 @@ local function squeezed(body)
   return scene
 end
 
---- A radial wire squeezed by 30 % in 1 s, in steps of 5 ms.
+--- Cost of a radial wire that is squeezed by 30 % in 1 s, in steps of 5 ms.
 function benchmeshes.squeezes()
   local rows = {}
   for i, body in ipairs{ "springs", "solid" } do
@@ -106,7 +106,7 @@ end
 
 local scenes = {}
 
--- A cantilever that is let go.
+-- A released cantilever.
 function scenes.cantilever(entry)
   local scene = sw.scene{}
   local wire = scene:wire{ model = entry[1], section = entry[2], E = 1e7, density = 1200, radius = 0.01,
@@ -115,7 +115,7 @@ function scenes.cantilever(entry)
   return scene, wire
 end
 
--- One end held, the wire falls over a low wall onto a table.
+-- One end is held; the wire falls over a low wall onto a table.
 function scenes.wall(entry)
   local scene = sw.scene{}
   scene:obstacle{ shape = "plane", friction = 0.3 }
@@ -126,7 +126,7 @@ function scenes.wall(entry)
   return scene, wire
 end
 
---- Every model in one scene ("cantilever" or "wall"), default meshes: `ratio` over the rod.
+--- Cost of every model, with default meshes, in the scene "cantilever" or "wall"; `ratio` to the rod.
 function benchmeshes.costs(what)
   local rows = {}
   for i, entry in ipairs(benchmeshes.models) do
@@ -142,7 +142,7 @@ function benchmeshes.costs(what)
   return rows
 end
 
---- How long a default mesh is calibrated [s].
+--- Times to calibrate default meshes [s].
 function benchmeshes.calibrations()
   local rows = {}
   for _, entry in ipairs(benchmeshes.models) do

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Peaks by step: what a table, a wall, a gripper gets and what a wire bears, through the window of
--- 10 ms, in scenes with blows; which of them still depend on the step.
+--- Peak values by time step in scenes with impacts: forces on a table, a wall and a gripper, and tension of a
+-- wire, as means over the window of 10 ms. Shows which peaks still depend on the step.
 -- @module bench.peaks
 local sw = require "softworld"
 
 local peaks = {}
 
 peaks.steps = { 0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4, 1e-4, 5e-5 } -- [s]
-peaks.apart = 0.15 -- of the value at the shortest step, beyond which one is marked [-]
+peaks.apart = 0.15 -- a larger relative difference from the value at the shortest step is marked [-]
 
 local soft = { { E = 1e6, density = 1200, radius = 0.003 }, { E = 5e6, density = 1500, radius = 0.0025 },
   { E = 5e7, density = 1500, radius = 0.0025 } }
@@ -26,7 +26,7 @@ end
 
 local function ground(scene) return scene:obstacle{ shape = "plane", friction = 0.3 } end
 
--- Each makes a scene for a cable: what measures its force, the wire, and how long it takes [s].
+-- Each adds its objects for a cable; returns the object whose force is measured, the wire, the duration [s].
 local makers = {
   laying = function(scene, cable)
     local table_ = ground(scene)
@@ -109,10 +109,10 @@ local function measure(item, cable, dt)
   return row
 end
 
--- Where there is next to none it counts against the wire's weight.
+-- Returns the ratio of value to last; if last is near 0, the difference counts relative to `least`.
 local function against(value, last, least) return 1 + (value - last) / math.max(last, least) end
 
--- Ratios to what the shortest step gives, in the columns that all rows have.
+-- Sets the ratios to the values at the shortest step in the columns of the rows.
 local function compare(rows)
   local last = rows[#rows]
   for _, r in ipairs(rows) do
@@ -125,7 +125,8 @@ local function compare(rows)
   end
 end
 
---- Rows of all; add(row), say(format, ...). quick: few cables and no short steps.
+--- Measures all rows; calls add(row) for each, and say(format, ...) for progress. quick: few cables, no short
+-- steps.
 function peaks.measure(quick, add, say)
   for k, cable in ipairs(peaks.cables) do
     if not quick or k % 3 == 1 then
@@ -158,7 +159,7 @@ local function lines_of(rows, key, format)
   return lines, order, off
 end
 
---- Tables on the terminal: filtered peak, impulse and tension over those of the shortest step.
+--- Prints tables of filtered peak, impulse and tension over the values at the shortest step.
 function peaks.print(rows)
   for _, what in ipairs{ { "ratio", "largest force, mean of 10 ms" }, { "pushed", "impulse" },
     { "change", "largest tension, mean of 10 ms" } } do

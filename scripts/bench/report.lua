@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a player's page costs: its size, the time to write it, and new geometry for each picture.
+--- Cost of a player's page: its size, the time to write it, and the time for new geometry in each picture.
 -- @module bench.report
 local sw = require "softworld"
 local core = sw.core
@@ -8,7 +8,7 @@ local report = {}
 
 report.aims = { size = 2.5e6, write = 1.5, picture = 1.5, tube = 1e-3 } -- [B], [s], [s], [s]
 
---- A wire of 500 nodes drawn over three walls: frames of it, 13 series and more.
+--- Runs a wire of 500 nodes that is drawn over three walls, with so many frames and 13 or more series.
 function report.run(frames)
   local scene = sw.scene{ name = "report" }
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
@@ -28,11 +28,11 @@ function report.run(frames)
     hand:release()
     p:wait(0.5)
   end)
-  local duration = 8.977 -- how long the process takes [s]
+  local duration = 8.977 -- duration of the process [s]
   return scene:run{ dt = 0.002, frame = duration / frames }, scene
 end
 
---- { frames, nodes, columns, write [s], cpu [s], size [B], path } of a page written into a folder.
+--- Writes a page; returns { frames, nodes, columns, write [s], cpu [s], size [B], path }.
 function report.write(run, scene, path)
   local t, cpu = core.clock(), os.clock()
   run:report(path)

@@ -1,23 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Measuring error against time: one configuration in, one row out.
--- A case (bench.cases) makes a scene and knows its exact result; here it is run once for
--- the error and then, from the same snapshot, as often as a steady time needs.
+--- Measures error against time: one row for each configuration. A case (bench.cases) makes a scene and knows
+-- its exact result. It is run once for the error and then, from the same snapshot, until the time is steady.
 -- @module bench.rows
 local core = require "softworld.core"
 local csv = require "softworld.csv"
 
 local bench = {}
 
---- Columns of a row, in the order of the file.
+--- Columns of a row, in the file's order.
 bench.columns = { "case", "model", "segments", "integrator", "dt", "tolerance", "error", "unit",
   "wall", "cpu", "runs", "steps", "rejected", "iterations", "evaluations", "penetration",
   "crossings", "looked", "bytes", "status", "reason" }
 
-bench.batch = 0.02 -- shortest time that is averaged [s]
-bench.batches = 3  -- the best of this many counts
-bench.patience = 1 -- a run longer than this is not repeated [s]
+bench.batch = 0.02 -- shortest time of a batch of runs [s]
+bench.batches = 3  -- batches; the best one counts [-]
+bench.patience = 1 -- longer runs are not repeated [s]
 
--- What error bars are asked for: case, error of the tip [m], and how it is computed.
+-- The cases with error bars: case, tolerance of the tip [m], and how it is computed.
 local bars = {
   { "droop", 1e-4, function(c, tolerance) return c.scene:settle{ tolerance = tolerance } end },
   { "release", 1e-3, function(c, tolerance)
@@ -25,8 +24,8 @@ local bars = {
   end },
 }
 
---- What error bars cost: one row per case with its levels, the time of all of them
--- and of the finest alone, their ratio, the bar and what was asked for [s], [m].
+--- Cost of error bars: one row for each case with its levels, the time of all levels and of the finest alone
+-- [s], their ratio, the error bar and the tolerance [m].
 function bench.error_bars()
   local cases, rows = require "softworld.cases", {}
   for i, entry in ipairs(bars) do
@@ -38,7 +37,7 @@ function bench.error_bars()
       t = core.clock() - t
       local row = { case = entry[1], ok = r.ok and r.met, levels = #r.levels, wall = t,
         finest = r.levels[#r.levels].cpu, asked = entry[2], error = r.ok and r.quantities.tip.error }
-      row.ratio = row.wall / math.max(row.finest, 1e-6) -- the clock's own step [s]
+      row.ratio = row.wall / math.max(row.finest, 1e-6) -- resolution of the clock [s]
       if not best or row.wall < best.wall then best = row end
       c.scene:close()
     end
@@ -54,13 +53,13 @@ local function by_name(list, name)
 end
 
 local registry
---- The registry row of an integrator: { name, order, implicit, adaptive, leapfrog_limit }.
+--- Returns the registry row of an integrator: { name, order, implicit, adaptive, leapfrog_limit }.
 function bench.integrator(name)
   registry = registry or core.registry()
   return by_name(registry.integrators, name)
 end
 
---- Names of all integrators, in the order of the registry.
+--- Returns the names of all implicit, or all explicit, integrators in the registry's order.
 function bench.integrators(implicit)
   registry = registry or core.registry()
   local names = {}
@@ -70,8 +69,8 @@ function bench.integrators(implicit)
   return names
 end
 
--- Coefficients c6, c7, ... of the stability polynomial 1 + z + z^2/2 + ... that follow
--- the terms of the exponential series; found by stepping y' = z y on a circle of complex z.
+-- Coefficients of the stability polynomial 1 + z + z^2/2 + ... after the terms of the exponential series;
+-- found by stepping y' = z y on a circle of complex z.
 local tails = {
   ["gsl-rkf45"] = { order = 5, 1 / 2080 },
   ["gsl-rkck"] = { order = 5, 0.00125 },
@@ -79,7 +78,7 @@ local tails = {
     -2.03461528969e-10 },
 }
 
--- |R(i y)| of a polynomial.
+-- Returns |R(i y)| of a polynomial.
 local function amplification(tail, y)
   local re, im, power, factorial = 0, 0, 1, 1
   for k = 0, tail.order + #tail do
@@ -91,17 +90,18 @@ local function amplification(tail, y)
   return (re * re + im * im) ^ 0.5
 end
 
---- |R(i y)|: the growth of an undamped motion in one step of an explicit method, y = h omega [-].
+--- Returns |R(i y)|: the growth of an undamped motion in one step of an explicit method, y = h omega [-].
 function bench.growth(name, y)
-  if name == "symplectic-euler" or name == "velocity-verlet" then -- both are leapfrog
+  if name == "symplectic-euler" or name == "velocity-verlet" then -- both are leapfrog methods
     return y <= 2 and 1 or y * y / 2 - 1 + y * (y * y / 4 - 1) ^ 0.5
   end
-  if name == "gsl-rk4" then return amplification({ order = 4 }, y / 2) ^ 2 end -- takes two halves
+  if name == "gsl-rk4" then return amplification({ order = 4 }, y / 2) ^ 2 end -- it takes two half steps
   return amplification(tails[name] or { order = bench.integrator(name).order }, y)
 end
 
---- The largest h omega [-] up to which amplitudes grow less than a factor `growth` in `steps` steps.
--- Methods with a sharp limit have it for any count; some of odd order grow slowly at every step.
+--- Returns the largest h omega [-] up to which amplitudes grow less than by the factor `growth` in `steps`
+-- steps. For methods with a sharp limit it does not depend on the count; some methods of odd order grow
+-- slowly at every step.
 function bench.limit(name, steps, growth)
   local allowed, y = growth ^ (1 / steps), 0
   while y < 20 and bench.growth(name, y + 1e-3) <= allowed do y = y + 1e-3 end
@@ -111,20 +111,20 @@ end
 local function options_of(config)
   if not config.integrator then return {} end
   return { dt = config.dt, tolerance = config.tolerance, integrator = config.integrator,
-    unstable = true, parts = false } -- limits are looked for here, and errors of steps dt
+    unstable = true, parts = false } -- to find limits, and the errors of undivided steps dt
 end
 
--- Run a made case from its start to its end.
+-- Runs a made case from its start to its end.
 local function examine(case, state, config)
   local total = { steps = 0, rejected = 0, iterations = 0, evaluations = 0 }
   local r = case.run(state, options_of(config))
   for key in pairs(total) do total[key] = r[key] or 0 end
-  if case.static then total.evaluations = total.iterations end -- one each
+  if case.static then total.evaluations = total.iterations end -- one evaluation an iteration
   return total, r.ok and "ok" or case.static and "failed" or "diverged", r.ok and "" or r.reason
 end
 
---- Best time of a function over batches. Returns wall [s] (the quickest single call), cpu [s] (the
--- best mean of a batch), calls made. `again` makes each call start from the same state.
+--- Measures a function in batches. Returns wall (the fastest single call) [s], cpu (the best mean of a batch)
+-- [s], number of calls. `again` restores the state before each call.
 function bench.time(again, work)
   local wall, cpu, runs = math.huge, math.huge, 0
   for _ = 1, bench.batches do
@@ -142,15 +142,15 @@ function bench.time(again, work)
   return wall, cpu, runs
 end
 
--- Wall and cpu time of a run, number of runs, last report. A case with `remake` starts from a new
--- scene each time instead of the snapshot.
+-- Returns wall and cpu time of a run [s], number of runs, last report. A case with `remake` starts each time
+-- from a new scene instead of the snapshot.
 local function measure_time(case, state, snapshot, config)
   local options, report = options_of(config), nil
   local function again()
     if not case.remake then return state.scene:restore(snapshot) end
     state.scene:close()
     state = case.make(config)
-    state.scene:snapshot() -- makes the system, which is no part of the run
+    state.scene:snapshot() -- makes the system, whose time does not count for the run
   end
   local function work()
     if case.static then report = case.run(state, options)
@@ -169,7 +169,7 @@ local function empty_row(case, config)
     crossings = "", looked = "", bytes = "", status = "ok", reason = "" }
 end
 
--- The step of an explicit method from its share of the stable one.
+-- Returns the step of an explicit method from its share of the stable step.
 local function fixed_step(state, config)
   if not config.share then return config end
   local copy = {}
@@ -185,7 +185,7 @@ local function in_use()
   return (core.allocated())
 end
 
--- Bytes of the core per node, of a scene that has made one step.
+-- Returns the core's memory per node of a scene that has made one step [B].
 local function weigh(case, config)
   local before = in_use()
   local state = case.make(config)
@@ -195,13 +195,13 @@ local function weigh(case, config)
   return bytes / (config.segments + 1)
 end
 
--- One line of a message.
+-- Returns the first line of a message.
 local function line_of(text) return (tostring(text):match "[^\n]*") end
 
---- Run one configuration { model =, segments =, integrator =, dt = or tolerance = or share = } of a
--- case. `share` is the step in shares of an explicit method's stable one. Never raises for what
--- the physics does: the row's status is ok, diverged (a run), failed (a rest), refused (the
--- arguments were) or unrepeatable (a snapshot did not give the same rest), with the reason.
+--- Runs one configuration { model =, segments =, integrator =, dt = or tolerance = or share = } of a case.
+-- share: step over the stable step of an explicit method. It does not raise if the simulation fails: the
+-- row's status is ok, diverged (a run), failed (an equilibrium), refused (the arguments) or unrepeatable (a
+-- snapshot did not give the same equilibrium), with the reason.
 function bench.row(case, config, untimed)
   local fine, state = pcall(case.make, config)
   if not fine then
@@ -238,7 +238,7 @@ function bench.row(case, config, untimed)
   return row
 end
 
---- Write rows as CSV.
+--- Writes rows as CSV.
 function bench.write(path, rows, names)
   names = names or bench.columns
   local columns = {}
@@ -252,7 +252,7 @@ function bench.write(path, rows, names)
   csv.write(path, names, columns)
 end
 
---- Read rows back; cells that are numbers become numbers, empty ones nil.
+--- Reads rows back; cells with numbers become numbers, empty cells become nil.
 function bench.read(path)
   local data = csv.read(path, { text = setmetatable({}, { __index = function() return true end }) })
   local rows = {}

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Benches that are no rows of a table, told on the terminal.
+--- Benches without rows in the table; they print to the terminal.
 local bench = require "bench.rows"
 local sink = require "softworld.output.sink"
 
 local special = {}
 
--- What it costs to know how far off a result is.
+-- Prints the cost of error bars.
 function special.bars()
   print "\nerror bars of the tip, N = 50    levels    wall ms  over the finest alone       bar"
   for _, r in ipairs(bench.error_bars()) do
@@ -14,7 +14,7 @@ function special.bars()
   end
 end
 
--- What it costs that wires touch or are joined.
+-- Prints the cost of wires that touch or are joined.
 function special.links()
   print "\nlinked nodes, N = 100            places   us/iteration  over the same without"
   for _, r in ipairs(require "bench.links".rows()) do
@@ -32,7 +32,7 @@ local function judged(r, value, unit)
   return r.aim and ("within %g %s: %s"):format(r.aim, unit, value <= r.aim and "met" or "missed") or ""
 end
 
--- What wires that are meshes of particles cost.
+-- Prints the cost of wires that are meshes of particles.
 function special.meshes()
   local meshes = require "bench.meshes"
   print "\nmeshes of particles                       s/simulated s  rejected  us/iteration"
@@ -64,7 +64,7 @@ function special.meshes()
   end
 end
 
--- What each way of handling costs and gives in the two-plate test; also as out/bench/grip.csv.
+-- Prints cost and results of each way of handling in the two-plate test; writes out/bench/grip.csv.
 function special.grips(out)
   local grip = require "bench.grip"
   local lines, carry = { "way,dt,carry,all,error" }, {}
@@ -93,7 +93,7 @@ function special.grips(out)
   sink.write_file(out .. "/grip.csv", table.concat(lines, "\n") .. "\n")
 end
 
--- Many obstacles, nodes, wires.
+-- Prints the cost of many obstacles, nodes and wires.
 function special.crowds()
   local crowds = require "bench.crowds"
   for _, count in ipairs{ 10, 1000, 10000 } do
@@ -127,7 +127,7 @@ function special.bundles()
   end
 end
 
--- What a player's page costs, and in a browser that computes its graphics in software.
+-- Prints the cost of a player's page, also in a browser that renders in software.
 function special.report(out)
   local report = require "bench.report"
   local function line(what, value, most, unit)
@@ -158,7 +158,7 @@ function special.report(out)
   page:close()
 end
 
--- What a live view costs a run.
+-- Prints the cost of a live view for a run.
 function special.view()
   local view = require "bench.view"
   local plain, alone, page, rate = view.costs(5)
@@ -168,7 +168,7 @@ function special.view()
     100 * (page / plain - 1), rate, 100 * view.aim, page / plain - 1 <= view.aim and "met" or "missed"))
 end
 
--- Studies: what workers bring and cost.
+-- Prints gain and cost of a study's workers.
 function special.study()
   local study = require "bench.study"
   local one, two, rate = study.laying(5, 200)
@@ -186,7 +186,7 @@ function special.study()
     opened <= study.aims.opening and "met" or "missed"))
 end
 
--- Calibrations of known cables: time, and the share of intervals that hold the truth.
+-- Prints, for calibrations of known cables, the time and the share of intervals that contain the true value.
 function special.calibration()
   local calibration = require "bench.calibration"
   local aims = calibration.aims

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Wires that are meshes of particles, treated as no mesh likes it: squeezed, twisted, bent, turned
--- inside out, flung onto an edge. What each is judged by is in the note.
+--- Wires that are meshes of particles under extreme loads: squeezed, twisted, bent, turned inside out, thrown
+-- onto an edge. The note of a row has the values by which it is judged.
 -- @module bench.squeeze
 local core = require "softworld.core"
 local stable = require "bench.stable"
@@ -9,11 +9,11 @@ local squeeze = {}
 
 local radius, slices = 0.01, 20 -- [m], [-]
 
---- Meshes with their kind of section.
+--- Meshes and their kind of section.
 squeeze.meshes = { { "tube", "springs" }, { "radial", "springs" }, { "cubic", "springs" },
   { "composite", "springs" }, { "radial", "solid" }, { "cubic", "solid" } }
 
--- Long wires of shell and core have a plain core: it is the shell that is treated badly.
+-- Makes a scene with a wire. Long composite wires have a simple core, since the tests load the shell.
 local function scene_of(o, length, segments)
   local sw = require "softworld"
   local scene = sw.scene{ name = "mesh", gravity = { 0, 0, 0 } }
@@ -23,7 +23,7 @@ local function scene_of(o, length, segments)
   return scene, wire
 end
 
--- Run on for a duration in steps of dt; adds to a row what happened.
+-- Runs the scene for a duration in steps of dt; adds the results to a row.
 local function drive(scene, o, duration, row)
   local began = core.clock()
   local r = scene:advance({ dt = o.dt, integrator = o.integrator }, scene.time + duration)
@@ -33,8 +33,8 @@ local function drive(scene, o, duration, row)
   return r.ok
 end
 
--- How far particles are from where they were, without what moved the whole [of the radius]: the
--- largest change of the distance to their ring's first one.
+-- Returns how far particles have moved relative to their ring, over the radius [-]: the largest change of the
+-- distance to the first particle of the ring.
 local function deformed(wire, before, per_ring)
   local now, most = wire:particles(), 0
   for p = 0, #now // 3 - 1 do
@@ -50,7 +50,7 @@ end
 
 local function per_ring_of(wire) return #wire:particles() // 3 // (wire.segments + 1) end
 
--- Between two plates, the upper of which comes down by a share of the diameter and goes up again.
+-- The wire lies between two plates; the upper plate moves down by a share of the diameter and up again.
 local function pressed(o)
   local length = 0.1
   local scene, wire = scene_of(o, length, slices)
@@ -62,7 +62,7 @@ local function pressed(o)
   local down = -2 * radius * o.share
   plate:follow{ points = { { 0, 0, 0 }, { 0, 0, down } }, duration = 1, relative = true }
   local row, most, fall = {}, 0, 0
-  for _ = 1, 20 do -- a section that folds through pushes less, the further it is pressed
+  for _ = 1, 20 do -- the force of a section that folds through falls with further squeezing
     if not drive(scene, o, 0.05, row) then break end
     local force = plate:force()[3]
     most, fall = math.max(most, force), math.max(fall, most - force)
@@ -80,7 +80,7 @@ local function pressed(o)
   return row
 end
 
--- One end is turned, slowly enough that waves die away.
+-- One end is twisted, slowly enough that waves decay.
 local function twisted(o)
   local scene, wire = scene_of(o, 1, nil)
   scene:force{ kind = "damping", mass = 5 }
@@ -98,14 +98,14 @@ local function twisted(o)
   return row
 end
 
--- Both ends are brought side by side, so that the middle bends like a hairpin.
+-- Both ends are moved side by side, so that the middle bends like a hairpin.
 local function bent(o)
   local length = 5 * radius
   local scene, wire = scene_of(o, length, slices)
   scene:force{ kind = "damping", mass = 20 }
   scene:clamp(wire, { s = 0 })
   local hand, half, points = scene:clamp(wire, { s = length }), length / 2, {}
-  for k = 0, 20 do -- round, to a diameter above the other end
+  for k = 0, 20 do -- on an arc, to one diameter above the other end
     local a, u = math.pi * k / 20, k / 20
     points[k + 1] = { half * (math.cos(a) - 1), 0, half * math.sin(a) * (1 - u) + 2 * radius * u }
   end
@@ -119,7 +119,7 @@ local function bent(o)
   return row
 end
 
--- What is above the axis in the middle of the wire is pushed through the lower side, and let go.
+-- In the middle of the wire, the particles above the axis are pushed through the lower side and released.
 local function inverted(o)
   local length = 0.1
   local scene, wire = scene_of(o, length, slices)
@@ -146,7 +146,7 @@ local function inverted(o)
   return row
 end
 
--- Flies flat onto the upper edge of a thin wall.
+-- The wire flies horizontally onto the upper edge of a thin wall.
 local function flung(o)
   local length = 0.3
   local scene, wire = scene_of(o, length, nil)
@@ -169,7 +169,7 @@ local function flung(o)
   return row
 end
 
---- Call add(item, run, options) for every row.
+--- Calls add(item, run, options) for every row.
 function squeeze.add_all(add)
   for _, mesh in ipairs(squeeze.meshes) do
     local function put(item, run, o)
@@ -184,8 +184,8 @@ function squeeze.add_all(add)
   end
 end
 
---- Largest step [s] with which an explicit method stays bounded on a mesh, how that was found, and
--- scene:stable_dt() scaled to the method's limit.
+--- Returns the largest step [s] with which an explicit method stays bounded on a mesh, how it was found, and
+-- scene:stable_dt() scaled to the method's limit [s].
 function squeeze.measure(integrator, mesh, scale, rounds)
   local length, scene, wire = 0.1, scene_of({ mesh = mesh }, 0.1, slices)
   scene:clamp(wire, { s = 0 })

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest stable steps: found by bisection, and expected from the largest natural frequency.
+--- Largest stable steps: measured by bisection, and expected from the largest natural frequency.
 -- @module bench.stable
 local bench = require "bench.rows"
 
 local stable = {}
 
-stable.steps = 2000 -- of one trial [-]
-stable.blown = 1e8 -- energy over that at the start: unstable [-]
+stable.steps = 2000 -- steps of one trial [-]
+stable.blown = 1e8 -- a larger ratio of the energy to that at the start counts as unstable [-]
 
---- Wires of the reference table: straight, round, lumped masses, equal edges. omega: the largest
--- natural frequency [rad/s] of the rod, exact eigenvalues (1e-12): axial waves set it where given.
+--- Wires of the reference table: straight, round, lumped masses, equal edges. omega: the rod's largest
+-- natural frequency [rad/s], from exact eigenvalues (1e-12); given where axial waves determine it.
 stable.wires = {
   { name = "rubber cord", E = 1e7, density = 1500, radius = 0.0025, length = 1, segments = 25,
     omega = 4080.468446 },
@@ -22,11 +22,11 @@ stable.wires = {
   { name = "thick stub", E = 1e7, density = 1500, radius = 0.0025, length = 0.05, segments = 40 },
 }
 
--- The clamp's two hinges have these lengths in edges, all others 1: an end-point rule that is exact
--- for constant, linear and quadratic moments.
+-- Lengths of the clamp's two hinges in edges; all others are 1. This end-point rule is exact for constant,
+-- linear and quadratic moments.
 local clamp_hinges = { 5 / 12, 13 / 12 }
 
--- K = sum over rows of k c c', symmetrically divided by the masses' roots, as a full matrix.
+-- Returns K = sum over rows of k c c', divided on both sides by the roots of the masses, as a full matrix.
 local function matrix(rows, root, n)
   local K = {}
   for i = 1, n do
@@ -43,7 +43,7 @@ local function matrix(rows, root, n)
   return K
 end
 
--- Turn rows and columns p, q of K so that K[p][q] vanishes; V keeps the vectors (as rows).
+-- Rotates rows and columns p, q of K so that K[p][q] becomes 0; V collects the vectors (as rows).
 local function rotate(K, V, n, p, q)
   local tau = (K[q][q] - K[p][p]) / (2 * K[p][q])
   local t = (tau >= 0 and 1 or -1) / (math.abs(tau) + (1 + tau * tau) ^ 0.5)
@@ -60,7 +60,7 @@ local function rotate(K, V, n, p, q)
   end
 end
 
--- Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations. Destroys K.
+-- Returns eigenvalues and eigenvectors of a symmetric matrix by Jacobi rotations. Destroys K.
 local function eigen(K, n)
   local V = {}
   for i = 1, n do
@@ -81,8 +81,8 @@ local function eigen(K, n)
   return K, V
 end
 
--- Springs of a clamped chain of n edges along one direction: node 0 is held, the clamp's direction
--- is a hinge of its own.
+-- Returns the springs of a clamped chain of n edges in one direction: node 0 is held; the clamp's direction
+-- is a separate hinge.
 local function springs(w)
   local n, h = w.segments, w.length / w.segments
   local A = math.pi * w.radius ^ 2
@@ -98,7 +98,8 @@ local function springs(w)
   return root, stretch, bend
 end
 
--- Modes of one direction: { omega =, share = of the energy of a jerk of all nodes }.
+-- Adds the modes of one direction: { omega =, share = share of the energy if all nodes start with the same
+-- velocity }.
 local function add_modes(modes, rows, root, n)
   local K, V = eigen(matrix(rows, root, n), n)
   local mass = 0
@@ -110,9 +111,9 @@ local function add_modes(modes, rows, root, n)
   end
 end
 
---- Natural frequencies [rad/s] of a straight clamped wire with lumped masses and the shares of a
--- jerk's energy in them; axial modes first. The string's bending spring is linear in the second
--- difference of positions, so it stiffens axial waves as well.
+--- Returns the natural frequencies [rad/s] of a straight clamped wire with lumped masses, and their shares of
+-- the energy if all nodes start with the same velocity; axial modes first. The string's bending spring is
+-- linear in the second difference of positions, so it stiffens axial waves too.
 function stable.modes(w, model)
   local root, stretch, bend = springs(w)
   local modes, n = {}, w.segments
@@ -122,7 +123,7 @@ function stable.modes(w, model)
   return modes
 end
 
---- The smallest step [s] with which the energy of a jerk grows more than allowed in one trial.
+--- Returns the smallest step [s] with which this energy grows more than allowed in one trial.
 function stable.expected(integrator, modes)
   local fastest = 0
   for _, mode in ipairs(modes) do fastest = math.max(fastest, mode.omega) end
@@ -135,8 +136,8 @@ function stable.expected(integrator, modes)
   end
 end
 
---- The largest value between low (known good) and high (known bad) for which test(value) holds, by
--- bisection of the logarithm. Returns low when even that fails, high when all pass.
+--- Returns the largest value between low (expected good) and high (expected bad) for which test(value) is
+-- true, by bisection of the logarithm; low if even low fails, high if high passes.
 function stable.largest(test, low, high, rounds)
   if not test(low) then return low, "below" end
   if test(high) then return high, "above" end
@@ -147,7 +148,7 @@ function stable.largest(test, low, high, rounds)
   return (low * high) ^ 0.5, "found"
 end
 
---- A scene for trials: weightless, nudged so slightly that everything stays linear.
+--- Returns a scene for trials: no gravity, and a velocity so small that everything stays linear.
 function stable.scene(w, model)
   local sw = require "softworld"
   local scene = sw.scene{ name = w.name, gravity = { 0, 0, 0 } }
@@ -158,9 +159,9 @@ function stable.scene(w, model)
   return scene
 end
 
---- Measured and expected largest stable step [s] of an explicit method on a wire with these modes;
--- how it was found ("found", "below" or "above" the steps tried); the step
--- that the program itself takes for leapfrog's limit.
+--- Returns the measured and the expected largest stable step [s] of an explicit method on a wire with these
+-- modes; how it was found ("found", "below" or "above" the tried steps); the program's own step for the
+-- leapfrog limit [s].
 function stable.measure(integrator, w, model, modes, rounds)
   local scene = stable.scene(w, model)
   local snapshot, start = scene:snapshot(), scene:energy().total

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a study's workers bring and cost: a laying over three walls by one worker and by two, evaluations
+--- Gain and cost of a study's workers: laying over three walls with one and with two workers, evaluations
 -- that compute nothing, a journal of a million lines.
 -- @module bench.study
 local sealed = require "softworld.sealed"
@@ -34,7 +34,7 @@ local function lay(p, scene, wire, hand)
   return { force = hand.peak_force, bend = wire:min_bend_radius() }
 end
 
--- How long so many evaluations take [s].
+-- Returns the time of count evaluations [s].
 local function time_of(args, count, workers)
   args.name = "bench"
   local s = sw.study(args)
@@ -43,7 +43,8 @@ local function time_of(args, count, workers)
   return sw.core.clock() - clock
 end
 
---- Least times of count layings by one worker and by two, by turns [s]; evaluations a minute by two.
+--- Returns the shortest times of count layings with one and with two workers, measured alternately [s], and
+-- the evaluations per minute with two.
 function study.laying(times, count)
   local one, two = math.huge, math.huge
   local args = { parameters = { speed = { 0.2, 0.3, unit = "m/s" } }, setup = build, evaluate = lay }
@@ -53,7 +54,7 @@ function study.laying(times, count)
   return one, two, 60 * count / two
 end
 
--- How soon the wire is laid when the hand goes up and along at these speeds; 5 % of the runs fail by chance.
+-- Evaluates how soon the wire is laid if the hand moves at these speeds; 5 % of the runs fail at random.
 local function hurry(p, scene, wire, hand)
   if p.random() < 0.05 then p.give_up "by chance" end
   scene:process(function()
@@ -67,7 +68,7 @@ local function hurry(p, scene, wire, hand)
   return { time = p.height / p.up + 0.8 / p.along, force = hand.peak_force }
 end
 
---- CMA-ES on three parameters of a laying with one constraint: seconds, what was found.
+--- Runs CMA-ES on three parameters of a laying with one constraint; returns the time [s] and the result.
 function study.search()
   local s = sw.study{ name = "bench", setup = build, evaluate = hurry,
     parameters = { height = { 0.11, 0.3, unit = "m" }, up = { 0.05, 0.5, unit = "m/s", log = true },
@@ -78,7 +79,7 @@ function study.search()
   return sw.core.clock() - clock, found
 end
 
---- Least time of an evaluation that computes nothing, with a journal [s].
+--- Returns the shortest time of an evaluation that computes nothing, with a journal [s].
 function study.overhead(times, count)
   local least = math.huge
   for _ = 1, times do
@@ -92,7 +93,7 @@ function study.overhead(times, count)
   return least
 end
 
---- How long a journal of so many evaluations takes to open [s].
+--- Returns the time to open a journal of count evaluations [s].
 function study.opening(count)
   local path = os.tmpname()
   os.remove(path)

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The rows of a bench on the terminal: aims, costs, errors.
+--- Prints the rows of a bench on the terminal: aims, costs, errors.
 local summary = {}
 
-local rows -- that are told
+local rows -- the rows to print
 
 local with_frames = { "curved", "flat", "rolling" }
 
@@ -17,7 +17,7 @@ local function row_name(row)
   return ("%s N=%d %s %s"):format(row.model, row.segments, row.integrator, step_of(row))
 end
 
--- The quickest good row of a case that passes.
+-- Returns the fastest row of a case with status ok for which passes(row) is true.
 local function quickest(case, passes)
   local best
   for _, row in ipairs(rows) do
@@ -85,7 +85,8 @@ local function print_walls()
   end
 end
 
--- Cost per node and step: largest over smallest; bytes per node of the largest.
+-- Prints the ratio of the largest to the smallest cost per node and step, and the bytes per node of the
+-- largest wire.
 local function scale_ratio()
   local low, high, large = math.huge, 0, nil
   for _, r in ipairs(rows) do
@@ -102,7 +103,7 @@ local function scale_ratio()
     large.bytes < 1000 and "met" or "missed"))
 end
 
--- What frames cost, over the same wire without.
+-- Prints the cost of material frames (of curved, flat and rolling wires) over that of a wire without frames.
 local function frames_ratio()
   local plain = quickest("scale", function(r)
     return r.segments == 1000 and r.model == "rod" and r.integrator == "tr-bdf2"
@@ -144,7 +145,7 @@ local function print_best()
   end
 end
 
---- Tell them.
+--- Prints all.
 function summary.print(list)
   rows = list
   print_aims()

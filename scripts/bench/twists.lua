@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Scenes with twist, snap-through, self-contact and high speed, in which methods are known to
--- fail: each survives, or says why not. What they are judged by is in the note.
+--- Scenes with twist, snap-through, self-contact and high speed, in which methods are known to fail. Each run
+-- succeeds or reports why not. The note of a row has the values by which it is judged.
 -- @module bench.twists
 local core = require "softworld.core"
 
 local twists = {}
 
--- Run to the time in steps of dt: a row with how it went.
+-- Runs the scene for a duration in steps of dt; returns a row with the results.
 local function drive(scene, o, duration)
   local began = core.clock()
   local r = scene:advance({ dt = o.dt, integrator = o.integrator }, scene.time + duration)
@@ -14,8 +14,8 @@ local function drive(scene, o, duration)
     status = r.ok and "ok" or "failed", reason = not r.ok and r.reason or nil }
 end
 
--- A taut wire is turned, then given slack: it throws a loop, which coils up. Judged by tension
--- against that of a plectoneme with the same torque.
+-- A taut wire is twisted, then given slack: it forms a loop, which coils up. Judged by its tension relative
+-- to that of a plectoneme with the same torque.
 local function hockle(o)
   local sw = require "softworld"
   local B, r, path = 4e-4, 1.5e-3, {}
@@ -48,7 +48,7 @@ local function hockle(o)
   return row
 end
 
--- An overhand knot drawn tight until its loop is as small as the wire allows.
+-- An overhand knot is pulled tight until its loop is as small as the wire allows.
 local function knot(o)
   local sw = require "softworld"
   local path = {}
@@ -56,7 +56,7 @@ local function knot(o)
     local t = -2.1 + 4.2 * i / 400
     path[#path + 1] = { 0.02 * (t ^ 3 - 3 * t), 0.012 * (t ^ 4 - 4 * t ^ 2), 0.0072 * (t ^ 5 / 5 - 2 * t) }
   end
-  for _, sign in ipairs{ -1, 1 } do -- tails towards the line of the pull
+  for _, sign in ipairs{ -1, 1 } do -- the tails lead towards the line of the pull
     local at, before = path[sign < 0 and 1 or #path], path[sign < 0 and 2 or #path - 1]
     local d = { at[1] - before[1], at[2] - before[2], at[3] - before[3] }
     for _ = 1, 60 do
@@ -87,11 +87,11 @@ local function knot(o)
   return row
 end
 
--- An arch whose clamps lean inwards is pushed through by the turn of its clamps: it snaps.
+-- An arch between two clamps snaps through when the clamps are turned.
 local function snap(o)
   local sw = require "softworld"
   local scene, path = sw.scene{ name = "snap", gravity = { 0, 0, 0 } }, {}
-  for i = 0, 100 do -- not quite symmetric, or it would stand on its middle for ever
+  for i = 0, 100 do -- slightly asymmetric, else the arch would stay in its unstable symmetric state
     local a = math.pi * i / 100
     path[#path + 1] = { 0.8 * i / 100, 0, 0.3 * math.sin(a) + 0.003 * math.sin(2 * a) }
   end
@@ -112,7 +112,7 @@ local function snap(o)
   return row
 end
 
--- A hanging wire whose upper end is jerked to and fro: the free end cracks like a whip.
+-- The upper end of a hanging wire is jerked to and fro; the free end cracks like a whip.
 local function whip(o)
   local sw = require "softworld"
   local scene = sw.scene{ name = "whip" }
@@ -136,7 +136,7 @@ local function whip(o)
   return row
 end
 
--- The end of a lying wire is spun: its twist runs along it, and comes back.
+-- The end of a lying wire is spun; the twist runs along the wire and comes back.
 local function spin(o)
   local sw = require "softworld"
   local scene = sw.scene{ name = "spin", gravity = { 0, 0, 0 } }
@@ -154,8 +154,8 @@ local function spin(o)
   return row
 end
 
--- A wire that rolls, twisted at its end and let go: a wave of twist runs to and fro. With c^2 = GJ/I
--- the end spins at c angle/L, one way for 2 L/c, then the other way.
+-- A wire that rolls is twisted at its end and released: a wave of twist runs to and fro. With c^2 = GJ/I
+-- the end spins at c angle/L, in one direction for 2 L/c, then in the other.
 local function wave(o)
   local sw = require "softworld"
   local scene = sw.scene{ name = "twist wave", gravity = { 0, 0, 0 } }
@@ -186,7 +186,7 @@ local function wave(o)
   return row
 end
 
---- Call add(item, run, options) for every row.
+--- Calls add(item, run, options) for every row.
 function twists.add_all(add)
   for _, dt in ipairs{ 0.01, 0.005, 0.002 } do
     for _, friction in ipairs{ 0, 0.3 } do

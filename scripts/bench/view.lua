@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a live view costs a run: CPU time of the whole program, its server's threads included, without a
--- view, with one that no page looks at, and with one page that takes 30 frames a second.
+--- Cost of a live view for a run: CPU time of the whole program, with its server's threads, without a view,
+-- with a view that no page opens, and with one page that takes 30 frames a second.
 -- @module bench.view
 local sw = require "softworld"
 
 local view = {}
 
-view.aim = 0.03 -- of the run's CPU time, with one page [-]
+view.aim = 0.03 -- extra CPU time with one page over the run's [-]
 
--- A wire of 500 nodes that is drawn over three walls for some seconds of CPU time.
+-- Returns a scene in which a wire of 500 nodes is drawn over three walls, for some seconds of CPU time.
 local function scene_of()
   local scene = sw.scene{ name = "view" }
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
@@ -28,7 +28,7 @@ local function scene_of()
   return scene
 end
 
--- Another program that takes each frame, says so, and waits for the next, until the server ends.
+-- A separate program that takes each frame, acknowledges it, and waits for the next, until the server ends.
 local READER = [[
 package.path = "./?.lua;" .. package.path
 local page = assert(require("spec.page.websocket").open(%d, "%s" .. "s"))
@@ -48,7 +48,8 @@ local function reader_of(shown)
   return reader
 end
 
---- CPU time of a run [s], how long it took [s], and frames that the page got; pages: nil (no view), 0, 1.
+--- Returns the CPU time and the wall time of a run [s], and the number of frames that the page got. pages:
+-- nil (no view), 0, 1.
 function view.cost(pages)
   local scene = scene_of()
   local shown = pages and scene:view{ open = false }
@@ -63,8 +64,8 @@ function view.cost(pages)
   return cpu, wall, frames
 end
 
---- Least CPU times of so many runs of each kind, by turns: without a view, without a page, with one [s];
--- frames a second that the page got.
+--- Returns the shortest CPU times of so many runs of each kind, measured alternately: without a view, without
+-- a page, with one page [s]; and the frames per second that the page got.
 function view.costs(times)
   local plain, alone, page, rate = math.huge, math.huge, math.huge, 0
   for _ = 1, times do
