@@ -2,12 +2,8 @@
 #ifndef SW_BASE_EACH_H
 #define SW_BASE_EACH_H
 
-<<<<<<< HEAD
-/* For each of count items of an array, for loops that need no number: a pointer goes through it. */
-/* NOLINTBEGIN(bugprone-macro-parentheses): a type and a declared name take none */
-=======
 /* Loops over the count items of an array: item is a pointer to each. For loops without an index. */
->>>>>>> prose6
+/* NOLINTBEGIN(bugprone-macro-parentheses): a type and a declared name take none */
 #define SW_ITEMS(type, item, array, count) \
   for (type *item = (array), *item##_end = item + (count); item < item##_end; item++)
 /* NOLINTEND(bugprone-macro-parentheses) */
