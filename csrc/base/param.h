@@ -11,6 +11,9 @@
 
 enum { SW_NAME_SIZE = 64 }; /* longest user-given name, with its terminating zero [B] */
 
+/* Largest coordinate of a place that a script may give [m]: distances stay finite. */
+#define SW_PLACE_FARTHEST 1e9
+
 /* Type of the row's field in the argument struct. */
 typedef enum sw_param_type {
   SW_PARAM_NUMBER,   /* double */

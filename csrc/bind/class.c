@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bind/class.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define X(name) extern const lsw_class lsw_class_##name;
@@ -338,6 +340,13 @@ sw_vec lsw_vector(lua_State *L, int index, const char *what, const char *unit) {
   static const char *const names[] = {"x", "y", "z"};
   double v[3] = {0, 0, 0};
   numbers(L, index, what, unit, 3, names, v);
+  for (int i = 0; i < 3 && strcmp(unit, "m") == 0; i++) {
+    if (fabs(v[i]) <= SW_PLACE_FARTHEST) continue;
+    char range[96];
+    snprintf(range, sizeof range, "%g m is not allowed; it must be in [%g, %g] m", v[i],
+             -SW_PLACE_FARTHEST, SW_PLACE_FARTHEST);
+    luaL_error(L, "%s: %s = %s", what, names[i], range);
+  }
   return sw_v(v[0], v[1], v[2]);
 }
 

@@ -131,7 +131,9 @@ function checks.field(t, key)
   return there and value or nil
 end
 
---- A copy of the vector {x, y, z}.
+local FARTHEST = 1e9 -- largest coordinate of a place, as in the core [m]
+
+--- A copy of the vector {x, y, z}; coordinates of places [m] are within 1e9 m.
 function checks.vector(what, value, unit, level)
   local copy = {}
   for k, axis in ipairs{ "x", "y", "z" } do
@@ -139,6 +141,10 @@ function checks.vector(what, value, unit, level)
     if type(v) ~= "number" or v - v ~= 0 then
       local got = type(value) ~= "table" and checks.got(value) or ("%s as item %d"):format(checks.got(v), k)
       error(("%s must be a table of 3 finite numbers [%s], got %s"):format(what, unit, got), level)
+    end
+    if unit == "m" and math.abs(v) > FARTHEST then
+      error(("%s: %s = %g m is not allowed; it must be in [%g, %g] m"):format(what, axis, v, -FARTHEST,
+        FARTHEST), level)
     end
     copy[k] = v
   end

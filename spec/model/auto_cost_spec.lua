@@ -126,3 +126,25 @@ describe("model = 'auto', where the scene does not rest as it begins,", function
     assert.is_true(away ^ 0.5 > 0.3 * b.tolerance) -- a change that is seen
   end)
 end)
+
+-- A cantilever lies down on a rod that hardly presses on it. Meshes of its section would take a minute on the
+-- second level, which a bar needs; two levels of the line tell that no mesh meets 1e-12 of the tip's place.
+describe("model = 'auto', asked for more than any mesh reaches,", function()
+  it("computes no mesh, and says why", function()
+    local scene = sw.scene {}
+    local w = scene:wire { E = 4.75e7, density = 1400, radius = 0.003, from = { 0, 0, 0.02 },
+      to = { 0.3, 0, 0.02 }, segments = 15 }
+    scene:clamp(w, { s = 0 })
+    scene:obstacle { shape = "cylinder", radius = 0.02, length = 0.1, at = { 0.2, 0, -0.05 },
+      rotation = { axis = { 1, 0, 0 }, angle = 1.57 } }
+    scene:run { duration = 0.05, quasistatic = true, max_steps = 1 }
+    scene:run { duration = 0.02, tolerance = { tip = 1e-2 }, levels = 3 } -- it touches the rod
+    local run = scene:run { duration = 0.02, model = "auto", levels = 3,
+      tolerance = { tip = { relative = 1e-12 } } }
+    assert.is_true(run.ok)
+    assert.is_false(run.met)
+    assert.equal("round", run.model.section)
+    assert.truthy(tostring(run:why()):find("no mesh mends that", 1, true), tostring(run:why()))
+    assert.equal("rod", w.model)
+  end)
+end)

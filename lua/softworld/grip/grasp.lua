@@ -247,8 +247,8 @@ end
 local let_go = rows.call("gripper:release", "{...}", "lets go", {
   gives = "the gripper; in a process once the jaws are open",
   { "wire", "wire", "-", "of several that are held without pads", usual = "all" },
-  { "distance", "number", "m", "between the faces", min = 0, usual = "pads' opening" },
-  { "speed", "number", "m/s", "of the opening", min = 0, above = true, usual = jaws.SPEED },
+  { "distance", "number", "m", "between the faces", min = 0, max = jaws.MOST, usual = "pads' opening" },
+  { "speed", "number", "m/s", "of the opening", min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED },
 })
 
 --- Let go; see gripper:release.

@@ -11,6 +11,7 @@ local jaws = { methods = {} }
 local Methods = jaws.methods
 
 jaws.SPEED = 0.02 -- of the opening, unless told [m/s]
+jaws.MOST = 1e3   -- largest opening, and speed of it, that the core takes [m], [m/s]
 local PATIENCE = 2 -- a force is waited for so long after jaws could have closed [s]
 local CRUSHED = 0.2 -- opening over the wire's diameter at which it is [-]
 
@@ -22,17 +23,17 @@ end
 jaws.force_row = { "force", "number", "N", "of each finger on the wire, kept from then on", min = 0,
   above = true }
 jaws.distance_row = { "distance", "number", "m", "opening to go to, unless force stops them before",
-  min = 0 }
+  min = 0, max = jaws.MOST }
 jaws.speed_row = { "speed", "number", "m/s", "of the opening; alone: until there is contact", min = 0,
-  above = true, usual = jaws.SPEED }
+  max = jaws.MOST, above = true, usual = jaws.SPEED }
 
 local close = rows.call("gripper:close_jaws", "{...}", "closes the jaws", {
   gives = "the gripper; in a process once that is done", jaws.force_row, jaws.distance_row,
   jaws.speed_row })
 local open = rows.call("gripper:open_jaws", "{...}", "opens the jaws", {
   gives = "the gripper; in a process once that is done",
-  { "distance", "number", "m", "between the faces", min = 0, usual = "pads' opening" },
-  { "speed", "number", "m/s", "of the opening", min = 0, above = true, usual = jaws.SPEED },
+  { "distance", "number", "m", "between the faces", min = 0, max = jaws.MOST, usual = "pads' opening" },
+  { "speed", "number", "m/s", "of the opening", min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED },
 })
 
 --- The core's order for close_jaws' words, which are checked.

@@ -13,7 +13,7 @@ local decide = {}
 local MODEL = change.MODEL
 local DOUBT = 2 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
 local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
-local LONG = 1     -- expected of a mesh on the coarsest level, from which it is asked whether it helps [s]
+local LONG = 1     -- expected of a mesh on the second level, from which it is asked whether it helps [s]
 local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
 local HOPE = 4     -- by how much a change may shrink from level to level [-]
 local FEIGNED = 16 -- the same that coarse edges do only where poses jump to another place [-]
@@ -240,7 +240,7 @@ end
 
 -- Would a mesh be computed for bars that no level makes short enough? Lines on two levels tell; nil: not so.
 local function in_vain(context, rungs, up)
-  local time, job = probe.expected(context, up, 1), context.job
+  local time, job = probe.expected(context, up, 2), context.job -- two levels make a bar
   if not time or time < LONG then return nil end
   local one, two = probe.of(context, rungs, 1), probe.of(context, rungs, 2)
   for _, q in ipairs(one.ok and two.ok and job.quantities or {}) do
