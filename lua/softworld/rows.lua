@@ -15,7 +15,6 @@
 -- words, where a number cannot tell it), empty (a text may be). Types: number, integer, boolean, text,
 -- choice, vector, rotation, function, table; numbers (one, or a list of them), list (of = "number" checks
 -- its items), reaction (a choice or a function). Other types are shown in help only; the reader checks them.
--- its items), reaction (a choice or a function); others are told here, and checked by who reads them.
 -- @module softworld.rows
 local checks = require "softworld.checks"
 

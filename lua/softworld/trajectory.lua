@@ -12,7 +12,6 @@
 -- in SI units, or for positions in units of `scale` metres if given. Columns whose
 -- name starts with `_` are ignored. A file without names has x y z, or t x y z, or
 -- x y z qw qx qy qz, or t x y z qw qx qy qz.
--- y z, or x y z qw qx qy qz, or t x y z qw qx qy qz.
 -- @module softworld.trajectory
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"

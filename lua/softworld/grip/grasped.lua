@@ -23,8 +23,7 @@ local function pressed(self)
 end
 
 --- Called once the pads press. Returns nil if only the intended wires are between the pads; else the trouble
--- as
--- a text, and true if the intended wire is not there at all. The run logs an event about it.
+-- as a text, and true if the intended wire is not there at all. The run logs an event about it.
 function grasped.check(self)
   if not self.wire then return nil end
   local on, others = pressed(self)

@@ -76,10 +76,8 @@ local function give_up(self, order, wire, state, crushed, longest)
 end
 
 -- Logs an event if the pads press on a rod harder than its strength. Pads that go to an opening press on a
--- rod
--- as on a solid section of its mean modulus: squeezing a cable by a hundredth of its diameter takes
--- kilonewtons
--- there, while the insulation of a real cable would yield.
+-- rod as on a solid section of its mean modulus: squeezing a cable by a hundredth of its diameter takes
+-- kilonewtons there, while the insulation of a real cable would yield.
 local function tell_overload(self, wire, state)
   local rod = wire and (wire.model == "rod" or wire.model == "string")
   local limit = rod and tension.limit{ object = wire }

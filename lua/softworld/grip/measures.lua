@@ -193,8 +193,7 @@ function Measures:over(t1, t2, options)
 end
 
 --- Returns the series { t =, force = {{x, y, z}, ...}, moment = } and, with pads, opening, squeeze, margin
--- (NaN
--- while they hold nothing, close or let go), slip.
+-- (NaN while they hold nothing, close or let go), slip.
 function Measures:series()
   local s = { t = {}, force = {}, moment = {} }
   for i, r in ipairs(records(self)) do

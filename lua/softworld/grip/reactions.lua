@@ -19,8 +19,7 @@ function reactions.check(what, value, level)
 end
 
 --- Sets the reaction to a slipping or lost wire: "record" (default), "warn", "stop" or a function, called
--- with
--- the gripper and the event.
+-- with the gripper and the event.
 function reactions.set_on_slip(self, value, level)
   reactions.check("gripper '" .. self.name .. "': on_slip", value, level + 1)
   self.on_slip = value

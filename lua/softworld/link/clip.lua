@@ -190,8 +190,7 @@ function Clip:force(wire)
 end
 
 --- Returns how near the seated wire was to being pulled out: largest pull so far over retention. For a wire
--- that
--- came out it is 1 or hardly less.
+-- that came out it is 1 or hardly less.
 function Clip:ratio(wire)
   local most = 0
   for _, r in ipairs(chosen(self, wire, "ratio")) do

@@ -43,8 +43,7 @@ function fixing.name(scene, what, given, kind)
 end
 
 --- Adds scene:clip and the like. make(scene, ...) takes the call's arguments and returns the fields, among
--- them
--- name and object (the object of the core). The new fixing is put into the scene's list; its class has
+-- them name and object (the object of the core). The new fixing is put into the scene's list; its class has
 -- exists(), and report(add) for the summary.
 function fixing.made(class, make)
   local function new(scene, ...)

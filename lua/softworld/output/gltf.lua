@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Writes a run as glTF 2.0 in one file (.glb): wires as surfaces that change their shape (morph targets, one
--- for
--- each frame), obstacles and grippers as moving bodies. Positions in m; glTF's y is up.
+-- for each frame), obstacles and grippers as moving bodies. Positions in m; glTF's y is up.
 -- @module softworld.output.gltf
 local core = require "softworld.core"
 local json = require "softworld.output.json"
@@ -134,8 +133,7 @@ local function add_channel(file, node, path, values, width, kind)
 end
 
 -- Gives a node the size 0 in frames where its object does not exist yet or any more. lists: its points in
--- each
--- frame.
+-- each frame.
 local function hide(file, node, lists)
   local sizes, hides = {}, false
   for k, points in ipairs(lists) do

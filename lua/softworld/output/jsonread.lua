@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A small, strict JSON reader of limited depth, for messages from others. Objects and arrays become tables,
--- null
--- becomes nil.
+-- null becomes nil.
 -- @module softworld.output.jsonread
 local jsonread = {}
 

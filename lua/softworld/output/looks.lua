@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- What all drawers of a run's pictures share: which frames, from where, how thick thin wires are drawn, and
--- the
--- words below.
+-- the words below.
 -- @module softworld.output.looks
 local number = require "softworld.output.number"
 local povscene = require "softworld.output.povscene"

@@ -34,8 +34,7 @@ local table_colour = { 0.82, 0.80, 0.765 }
 local jaw_colour, palm_colour = { 0.33, 0.37, 0.43 }, { 0.70, 0.73, 0.77 }
 
 --- Colours, sRGB: of wires in turn, obstacles, planes, jaws, palms and stems of grippers, zones to keep out
--- of,
--- and zones that have a temperature.
+-- of, and zones that have a temperature.
 povscene.colours = { wires = wire_colours, obstacle = obstacle_colour, plane = table_colour,
   jaw = jaw_colour, palm = palm_colour, zone = { 0.84, 0.24, 0.24 }, heat = { 0.90, 0.58, 0.10 } }
 

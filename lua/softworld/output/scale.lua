@@ -29,8 +29,7 @@ local around_zero = stops "2360c9 6f9bdc c3cfdd e0dcd6 e8c0a8 dd7d55 c9341c"
 local grey = { 0.54, 0.56, 0.60 } -- for NaN
 
 --- Returns a scale from the least to the largest value. If the values lie on both sides of 0 (the negative
--- ones by
--- more than 5 % of the largest), 0 is in the middle.
+-- ones by more than 5 % of the largest), 0 is in the middle.
 -- @tparam string name of the quantity
 -- @tparam number low
 -- @tparam number high

@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Writes a moment of a run as triangles: Wavefront OBJ with objects by name, or binary STL. Lengths in m, z
--- up as
--- in the scene.
+-- up as in the scene.
 -- @module softworld.output.triangles
 local core = require "softworld.core"
 local props = require "softworld.output.props"

@@ -80,8 +80,7 @@ local function sample(flat, points)
 end
 
 -- Returns one point of each cell of a grid, 64 cells along the longest side, and the outermost points along
--- each
--- axis. Wires pass the same places in many frames.
+-- each axis. Wires pass the same places in many frames.
 local function fewer(points)
   local low, high, all = { table.unpack(points[1]) }, { table.unpack(points[1]) }, {}
   local first, last = {}, {}

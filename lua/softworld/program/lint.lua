@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- The command `softworld lint SCRIPT [ARGUMENTS]`: lets the script build its scenes without running
--- anything,
--- and prints what is probably not meant, with the line of the script that made it. Runs return a placeholder
--- that accepts every call. If the script needs a number from the placeholder it ends there, and lint says so.
+-- anything, and prints what is probably not meant, with the line of the script that made it. Runs return a
+-- placeholder that accepts every call. If the script needs a number from the placeholder it ends there, and
+-- lint says so.
 -- @module softworld.program.lint
 local advise = require "softworld.model.advise"
 local core = require "softworld.core"
@@ -102,8 +102,7 @@ end
 -- --- checks ---------------------------------------------------------------------------------------
 
 -- Walks along a wire in steps no longer than the free distance to the obstacle, or `step` radii if larger.
--- Returns
--- arc length, point and distance of the first point inside the obstacle, or nil.
+-- Returns arc length, point and distance of the first point inside the obstacle, or nil.
 local function walk(wire, radius, obstacle)
   local at, q = obstacle:pose()
   local back, shape = vec.conjugate(q), obstacle.shape

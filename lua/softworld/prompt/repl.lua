@@ -127,8 +127,7 @@ local function names_of(value, methods_only)
 end
 
 --- Returns the names that can stand for word after the text before it on the line. Within braces of a call
--- these
--- are its parameters.
+-- these are its parameters.
 function repl.complete(before, word, globals)
   globals = globals or _G
   if package.loaded["softworld"] and before:find "[\"']$" then -- the choices of a parameter, or nothing

@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Gives errors the right place. Errors of this library or of the core get the place of the script's line
--- that
--- is running; an error of a script's own function keeps its place.
+-- that is running; an error of a script's own function keeps its place.
 -- @module softworld.scene.blame
 local blame = {}
 

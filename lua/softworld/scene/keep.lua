@@ -1,8 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Turns Lua values into a string and back, for the Lua side's part of a saved scene. Numbers keep their
--- bits.
--- Objects of a scene are stored by their numbers, a table that occurs several times stays one table, and
--- tables of a known class (a gripper) get their class again:
+-- bits. Objects of a scene are stored by their numbers, a table that occurs several times stays one table,
+-- and tables of a known class (a gripper) get their class again:
 --
 --     keep.class("gripper", Gripper)
 --
@@ -197,10 +196,8 @@ end
 local function nothing() return nil end
 
 --- Returns the value of a string, for a scene. object(class, slot, generation) gives its objects;
--- instance(class,
--- name) gives the object of a registered class that the script has made under this name, or nil. Without
--- these
--- two functions the string is only checked; an error names its fault.
+-- instance(class, name) gives the object of a registered class that the script has made under this name, or
+-- nil. Without these two functions the string is only checked; an error names its fault.
 function keep.unpack(text, scene, object, instance)
   local from = { text = text, at = 1, tables = {}, count = 0, scene = scene,
     object = object or nothing, instance = instance or nothing }

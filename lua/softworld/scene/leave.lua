@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- scene:remove: removes any object from a scene, with everything that belongs to it. The run's series,
--- frames
--- and events keep what it did until then. Removed wires and objects of particles are listed in
+-- frames and events keep what it did until then. Removed wires and objects of particles are listed in
 -- build.data(scene).gone: { kind =, label =, body =, radius =, length =, segments =, edges =, time = [s] }.
 -- @module softworld.scene.leave
 local core = require "softworld.core"

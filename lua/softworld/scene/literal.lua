@@ -71,8 +71,7 @@ local function in_braces(items, indent)
 end
 
 --- Returns a value as source. object(value, path) gives the source of any value that is not plain; it may
--- raise
--- an error. path names the value in messages. Errors are texts without a place.
+-- raise an error. path names the value in messages. Errors are texts without a place.
 function literal.of(value, object, path, indent, above)
   local kind = type(value)
   if kind == "number" then return literal.number(value) end

@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Records what a script made and changed in a scene, call by call, for scene:script and scene:describe.
--- A record has { self =, method =, args = { n = }, results = { n = }, late = } of each call that returned,
--- with
+--- Records what a script made and changed in a scene, call by call, for scene:script and scene:describe. A
+-- record has { self =, method =, args = { n = }, results = { n = }, late = } of each call that returned, with
 -- copied arguments; late: the call came after the first step. Calls that other library functions make, and
 -- calls from within a run, are not recorded.
 -- @module softworld.scene.record
@@ -114,8 +113,7 @@ local function unrecorded(method)
 end
 
 -- Returns the plain name and a recording method. scene_of(self): the scene of self; nil if self is not such
--- an
--- object or its scene is closed.
+-- an object or its scene is closed.
 local function recorded(name, method, scene_of)
   local plain, other = name:gsub("%?$", ""), unrecorded(method)
   return plain, function(self, ...)

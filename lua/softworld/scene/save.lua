@@ -8,8 +8,7 @@
 --     scene:run{ save = "laying.sws", resume = "laying.sws" }
 --
 -- writes the scene after every step. If the script is killed and started again, it builds the scene, takes
--- the
--- state from the file, skips the steps already done and continues with the same bits.
+-- the state from the file, skips the steps already done and continues with the same bits.
 -- @module softworld.scene.save
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
