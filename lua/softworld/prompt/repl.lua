@@ -130,7 +130,7 @@ end
 -- these are its parameters.
 function repl.complete(before, word, globals)
   globals = globals or _G
-  if package.loaded["softworld"] and before:find "[\"']$" then -- the choices of a parameter, or nothing
+  if package.loaded["softworld"] and before:find "[\"']$" then -- choices of a parameter, or nothing
     local choices = require("softworld.prompt.braces").choices(before:sub(1, -2), value_before, globals)
     local found = {}
     for _, name in ipairs(choices or {}) do
@@ -139,7 +139,7 @@ function repl.complete(before, word, globals)
     table.sort(found)
     return found
   end
-  if select(2, before:gsub("[\"']", "")) % 2 == 1 then return {} end -- within a text
+  if select(2, before:gsub("[\"']", "")) % 2 == 1 then return {} end -- within a string
   local text, mark = before:match "^(.-)%s*([%.:])%s*$"
   local names = package.loaded["softworld"]
     and require("softworld.prompt.braces").names(before, value_before, globals)
