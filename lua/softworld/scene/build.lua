@@ -44,7 +44,7 @@ local function check_scene(scene, what)
     error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
       :format(what, scene.name), 0)
   end
-  if build.guard then build.guard(what) end -- set by processes whose steps are kept
+  if build.guard then build.guard(what) end -- set by softworld.run.process, which may keep steps
 end
 
 --- Raises an error unless scene may be changed at this moment.
