@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The catalogue of cables, and cables of your own.
+--- The catalogue of cables, and cables that users define.
 --
 --     print(sw.cables())                    -- what there is
 --     print(sw.cable "GXL 1.5")             -- its sheet: values, spread, source
@@ -12,13 +12,13 @@
 -- construction is known, EI and GJ carry two bounds besides: `slip`, when the
 -- strands slide on one another, and `stick`, when they do not. The stick bound is
 -- seldom reached: a power cable's EI falls about tenfold while its strands begin to
--- slide, and the bounds of many thin strands lie up to a hundredfold apart.
+-- slide. With many thin strands the bounds lie up to a hundredfold apart.
 --
--- Where nothing is measured, EI is the slip bound: handling bends wires far beyond
--- where strands begin to slide, and the three wires in the catalogue whose EI was
--- measured lie below the slip bound of a GXL of their mass. GJ is then EI times
--- 1.25, the geometric mean of GJ/EI of those three, kept between its own bounds;
--- it never follows from E and nu, which a bundle of strands does not have.
+-- Where nothing is measured, EI is the slip bound. Handling bends wires far beyond
+-- the curvature at which strands begin to slide, and the three wires in the catalogue
+-- whose EI was measured lie below the slip bound of a GXL of their mass. GJ is then
+-- EI times 1.25, kept between its own bounds; 1.25 is the geometric mean of GJ/EI of
+-- those three. GJ never follows from E and nu, which a bundle of strands does not have.
 -- @module softworld.cable
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -27,7 +27,7 @@ local keep = require "softworld.scene.keep"
 local bendrule = require "softworld.wire.bendrule"
 local sheet = require "softworld.wire.cablesheet"
 
---- Values of an entry in the order of its sheet are quantities, { { key =, unit =, ... } }.
+--- The module. `quantities` lists an entry's values in the order of its sheet, { { key =, unit =, ... } }.
 local cable = { flags = sheet.flags, twist_ratio = sheet.twist_ratio, quantities = sheet.quantities }
 local fail, whole = sheet.fail, sheet.whole
 local Entry = { __name = "cable" }
@@ -37,7 +37,7 @@ keep.class("cable", Entry)
 local files = { "gxl", "flry", "h07v", "identified" }
 local by_name, names
 
--- A checked entry, or an error without a place.
+-- Returns a checked entry that is not in the catalogue. Errors have no place.
 local function read(given) return setmetatable(sheet.read(given), Entry) end
 
 local function load_all()
@@ -51,7 +51,7 @@ local function load_all()
   end
 end
 
---- The entry by its name; an entry is returned as it is. Errors have no place.
+--- Returns the entry with this name; an entry is returned as it is. Errors have no place.
 function cable.get(name)
   load_all()
   if getmetatable(name) == Entry then return whole(name) end
@@ -64,7 +64,8 @@ function cable.get(name)
     or "sw.cables() lists them"), 0)
 end
 
--- An error gets the place of the script's line; Ctrl-C has it.
+-- Returns the results of a pcall, or raises its error with the place of the script's line. An error of
+-- Ctrl-C has a place already.
 local function placed(level, ok, ...)
   if ok then return ... end
   local text = ...
@@ -72,16 +73,16 @@ local function placed(level, ok, ...)
   error(text, has and 0 or level)
 end
 
---- An own entry, from then on known by its name. Fields: `name`; `outer_diameter`
--- [m], `mass_per_length` [kg/m], `EA` [N], `EI`, `GJ` [N m2], `friction` [-], each
--- { value =, low =, high =, flag =, source = } (or spread, a share, instead of low
--- and high); `breaking_load` [N], where that is known; `fatigue` { curve = { { range [N],
--- cycles } }, bending = { { range [1/m], cycles } }, spread = factor of the life };
--- `temperature` { low =, high = } [degC]; `bend` { rule = "IEC 62440",
+--- Adds an entry to the catalogue, which then knows it by its name. Fields: `name`;
+-- `outer_diameter` [m], `mass_per_length` [kg/m], `EA` [N], `EI`, `GJ` [N m2],
+-- `friction` [-], each { value =, low =, high =, flag =, source = } (or spread, a share,
+-- instead of low and high); `breaking_load` [N], where known; `fatigue` { curve =
+-- { { range [N], cycles } }, bending = { { range [1/m], cycles } }, spread = factor of
+-- the life }; `temperature` { low =, high = } [degC]; `bend` { rule = "IEC 62440",
 -- use = "fixed" } or multiples of the outer diameter by use; `construction`
 -- { strands =, strand_diameter = [m], conductor = "copper", insulation = "PVC" },
--- from which what is missing is computed. `flag`, `source` and `spread` of the
--- entry hold for all values that are given without, even as plain numbers.
+-- from which missing values are computed. `flag`, `source` and `spread` of the entry
+-- hold for every value without its own, also for values given as plain numbers.
 -- Errors name the cable and the field that is missing or does not fit.
 function cable.define(given)
   load_all()
@@ -95,7 +96,7 @@ end
 
 local List = { __name = "cables" }
 
---- All names, in the catalogue's order; print shows a table.
+--- Returns all names in the catalogue's order; print shows them as a table.
 function cable.list()
   load_all()
   return setmetatable(table.move(names, 1, #names, 1, {}), List)
@@ -116,7 +117,7 @@ end
 -- --- entries --------------------------------------------------------------------
 
 local stiffnesses = { "default", "slip", "stick" }
---- What `stiffness` may be.
+--- The allowed values of `stiffness`.
 cable.stiffnesses = stiffnesses
 local known = checks.set(table.concat(stiffnesses, " "))
 
@@ -162,13 +163,13 @@ end
 cable.read = read -- a checked entry that is not in the catalogue
 cable.section, cable.bend_limit = of_entry("section", section), of_entry("bend_limit", bend_limit)
 
---- Parameters of scene:wire: EA [N], EI, GJ [N m2], mass_per_length [kg/m], radius
--- [m]. stiffness: "default", or "slip" or "stick" for a bound of EI and GJ.
+--- Returns the parameters of scene:wire: EA [N], EI, GJ [N m2], mass_per_length [kg/m],
+-- radius [m]. stiffness: "default", or "slip" or "stick" for a bound of EI and GJ.
 function Entry:section(stiffness) return (placed(3, pcall(section, self, stiffness))) end
 
---- Smallest radius that a use allows: of the inside of the bend [m], of the centre
--- line [m], and the use: "fixed", "termination", "movement", "load", "reeling" or
--- "pulleys", default that of the entry. diameter [m]: default that of the entry.
+--- Returns the smallest radius that a use allows, at the inside of the bend [m] and at
+-- the centre line [m], and the use. use: "fixed", "termination", "movement", "load",
+-- "reeling" or "pulleys"; default that of the entry. diameter [m]: default that of the entry.
 function Entry:bend_limit(use, diameter)
   local inside, centre
   inside, centre, use = placed(3, pcall(bend_limit, self, use, diameter))

@@ -6,7 +6,7 @@ local core = require "softworld.core"
 
 local checks = {}
 
---- Text of any value, also of tables that cannot say what they are.
+--- Returns the text of any value, also of an object whose __tostring fails.
 function checks.shown(value)
   local fine, text = pcall(tostring, value)
   return fine and text or "a " .. type(value)
@@ -14,8 +14,8 @@ end
 
 local shown = checks.shown
 
---- Was it Ctrl-C that raised this? What raises it may have taken the mark back already; stock Lua's text has
--- a "!".
+--- True if Ctrl-C raised this error. The core's mark may be gone by then, so the text decides as well; the
+-- text of stock Lua ends in "!".
 function checks.is_interrupt(message)
   if core.interrupted() then return true end
   if type(message) ~= "string" then return false end
@@ -29,7 +29,7 @@ local function names_of(known)
   return names
 end
 
---- The keys of a table in order; by: see table.sort.
+--- Returns the keys of a table in order; by: the comparison of table.sort.
 function checks.sorted(set, by)
   local keys = {}
   for key in pairs(set) do keys[#keys + 1] = key end
@@ -37,24 +37,24 @@ function checks.sorted(set, by)
   return keys
 end
 
---- Whatever keys scripts may give, in the order of what messages show of them.
+--- Comparison for `sorted`: orders keys of any type by their shown text.
 function checks.by_text(a, b) return shown(a) < shown(b) end
 
---- The words of a text as a set: { word = true, ... }.
+--- Returns the words of a text as a set: { word = true, ... }.
 function checks.set(text)
   local set = {}
   for word in text:gmatch "%S+" do set[word] = true end
   return set
 end
 
---- The kind of a value: the class of an object, also of one that is a table, else its type.
+--- Returns the kind of a value: the class of an object (a table or a userdata), else its Lua type.
 function checks.kind(value)
   local meta = type(value) == "table" and getmetatable(value)
   local name = type(meta) == "table" and rawget(meta, "__name")
   return type(name) == "string" and name or core.type(value) or type(value)
 end
 
---- Raise unless args is a table with keys that are known.
+--- Raises an error unless args is a table whose keys are all known.
 function checks.keys(what, args, known, level)
   if checks.kind(args) ~= "table" then
     error(("%s takes one table of parameters, got %s"):format(what, checks.kind(args)), level)
@@ -69,15 +69,17 @@ function checks.keys(what, args, known, level)
   end
 end
 
---- What is told of a field that there is not: the nearest of these names, else `else_says`, else all of them.
+--- Returns the message about a field that does not exist: it proposes the nearest of these names, else
+-- `else_says`, else lists all of them.
 function checks.lacks(what, key, names, else_says)
   local near = core.nearest(shown(key), names)
   return ("%s has no '%s'; %s"):format(what, shown(key), near and ("did you mean '%s'?"):format(near)
     or else_says or "it has: " .. table.concat(names, " "))
 end
 
---- An __index for results that have these fields (a text of words): any other is an error that names
--- the nearest; may_lack: words that may be nil. And a function that lists the fields, for completion.
+--- Returns an __index for results that have these fields (a text of words), and a function that lists the
+-- fields for completion. Reading any other field raises an error that names the nearest; may_lack: words
+-- that may be nil.
 function checks.fields(what, fields, may_lack)
   local names, silent = {}, checks.set(may_lack or "")
   for word in fields:gmatch "%S+" do names[#names + 1] = word end
@@ -87,9 +89,9 @@ function checks.fields(what, fields, may_lack)
   end, function() return table.move(names, 1, #names, 1, {}) end
 end
 
-local LONGEST = 32 -- text in a message [characters]
+local LONGEST = 32 -- longest text that a message quotes [characters]
 
---- A wrong value for messages: 3 m, '3', a table. unit: with a space in front.
+--- Returns a wrong value as messages show it: 3 m, '3', a table. unit: with a space in front.
 function checks.got(value, unit)
   local kind = checks.kind(value)
   if kind == "number" then return ("%.9g%s"):format(value, unit or "") end
@@ -100,7 +102,8 @@ function checks.got(value, unit)
   return "a " .. kind
 end
 
---- Raise unless value is a number from low to high (default: any); above: low itself is not allowed.
+--- Raises an error unless value is a number from low to high (default: any); above: low itself is not
+-- allowed.
 function checks.number(what, value, low, unit, level, high, above)
   local fine = type(value) == "number" and value >= low and value < math.huge
     and not (above and value == low) and not (high and value > high)
@@ -113,7 +116,7 @@ function checks.number(what, value, low, unit, level, high, above)
     type(value) == "number" and "" or any and "a number that is " or "a number ", range), level)
 end
 
---- One of the words in known (a table with them as keys).
+--- Returns value if it is one of the words in known (a table with them as keys), else raises an error.
 function checks.word(what, value, known, level)
   if known[value] then return value end
   local names = names_of(known)
@@ -124,7 +127,7 @@ end
 
 local function index(t, key) return t[key] end
 
---- t[key]; nil where t is no table, or has no such field and says so by an error, as objects do.
+--- Returns t[key], or nil if t is no table or reading the field raises an error, as objects do.
 function checks.field(t, key)
   if type(t) ~= "table" then return nil end
   local there, value = pcall(index, t, key)
@@ -133,7 +136,7 @@ end
 
 local FARTHEST = 1e9 -- largest coordinate of a place, as in the core [m]
 
---- A copy of the vector {x, y, z}; coordinates of places [m] are within 1e9 m.
+--- Returns a copy of the vector {x, y, z}, or raises an error. Coordinates of places [m] are within 1e9 m.
 function checks.vector(what, value, unit, level)
   local copy = {}
   for k, axis in ipairs{ "x", "y", "z" } do
@@ -151,7 +154,7 @@ function checks.vector(what, value, unit, level)
   return copy
 end
 
---- Raise unless value is a rotation: { w, x, y, z }, or { axis = {x, y, z}, angle = [rad] }.
+--- Raises an error unless value is a rotation: { w, x, y, z }, or { axis = {x, y, z}, angle = [rad] }.
 function checks.rotation(what, value, level)
   if checks.field(value, "axis") then
     local axis = checks.vector(what .. ".axis", value.axis, "-", level + 1)

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- CSV files of numbers, read with errors that say where, written whole.
+--- Reads and writes CSV files of numbers. Read errors say where; files are written whole.
 -- Cells are separated by `,` or `;` or tabs (whichever the first row uses),
--- numbers have a decimal point, `#` starts a comment line, empty lines count for
--- nothing, a first row that is no number names the columns.
+-- numbers have a decimal point, `#` starts a comment line, empty lines are skipped.
+-- A first row that is not numbers names the columns.
 -- @module softworld.csv
 local checks = require "softworld.checks"
 local sink = require "softworld.output.sink"
@@ -20,7 +20,7 @@ local function delimiter_of(line)
   return ","
 end
 
--- A quoted cell from position at on: its text and the position after it.
+-- Reads the quoted cell that starts at position at. Returns its text and the position after it.
 local function quoted(line, at, name, number)
   local parts, from = {}, at + 1
   while true do
@@ -32,7 +32,7 @@ local function quoted(line, at, name, number)
   end
 end
 
--- Cells of a line and the columns (of characters, from 1) where they begin.
+-- Returns the cells of a line and the columns (of characters, from 1) where they begin.
 local function split(line, delimiter, name, number)
   local cells, columns, at = {}, {}, 1
   while true do
@@ -105,7 +105,7 @@ local function is_header(cells)
   return false
 end
 
--- Names for a file whose first row is numbers already.
+-- Names the columns of a file whose first row is numbers already.
 local function names_for(data, cells, line, names)
   if type(names) == "function" then names = names(#cells) end
   if not names then
@@ -114,11 +114,11 @@ local function names_for(data, cells, line, names)
   return names
 end
 
---- Read CSV text. Returns `{ name, names = {...}, columns = { name = {numbers} },
+--- Reads CSV text. Returns `{ name, names = {...}, columns = { name = {numbers} },
 -- count = rows, lines = { line of row }, places = { name = { column of row } },
 -- header = line, header_places = { column of name } }`.
--- options: `names` (for files without a first row of names: an array, or a function
--- from the number of columns to one), `text` (set of columns that stay strings).
+-- options: `names` (for files without a first row of names: an array, or a function that
+-- takes the number of columns and returns one), `text` (set of columns that stay strings).
 function csv.parse(text, name, options)
   options = options or {}
   local data = { name = name or "text", names = {}, columns = {}, places = {}, lines = {}, count = 0 }
@@ -142,7 +142,7 @@ function csv.parse(text, name, options)
   return data
 end
 
---- Read a CSV file, or CSV text (a string with a line end in it).
+--- Reads a CSV file, or CSV text (a string with a line end in it).
 function csv.read(source, options)
   if type(source) ~= "string" then
     error("csv.read takes a file name or CSV text, got " .. type(source), 2)
@@ -179,7 +179,7 @@ local function lines_of(names, columns)
   return lines
 end
 
---- Write columns (tables by name) in the order of names. Numbers keep all their
+--- Writes columns (tables by name) in the order of names. Numbers keep all their
 -- digits. The file appears whole or not at all.
 function csv.write(path, names, columns)
   return sink.write_file(path, table.concat(lines_of(names, columns), "\n"))

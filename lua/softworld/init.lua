@@ -47,7 +47,7 @@ require "softworld.scene.zone"     -- scene:zone
 require "softworld.scene.find"     -- scene:find, scene:names, scene:wires, ...
 local save = require "softworld.scene.save" -- scene:save, scene:resume
 
---- A new scene. { name =, gravity = {x, y, z} [m/s2] }
+--- Returns a new scene. Parameters: { name =, gravity = {x, y, z} [m/s2] }
 function sw.scene(args)
   if type(args) == "table" then remarks.gravity(rawget(args, "gravity")) end
   local scene = build.call(3, core.scene, args)
@@ -55,15 +55,15 @@ function sw.scene(args)
   return scene
 end
 
---- The scene that scene:save has written to a file, or a run with save = file.
+--- Returns the scene that scene:save, or a run with save = file, has written to a file.
 function sw.load(file) return save.load(file) end
 
---- One page that shows runs moving, one laid over the other: { run1, run2, path = "x.html", title = }.
+--- Writes one page that shows several runs moving, overlaid: { run1, run2, path = "x.html", title = }.
 function sw.report(args)
   return require("softworld.run.files").report(args)
 end
 
---- The names of all cables of the catalogue; print shows them as a table.
+--- Returns the names of all cables of the catalogue; print shows them as a table.
 function sw.cables() return sw.cable.list() end
 
 rows.later(core.class.scene, "softworld.scene.script", "script")
@@ -76,13 +76,13 @@ rows.later(sw, "softworld.study.study", "study")
 rows.later(sw, "softworld.calibration.calibration", "calibration")
 rows.later(sw, "softworld.check.compare", "compare")
 rows.told("softworld.calls.scene softworld.calls.wire softworld.calls.obstacle softworld.calls.hold "
-  .. "softworld.calls.trajectory") -- of what the core makes
+  .. "softworld.calls.trajectory") -- rows of the core's own calls
 record.install(made)
 
 for kind, class in pairs(made) do methods.guard_table(kind, class) end
 methods.guard_core()
 
--- Loaded when first asked for.
+-- Modules that are loaded when first asked for.
 local lazy = { tune = "softworld.run.tune", material = "softworld.wire.material",
   calibrate = "softworld.wire.calibrate", help = "softworld.prompt.help" }
 

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Reads mesh files into memory; the core makes triangles of them:
+-- Reads mesh files into memory; the core turns their content into triangles:
 --   local file = meshfile.read("clip.stl")
 --   scene:obstacle{ shape = "mesh", data = file.data, format = file.format, scale = 0.001 }
 local sink = require "softworld.output.sink"
 
 local meshfile = {}
 
--- Extensions that the core's `format` parameter of the mesh shape knows.
+-- Extensions that the core's `format` parameter of the mesh shape accepts.
 meshfile.formats = { "stl", "obj", "ply", "off", "glb", "gltf" }
 
 local function fail(path, reason)
@@ -25,7 +25,7 @@ local function format_of(path)
   return nil, ("extension '%s' is not known; known are %s"):format(extension, known)
 end
 
---- The content of the file at path as { data = string, format = extension }.
+--- Returns the content of the file at path as { data = string, format = extension }.
 -- Raises an error that names the path and the reason.
 function meshfile.read(path)
   if type(path) ~= "string" or path == "" then
@@ -39,7 +39,7 @@ function meshfile.read(path)
   return { data = data, format = format }
 end
 
---- An error of the core about the content, with the path: "obstacle mesh: file 'clip.ply': ...".
+--- Returns the core's error about the content with the path in it: "obstacle mesh: file 'clip.ply': ...".
 function meshfile.named(message, path)
   return (tostring(message):gsub("obstacle mesh: ", function(who)
     return ("%sfile '%s': "):format(who, path)

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Methods know whose they are: called with a dot, or with another object, they say so, instead of
--- failing somewhere inside of the library. Methods written in C look after that themselves.
+--- Checks that methods are called on an object of their class. A call with a dot, or on another object,
+-- raises a clear error instead of failing somewhere inside the library. Methods written in C check this
+-- themselves.
 -- @module softworld.methods
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -8,7 +9,7 @@ local sealed = require "softworld.sealed"
 
 local methods = {}
 
---- Names of fields and of the methods of a class, for completion at the prompt.
+--- Returns the names of the fields and methods of a class, for completion at the prompt.
 function methods.names(class, fields)
   local names = table.move(fields, 1, #fields, 1, {})
   for name in pairs(class) do
@@ -17,7 +18,8 @@ function methods.names(class, fields)
   return names
 end
 
---- A class whose objects tell what was found: these fields, and some that are not named, can only be read.
+--- Makes the objects of a class read-only results. Scripts can read these fields and the `unnamed` ones (a
+-- text of words), which completion does not list. Writing raises an error.
 function methods.found(kind, class, fields, unnamed)
   local readable = checks.set(table.concat(fields, " ") .. " " .. (unnamed or ""))
   function class.__names() return methods.names(class, fields) end
@@ -39,12 +41,12 @@ local function described(value)
   return type(kind) == "string" and kind or "table"
 end
 
---- Guard the Lua functions of a class. is(value) tells whether it is one.
+--- Guards the Lua functions of a class. is(value) is true for an object of the class.
 function methods.guard(kind, class, is)
   for name, method in next, class do
     if type(name) == "string" and name:sub(1, 2) ~= "__" and type(method) == "function"
       and debug.getinfo(method, "S").what == "Lua" then
-      -- a tail call: levels of errors count as if this were not here
+      -- The tail call keeps error levels the same as without this wrapper.
       class[name] = function(self, ...)
         if not is(self) then
           error(("%s:%s is a method: call it with a colon (%s expected, got %s)"):format(kind, name, kind,
@@ -56,14 +58,14 @@ function methods.guard(kind, class, is)
   end
 end
 
---- The same of a class whose objects are tables with it as their metatable.
+--- Guards a class whose objects are tables with the class as their metatable.
 function methods.guard_table(kind, class)
   methods.guard(kind, class, function(value)
     return type(value) == "table" and getmetatable(value) == class
   end)
 end
 
---- The same of all classes of the core.
+--- Guards all classes of the core.
 function methods.guard_core()
   for kind, class in pairs(core.class) do
     methods.guard(kind, class, function(value) return core.type(value) == kind end)

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Where in the user's script the library was called.
+--- Finds the line of the user's script that called the library.
 -- @module softworld.place
 local place = {}
 
 local library = debug.getinfo(1, "S").source:match "^@(.*)place%.lua$"
 
-local DEEPEST = 60 -- calls
+local DEEPEST = 60 -- deepest stack searched [calls]
 
---- "file.lua:12" of the innermost call that is not the library's own, or nil.
+--- Returns "file.lua:12" of the innermost caller outside the library, or nil.
 function place.of_caller()
   for level = 2, DEEPEST do
     local info = debug.getinfo(level, "Sl")

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What an error bar can be asked for: the quantities that objects of a scene have, by
+--- The quantities that an error bar can be asked for: those of a scene's objects, by
 -- name, and the user's own as functions.
 -- @module softworld.quantity
 local checks = require "softworld.checks"
@@ -9,7 +9,7 @@ local window = require "softworld.run.window"
 
 local quantity = {}
 
-local places = 40 -- stretches of a wire at whose ends positions are compared
+local places = 40 -- number of stretches of a wire; positions are compared at their ends
 
 local function positions(wire)
   local list, length = {}, wire.length
@@ -29,8 +29,9 @@ local function over_at(name)
 end
 
 -- Kind of object -> name -> unit and how to read it: value, where [m], when [s].
--- plain: values of edges and the like, whose errors do not halve twice with the edge. vanishes: all of it
--- is an error, whose size is that of its bar at least. named: only with the object's name in front.
+-- plain: values of edges and the like, whose errors fall with the first power of the edge length, not the
+-- second. vanishes: the exact value is 0, so the value itself is an error and its bar is at least as large.
+-- named: known only with the object's name in front.
 quantity.known = {
   wire = {
     tip = { unit = "m", of = function(w) return w:position(w.length) end },
@@ -80,7 +81,7 @@ quantity.known = {
   },
 }
 
--- { object =, name =, kind = } of everything in the scene that has quantities.
+-- Returns { name =, kind =, object = } for everything in the scene that has quantities.
 local function objects_of(scene)
   local data, list, theirs = build.data(scene), {}, {}
   local function add(kind, entry)
@@ -104,7 +105,8 @@ local function objects_of(scene)
   return list
 end
 
--- Name -> quantities that it may mean; "left.force" is one, "force" may be several.
+-- Returns a table of name -> quantities with this name, and the names. "left.force" is one quantity;
+-- "force" may be several.
 local function directory(scene)
   local found, names = {}, {}
   local function add(name, entry)
@@ -127,7 +129,7 @@ local function directory(scene)
   return found, names
 end
 
--- The keys alone, as most errors are in them.
+-- Returns the names without an object in front; most misspelt names are of this kind.
 local function short_names(names)
   local list = {}
   for _, name in ipairs(names) do
@@ -161,7 +163,7 @@ local function check_value(what, name, value, unit)
   end
 end
 
--- A tolerance: a number in the unit, or { relative = share of the value }. Sets it for the quantity.
+-- Sets the tolerance of a quantity: a number in its unit, or { relative = share of the value }.
 local function take(what, q, value)
   if checks.kind(value) ~= "table" or next(value) == nil then
     check_value(what, q.name, value, q.unit)
@@ -187,7 +189,7 @@ local own_keys = { name = "string", value = "number", unit = "string", of = "fun
   relative = "number" }
 local own_names = { "name", "value", "relative", "unit", "of", "at" }
 
--- The user's own: { name =, value =, unit =, of = function, at = [s] }.
+-- Returns a quantity of the user's own: { name =, value =, unit =, of = function, at = [s] }.
 local function own(what, number, given)
   local label = ("%s: tolerance: quantity %d"):format(what, number)
   if checks.kind(given) ~= "table" then
@@ -218,8 +220,8 @@ local function own(what, number, given)
   return take(what, q, given.value or { relative = given.relative })
 end
 
---- The quantities that tolerance = {...} asks for, in order; raises what is wrong with
--- them, without a place.
+--- Returns the quantities that tolerance = {...} asks for, in order. Raises an error without a
+-- place if something is wrong with them.
 -- @treturn table list of { name, unit, tolerance, of, at, plain, vanishes }
 function quantity.list(scene, tolerance, what)
   local found, names = directory(scene)
@@ -264,7 +266,7 @@ local function is_value(v)
   return true
 end
 
---- Read it now: { value, where [m], when [s], note }. start: when the run began [s].
+--- Reads a quantity. Returns { value, where [m], when [s], note }. start: when the run began [s].
 function quantity.read(q, start)
   local value, s, t, note
   if q.own then value = q.of() else value, s, t, note = q.of(start) end
@@ -277,8 +279,8 @@ end
 
 local function is_vector(v) return type(v) == "table" and type(v[1]) == "number" end
 
---- How far two values of the same shape are apart: numbers, vectors (norm), lists of vectors (largest). What
--- is not a number is nowhere near a number.
+--- Returns the distance of two values of the same shape: difference of numbers, norm for vectors, largest
+-- for lists of vectors. NaN is infinitely far from any number, and at distance 0 from NaN.
 function quantity.distance(a, b)
   if type(a) == "number" then
     if a ~= a or b ~= b then return a ~= a and b ~= b and 0 or math.huge end
@@ -292,7 +294,7 @@ function quantity.distance(a, b)
   return is_vector(a) and sum ^ 0.5 or most
 end
 
---- What is asked for, of a value, in its unit.
+--- Returns the tolerance of a quantity in its unit; a relative one is taken of this value.
 function quantity.asked(q, value)
   if q.relative then
     local size = quantity.size(value)
@@ -301,7 +303,7 @@ function quantity.asked(q, value)
   return q.tolerance
 end
 
---- Have both values the same shape?
+--- True if both values have the same shape.
 function quantity.alike(a, b)
   if type(a) ~= type(b) then return false end
   if type(a) == "number" then return true end
@@ -312,7 +314,7 @@ function quantity.alike(a, b)
   return true
 end
 
---- The size of a value, as distance measures it.
+--- Returns the size of a value, in the norm of `distance`.
 function quantity.size(a)
   if type(a) == "number" then return math.abs(a) end
   local sum, most = 0, 0
@@ -323,7 +325,7 @@ function quantity.size(a)
   return is_vector(a) and sum ^ 0.5 or most
 end
 
---- a less b, of values of the same shape.
+--- Returns a - b, for values of the same shape.
 function quantity.minus(a, b)
   if type(a) == "number" then return a - b end
   local list = {}
@@ -331,7 +333,7 @@ function quantity.minus(a, b)
   return list
 end
 
---- The sum of products of the changes a to b and b to c: below 0 when they turn back.
+--- Returns the scalar product of the changes a to b and b to c; it is below 0 when the value turns back.
 function quantity.agreement(a, b, c)
   if type(a) == "number" then return (b - a) * (c - b) end
   local sum = 0

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Remarks on values that are allowed but hardly meant: a radius of 2.5 m, a modulus of 50 Pa, a wire that
--- begins inside an obstacle. Each is told once per line of the script, on stderr, in the host program;
+--- Remarks on values that are allowed but probably not meant: a radius of 2.5 m, a modulus of 50 Pa, a wire
+-- that begins inside an obstacle. The host program prints each once per line of the script on stderr;
 -- sw.remarks = false silences them.
 -- @module softworld.remarks
 local core = require "softworld.core"
@@ -11,8 +11,8 @@ local vec = require "softworld.vec"
 
 local remarks = {}
 
--- Of each kind of thing: key = { unit, low, high, units that may have been meant }. What lies
--- outside is remarked.
+-- Usual range for each kind of thing: key = { unit, low, high, units that may have been meant }. Values
+-- outside get a remark.
 local rules = {
   wire = {
     radius = { "m", 2e-5, 0.1, "mm", "um" }, E = { "Pa", 1e4, 2e12, "MPa", "GPa", "kPa" },
@@ -36,23 +36,24 @@ local known = { density = "steel has 7850 kg/m3, PVC 1400 kg/m3", E = "steel has
   friction = "rubber on steel has 0.8" }
 
 local told = {}
-local ANSWERS = 1000 -- lines kept
+local ANSWERS = 1000 -- most places kept with their remark
 local count = 0
 
---- Are they wanted?
+--- True if remarks are on.
 function remarks.wanted()
   local sw = package.loaded["softworld"]
   return package.loaded["softworld.host"] ~= nil
     and not (type(sw) == "table" and rawget(sw, "remarks") == false)
 end
 
---- Where remarks go; softworld.program.lint and softworld.program.log have their own.
+--- Writes a remark; softworld.program.lint and softworld.program.log replace this function.
 function remarks.write(at, text)
   io.stdout:flush()
   io.stderr:write(at, ": remark: ", text, "\n")
 end
 
--- A script's line tells a thing once; lines typed at the prompt have no numbers of their own.
+-- Writes a remark once per topic and line of the script. Lines typed at the prompt have no line numbers, so
+-- there the text counts instead of the topic.
 local function tell(topic, text)
   local at = place.of_caller() or "?"
   local key = at .. " " .. (at:find "^input:" and text or topic)
@@ -61,7 +62,7 @@ local function tell(topic, text)
   remarks.write(at, text)
 end
 
--- The first unit in which the value would be usual, as a question.
+-- Returns the first unit in which the value would be usual, as a question.
 local function question(value, rule)
   for i = 4, #rule do
     local meant = units[rule[i]](value)
@@ -89,7 +90,7 @@ local function keys_of(kind)
   return sorted[kind]
 end
 
---- Remark unusual values in the arguments of a kind of thing, which `what` names.
+--- Remarks on unusual values in the arguments of a kind of thing; `what` is its name in the text.
 function remarks.on(kind, what, args)
   if type(args) ~= "table" or not remarks.wanted() then return end
   for _, key in ipairs(keys_of(kind)) do
@@ -101,9 +102,9 @@ function remarks.on(kind, what, args)
   end
 end
 
-local JERK = 10 -- a tie that pulls harder when it is made is hardly meant to [N]
+local JERK = 10 -- largest pull of a new tie without a remark [N]
 
---- A tie between places that are so far apart [m]; args: slack [m], stiffness [N/m], strength [N].
+--- Remarks on a tie between places this far apart [m]; args: slack [m], stiffness [N/m], strength [N].
 function remarks.tie(what, apart, args)
   local pull = args.stiffness * (apart - args.slack)
   if pull <= math.min(JERK, args.strength or JERK) or not remarks.wanted() then return end
@@ -113,9 +114,9 @@ function remarks.tie(what, apart, args)
       1e3 * args.slack, pull, breaks))
 end
 
-local MOST_GRAVITY = 50 -- [m/s2]
+local MOST_GRAVITY = 50 -- largest component without a remark [m/s2]
 
---- Gravity as a vector [m/s2].
+--- Remarks on gravity, a vector [m/s2].
 function remarks.gravity(g)
   if type(g) ~= "table" or not remarks.wanted() then return end
   for k, axis in ipairs{ "x", "y", "z" } do
@@ -128,13 +129,13 @@ end
 
 -- --- wires inside of obstacles ---------------------------------------------------------
 
-local SAMPLES = 24 -- points of a straight wire
-local MOST = 400 -- points of a path that are looked at
-local DEEP = 0.5 -- of the radius: a middle nearer to the surface than this is inside
+local SAMPLES = 24 -- intervals along a straight wire
+local MOST = 400 -- points of a path that are looked at, about
+local DEEP = 0.5 -- share of the radius: a centre line nearer than this to the surface is inside [-]
 
 local things = setmetatable({}, { __mode = "k" }) -- a scene's data -> its wires' points
 
--- Points of a path, or both ends of a straight wire.
+-- Returns points of a path, or both ends of a straight wire.
 local function points_of(args)
   local list = {}
   if type(args.path) == "table" then
@@ -150,7 +151,7 @@ local function points_of(args)
   return list
 end
 
--- The middle of a wire's points and how far they are from it.
+-- Returns the centre of the box round a wire's points and their largest distance from it.
 local function ball(wire)
   if wire.middle then return wire.middle, wire.reach end
   local low, high, far = { 1 / 0, 1 / 0, 1 / 0 }, { -1 / 0, -1 / 0, -1 / 0 }, 0
@@ -166,8 +167,8 @@ local function ball(wire)
   return wire.middle, wire.reach
 end
 
--- A wire so far from an obstacle has no point inside of it. Of an open mesh the inside may touch the
--- outside, so that distance tells nothing.
+-- True if a wire is so far from an obstacle that none of its points is inside. Always false for a mesh: an
+-- open mesh has no clear inside, so distance proves nothing.
 local function is_far(wire, shape, at, back)
   if shape:kind() == "mesh" or #wire.points == 0 then return false end
   local middle, reach = ball(wire)
@@ -175,7 +176,7 @@ local function is_far(wire, shape, at, back)
   return gap and gap > reach + DEEP * wire.radius
 end
 
--- The same with points between the ends.
+-- Returns the wire's points; a straight wire gets points between its ends.
 local function along(wire)
   if not wire.straight or #wire.points ~= 2 then return wire.points end
   local a, b, list = wire.points[1], wire.points[2], {}
@@ -192,7 +193,7 @@ local function look(wire, obstacle)
   local at, q = obstacle.object:pose()
   local back, shape = vec.conjugate(q), obstacle.object.shape
   if is_far(wire, shape, at, back) then return end
-  local x, y, z, clear = 0, 0, 0, -1 -- nothing is nearer to this point than that
+  local x, y, z, clear = 0, 0, 0, -1 -- last point measured; points nearer to it than clear are outside
   for i, p in ipairs(along(wire)) do
     local here = { p[1] or p.x, p[2] or p.y, p[3] or p.z }
     local dx, dy, dz = here[1] - x, here[2] - y, here[3] - z
@@ -212,8 +213,9 @@ end
 
 local round = { cylinder = true, capsule = true }
 
--- A wire goes round a peg as a polygon: with edges as long as the peg's radius the pull that draws it
--- round is right to 5 % (mu 0.3, half a turn), with half of that to 1 % (spec/contact/capstan_spec).
+-- Remarks on edges too long for a peg's radius. A wire goes round a peg as a polygon: with edges as long as
+-- the radius the capstan pull is right to 5 % (mu 0.3, half a turn), with half of that to 1 %
+-- (spec/contact/capstan_spec).
 local function look_round(wire, obstacle)
   local radius = round[obstacle.shape] and obstacle.radius
   if type(radius) ~= "number" or not wire.edge or wire.edge <= radius + wire.radius then return end
@@ -238,7 +240,7 @@ local function length_of(points)
   return sum
 end
 
---- A new wire of the scene's data, made with args.
+--- Checks a new wire of the scene's data, made with args.
 function remarks.wire(data, wire, args)
   if not remarks.wanted() then return end
   local what = ("wire '%s'"):format(args.name)
@@ -258,9 +260,9 @@ end
 
 local paused = false
 
-local MANY = 10000 -- particles of a wire; a step then takes some tenths of a second
+local MANY = 10000 -- particles of a wire that get a remark; a step then takes some tenths of a second
 
---- A wire that became a mesh: finer than was meant?
+--- Remarks on a wire that became a mesh of very many particles.
 function remarks.mesh(wire)
   if not remarks.wanted() or wire.model == "rod" or wire.model == "string" then return end
   local particles = #wire:calibration().particles * (wire.segments + 1) -- reading places builds the scene
@@ -271,7 +273,7 @@ function remarks.mesh(wire)
   end
 end
 
---- f(...) without remarks on obstacles that it makes: those of grippers' pads.
+--- Calls f(...) without remarks on the obstacles it makes, such as grippers' pads.
 function remarks.without(f, ...)
   paused = true
   local result = table.pack(pcall(f, ...))
@@ -280,9 +282,9 @@ function remarks.without(f, ...)
   return table.unpack(result, 2, result.n)
 end
 
-local usual_mesh = { 1e-3, 20 } -- largest side of what stands where wires are laid [m]
+local usual_mesh = { 1e-3, 20 } -- usual range of the largest side of an obstacle [m]
 
--- A mesh of a file has no unit: one in mm that is read as m is a thousand times too large.
+-- Remarks on a mesh of unusual size. Mesh files have no unit: mm read as m are a thousand times too large.
 local function look_at_size(entry)
   if entry.shape ~= "mesh" and entry.shape ~= "hull" or type(entry.vertices) ~= "table" then return end
   local v, size = entry.vertices, 0
@@ -298,12 +300,12 @@ local function look_at_size(entry)
     entry.name, size, better, size * better / scale))
 end
 
---- A new obstacle, an entry of the scene's data; time of the scene [s].
+--- Checks a new obstacle, an entry of the scene's data; time of the scene [s].
 function remarks.obstacle(data, entry, time)
   if not remarks.wanted() or paused then return end
   remarks.on("obstacle", ("obstacle '%s'"):format(entry.name), entry)
   look_at_size(entry)
-  if time > 0 then return end -- wires are no longer where they began
+  if time > 0 then return end -- wires have moved since they were made
   for _, wire in ipairs(wires_of(data)) do
     look(wire, entry)
     look_round(wire, entry)

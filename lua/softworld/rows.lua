@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Rows of what is made in Lua, like the core's parameter rows: calls, their tables of parameters, results.
--- Checks of arguments, help, `softworld doc`, completion within braces and the manual's reference read them.
+--- Parameter rows of everything that is made in Lua, like those of the core: calls, their tables of
+-- parameters, results. Argument checks, help, `softworld doc`, completion within braces and the manual's
+-- reference read them.
 --
 --     local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes back", {
 --       gives = "force [N], way [m], was it reached",
@@ -13,7 +14,7 @@
 -- choices, about (a function that gives a line about each), rows (of a table within), usual (the default in
 -- words, where a number cannot tell it), empty (a text may be). Types: number, integer, boolean, text,
 -- choice, vector, rotation, function, table; numbers (one, or a list of them), list (of = "number" checks
--- its items), reaction (a choice or a function); others are told here, and checked by who reads them.
+-- its items), reaction (a choice or a function). Other types are shown in help only; the reader checks them.
 -- @module softworld.rows
 local checks = require "softworld.checks"
 
@@ -33,7 +34,7 @@ local function complete(given)
   return row
 end
 
---- A table of parameters within another one: pads, arm, camera.
+--- Makes the rows of a table of parameters within another one: pads, arm, camera.
 function rows.list(list)
   local self = setmetatable({ rows = {}, known = {} }, Call)
   for i, given in ipairs(list) do
@@ -43,22 +44,22 @@ function rows.list(list)
   return self
 end
 
---- A call: "scene:clip" or "gripper:press", its arguments in words, what it does, and rows of its table if it
--- takes one. list.gives: what it returns; list.example: a line of a script; list.also: a table of the
--- core's rows that it takes besides, whose names and values the core checks.
+--- Registers a call: its name ("scene:clip" or "gripper:press"), its arguments in words, what it does, and
+-- the rows of its table if it takes one. list.gives: what it returns; list.example: a line of a script;
+-- list.also: table of core rows that the call also takes; the core checks their names and values.
 function rows.call(name, arguments, doc, list)
   local self = rows.list(list or {})
   self.name, self.arguments, self.doc = name, arguments, doc
   if list then self.gives, self.example, self.also = list.gives, list.example, list.also end
   local class = name:match "^([%w_]+)[:.]"
-  if class == "p" then class = "process" end -- by the name that scripts give it
+  if class == "p" then class = "process" end -- scripts call the object p
   rows.all[name] = self
   rows.classes[class] = rows.classes[class] or {}
   table.insert(rows.classes[class], self)
   return self
 end
 
---- Calls and fields that take no table: { { "clip:force", "wire", "what it is", "N" }, ... }.
+--- Registers calls and fields that take no table: { { "clip:force", "wire", "what it is", "N" }, ... }.
 function rows.calls(list)
   for _, c in ipairs(list) do rows.call(c[1], c[2], c[3], { gives = c[4], example = c.example }) end
 end
@@ -129,8 +130,8 @@ local function missing(prefix, row)
   error(("%s%s is required,%s"):format(prefix, row.name, range), 0)
 end
 
---- A copy of the arguments with defaults, once their names and values are right. what: of unknown names,
--- else the call's name; prefix: what stands before a name.
+--- Checks names and values of the arguments and returns a copy with defaults. what: the owner in the message
+-- about an unknown name, default the call's name; prefix: text before a name in other messages.
 function Call:read(args, what, prefix)
   what = what or self.name
   prefix = prefix or what .. ": "
@@ -154,9 +155,9 @@ end
 
 -- --- methods whose module is read late ------------------------------------------------------
 
-local late = {} -- modules, in the order of being told
+local late = {} -- modules with rows, in the order of registration
 
---- Let a class have methods of a module, a table of functions, that is read when the first is called.
+--- Adds methods to a class that live in a module (a table of functions) loaded at the first call.
 function rows.later(class, module, names)
   late[#late + 1] = module
   for name in names:gmatch "%S+" do
@@ -164,12 +165,12 @@ function rows.later(class, module, names)
   end
 end
 
---- Modules of rows alone, of what the core gives its objects.
+--- Registers modules that only describe objects of the core by rows.
 function rows.told(modules)
   for module in modules:gmatch "%S+" do late[#late + 1] = module end
 end
 
---- Read these modules, which have rows too: for help, completion and checks. They may tell of more.
+--- Loads the registered modules, for help, completion and checks. They may register more.
 function rows.load()
   local i = 1
   while late[i] do
@@ -178,7 +179,7 @@ function rows.load()
   end
 end
 
---- The rows of a call by its name, or nil.
+--- Returns the rows of a call by its name, or nil.
 function rows.of(name) return rows.all[name] and rows.all[name].rows end
 
 return rows

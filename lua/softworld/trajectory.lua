@@ -5,13 +5,13 @@
 --     sw.trajectory{ path = "lay.csv", speed = 0.2, law = "trapezoidal" }
 --     sw.trajectory{ func = function(t) return {0.1 * t, 0, 0} end }
 --
--- A CSV file of way-points has the columns `x y z`, and if wanted `t` (a time for
+-- A CSV file of way-points has the columns `x y z`, and optionally `t` (a time for
 -- every way-point), and `qw qx qy qz` (orientation as a quaternion) or `rx ry rz`
 -- (orientation as axis times angle in radians; an orientation, so 3 pi is pi). A
--- column may name its unit: `x_mm`, `t_ms`, `rx_deg` or `x [mm]`; without one it is
--- in SI units, positions in units of `scale` metres when that is given. Columns
--- whose name starts with `_` are left alone. A file without names has x y z, or t x
--- y z, or x y z qw qx qy qz, or t x y z qw qx qy qz.
+-- column may name its unit: `x_mm`, `t_ms`, `rx_deg` or `x [mm]`. Without a unit it is
+-- in SI units, or for positions in units of `scale` metres if given. Columns whose
+-- name starts with `_` are ignored. A file without names has x y z, or t x y z, or
+-- x y z qw qx qy qz, or t x y z qw qx qy qz.
 -- @module softworld.trajectory
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -35,7 +35,7 @@ local function fail(data, line, column, format, ...)
   error(("%s:%d:%d: "):format(data.name, line, column) .. format:format(...), 0)
 end
 
--- "x_mm" and "X [mm]" are x in mm; "x" is x.
+-- Splits a title: "x_mm" and "X [mm]" are x in mm; "x" is x.
 local function column_of(title)
   local name, unit = title:match "^(%a+)%s*%[%s*([%w_/]+)%s*%]$"
   if not name then name, unit = title:match "^(%a+)_(%w+)$" end
@@ -58,7 +58,7 @@ local function known_column(data, title, place)
   return name, times, by, true
 end
 
--- Columns by name in SI units, and where each number stands.
+-- Returns columns by name in SI units, and the position of each title.
 local function columns_of(data, scale)
   local found, titles = {}, {}
   for i, title in ipairs(data.names) do
@@ -159,7 +159,7 @@ local function points_of(data, scale)
   return points
 end
 
---- Way-points from a CSV file, or from CSV text. scale is the length unit of
+--- Returns way-points from a CSV file, or from CSV text. scale is the length unit of
 -- columns without one [m].
 function trajectory.read(source, scale)
   if type(source) ~= "string" then
@@ -205,15 +205,15 @@ local function save(self, path, count)
   require("softworld.csv").write(path, { "t", "x", "y", "z", "qw", "qx", "qy", "qz" }, columns)
 end
 
---- Write count samples (default 201) of a trajectory as a CSV file that can be read
+--- Writes count samples (default 201) of a trajectory as a CSV file. It can be read
 -- back as way-points with times.
 trajectory.save = build.placed(save)
 core.class.trajectory.save = trajectory.save
 
---- Make a trajectory; see the reference of its parameters.
+--- Makes a trajectory; see the reference of its parameters.
 trajectory.new = core.trajectory
 
--- Errors about way-points of a file name it.
+-- Makes a trajectory from a file; errors about way-points name the file.
 local function of_file(path, args)
   local ok, result = pcall(core.trajectory, args)
   if ok then return result end

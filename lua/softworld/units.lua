@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Units: `units.mm(5)` is 5 mm in metres, `units.to.mm(0.005)` the way back.
+--- Units: `units.mm(5)` is 5 mm in metres, `units.to.mm(0.005)` converts back.
 -- Arguments are numbers or (nested) tables of numbers: `units.mm{300, 0, 2}`.
 -- Everything in SoftWorld is in SI units: m, kg, s, rad, N, Pa.
 -- @module softworld.units
@@ -8,7 +8,7 @@ local units = {}
 local to = {}
 
 -- name = { SI unit, times, by }: x in the unit is x * times / by in the SI unit.
--- Division by a whole number keeps 5 mm the number 0.005.
+-- Dividing by a whole number keeps 5 mm exactly the number 0.005.
 local known = {
   m = { "m", 1, 1 }, km = { "m", 1000, 1 }, cm = { "m", 1, 100 }, mm = { "m", 1, 1000 },
   um = { "m", 1, 1000000 }, inch = { "m", 254, 10000 },
@@ -32,7 +32,7 @@ local known = {
   Hz = { "Hz", 1, 1 }, kHz = { "Hz", 1000, 1 },
 }
 
-local DEEPEST = 100 -- tables within tables
+local DEEPEST = 100 -- deepest nesting of tables
 
 local function convert(value, times, by, name, depth)
   if type(value) == "number" then return value * times / by end
@@ -53,7 +53,7 @@ for name, unit in pairs(known) do
   to[name] = function(value) return convert(value, unit[3], unit[2], "to." .. name, 0) end
 end
 
--- Steps (insert, delete, replace) that lead from a to b.
+-- Returns the number of edits (insert, delete, replace) that turn a into b.
 local function distance(a, b)
   local row = {}
   for j = 0, #b do row[j] = j end
@@ -83,7 +83,7 @@ local function unknown(prefix)
   end
 end
 
---- The SI unit, factor and divisor of a unit by name; nil when it is not known.
+--- Returns the SI unit, factor and divisor of a unit by name; nil if it is not known.
 function units.find(name)
   local unit = known[name]
   if unit then return unit[1], unit[2], unit[3] end

@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Runs that failed, and whether anybody has looked: the host program tells of the others when the
+--- Keeps track of failed runs that the script has not looked at. The host program reports them when the
 -- script is over.
 -- @module softworld.unread
 local unread = {}
 
-local MOST = 20 -- texts that are kept, and told
+local MOST = 20 -- texts kept and reported at most
 local texts, kept, last = {}, 0, 0
 local more = 0 -- failures beyond those kept
-local bad = 0  -- runs that failed or were stopped, whether anybody looked or not
+local bad = 0  -- runs that failed or were stopped, looked at or not
 local verdicts = { PASS = 0, FAIL = 0, OPEN = 0 } -- of checks
 
---- Remember a failure; gives its mark.
+--- Stores a failure and returns its mark.
 function unread.add(text)
   last, bad = last + 1, bad + 1
   local mark = { number = last }
@@ -22,7 +22,7 @@ function unread.add(text)
   return mark
 end
 
---- Somebody looked.
+--- Marks a failure as looked at.
 function unread.seen(mark)
   if mark.seen then return end
   mark.seen = true
@@ -33,13 +33,13 @@ function unread.seen(mark)
   end
 end
 
---- A run was stopped before its end.
+--- Counts a run that was stopped before its end.
 function unread.cut() bad = bad + 1 end
 
---- A run was checked, with this verdict.
+--- Counts a check of a run with this verdict.
 function unread.judged(verdict) verdicts[verdict] = verdicts[verdict] + 1 end
 
---- Of `softworld --check`, at the end of a script: its exit code and a line that tells why.
+--- Returns the exit code of `softworld --check` at the end of a script, and a line that explains it.
 function unread.exit()
   local made = verdicts.PASS + verdicts.FAIL + verdicts.OPEN
   local text = ("softworld: %d checks: %d pass, %d fail, %d open"):format(made, verdicts.PASS, verdicts.FAIL,
@@ -51,8 +51,8 @@ function unread.exit()
   return 0, text
 end
 
---- For `softworld --check`: a script that leaves by os.exit leaves with what its checks found, unless it
--- fails by itself.
+--- For `softworld --check`: makes os.exit leave with the exit code of the checks, unless the script itself
+-- leaves with a failure.
 function unread.guard_exit()
   local leave = os.exit
   function os.exit(code, close) -- luacheck: ignore 122
@@ -63,8 +63,8 @@ function unread.guard_exit()
   end
 end
 
---- Call f and return its results. Failures within it need no look: f judges its runs by other means. Nor do
--- checks within it count.
+--- Calls f and returns its results. Failures within it need no look, because f judges its runs by other
+-- means; checks within it do not count either.
 function unread.excused(f, ...)
   local before, more_before, bad_before = last, more, bad
   local counted = { PASS = verdicts.PASS, FAIL = verdicts.FAIL, OPEN = verdicts.OPEN }
@@ -79,7 +79,7 @@ function unread.excused(f, ...)
   return done(f(...))
 end
 
---- At the end of a script: the text to be told, or nil. Forgets it.
+--- Returns the report at the end of a script, or nil, and forgets it.
 function unread.finish()
   local numbers, lines = {}, {}
   for number in pairs(texts) do numbers[#numbers + 1] = number end

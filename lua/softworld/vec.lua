@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Vectors {x, y, z} and orientations {w, x, y, z}, for placing things. Never in a step.
+--- Vectors {x, y, z} and orientations {w, x, y, z}, for placing things; never used within a step.
 -- @module softworld.vec
 local vec = {}
 
@@ -17,16 +17,16 @@ function vec.cross(a, b)
   return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
 end
 
---- a / |a|, or nil when it has no length.
+--- Returns a / |a|, or nil if the length is 0.
 function vec.unit(a)
   local n = vec.norm(a)
   return n > 0 and vec.scale(a, 1 / n) or nil
 end
 
---- The part of a across the unit vector n.
+--- Returns the component of a perpendicular to the unit vector n.
 function vec.across(a, n) return vec.add(a, n, -vec.dot(a, n)) end
 
---- a turned by the orientation q.
+--- Returns a turned by the orientation q.
 function vec.rotate(q, a)
   local u = { q[2], q[3], q[4] }
   local c = vec.cross(u, a)
@@ -35,7 +35,7 @@ end
 
 function vec.conjugate(q) return { q[1], -q[2], -q[3], -q[4] } end
 
---- First q, then p.
+--- Returns the rotation q followed by p.
 function vec.multiply(p, q)
   return { p[1] * q[1] - p[2] * q[2] - p[3] * q[3] - p[4] * q[4],
     p[1] * q[2] + p[2] * q[1] + p[3] * q[4] - p[4] * q[3],
@@ -43,13 +43,13 @@ function vec.multiply(p, q)
     p[1] * q[4] + p[2] * q[3] - p[3] * q[2] + p[4] * q[1] }
 end
 
---- The turn by angle [rad] about a unit axis.
+--- Returns the rotation by angle [rad] about a unit axis.
 function vec.turn(axis, angle)
   local s = math.sin(angle / 2)
   return { math.cos(angle / 2), s * axis[1], s * axis[2], s * axis[3] }
 end
 
---- The orientation with x along the unit vector and z as far towards the unit vector up as may be.
+--- Returns the orientation with x along the unit vector x and z as close to the unit vector up as possible.
 function vec.facing(x, up)
   local z = vec.unit(vec.across(up, x))
   if not z or math.abs(vec.dot(up, x)) > 0.999 then
@@ -58,7 +58,8 @@ function vec.facing(x, up)
   return vec.axes(x, vec.cross(z, x))
 end
 
---- The orientation whose axes are x, y and x cross y in the world, both units and square.
+--- Returns the orientation whose axes are x, y and x cross y in the world; x and y are orthogonal unit
+-- vectors.
 function vec.axes(x, y)
   local z = vec.cross(x, y)
   local m = { { x[1], y[1], z[1] }, { x[2], y[2], z[2] }, { x[3], y[3], z[3] } }

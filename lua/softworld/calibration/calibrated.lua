@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a calibration has found: values with intervals, an entry for the catalogue, pictures.
+--- The result of a calibration: values with intervals, an entry for the catalogue, pictures.
 -- @module softworld.calibration.calibrated
 local build = require "softworld.scene.build"
 local cable = require "softworld.cable"
@@ -46,7 +46,7 @@ local chart = rows.call("calibration:chart", "{...}", "draws what was measured o
 
 local STIFFNESSES = { "EA", "EI", "GJ", "squeeze" }
 
---- Raise unless it names an entry of the catalogue, or is none.
+--- Raises an error unless `like` is nil or names an entry of the catalogue.
 function calibrated.check_like(like)
   if like == nil then return end
   local fine, why = pcall(cable.get, like)
@@ -55,7 +55,7 @@ end
 
 -- --- remarks -----------------------------------------------------------------------------------
 
--- Ends of ranges in words of the bench.
+-- Adds remarks about values at the ends of their ranges, in words of the bench.
 local function add_hints(own)
   local said, at_bound = own.said, {}
   for _, name in ipairs(own.fit.at_bound) do at_bound[name] = true end
@@ -81,7 +81,8 @@ local function add_hints(own)
   end
 end
 
---- own: name, source, fit, model, outer_diameter, mass_per_length, like, said (a list of remarks).
+--- Returns a result. own: name, source, fit, model, outer_diameter, mass_per_length, like, said (a list of
+-- remarks).
 function calibrated.new(own)
   own.parameters = own.fit.parameters
   add_hints(own)
@@ -173,13 +174,13 @@ function Calibration.__tostring(self)
   return table.concat(lines, "\n")
 end
 
---- Put the entry into the catalogue.
+--- Puts the entry into the catalogue.
 function Calibration:define() return build.call(3, define, self) end
 
---- Write a Lua file that defines the entry.
+--- Writes a Lua file that defines the entry.
 function Calibration:save(path) return build.call(3, save, self, path) end
 
---- Draw what was measured over what is computed.
+--- Draws the measured points over the computed curve.
 function Calibration:chart(args) return build.call(3, draw, self, args) end
 
 methods.guard_table("calibration", Calibration)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a real cable is made of, from a bench: EI from a photographed sag, GJ from the twist that buckles it
--- or from a pendulum, EA from a pull, the section's stiffness from a squeeze; fitted together.
+--- Identifies a real cable from bench tests: EI from a photographed sag, GJ from the twist that buckles it
+-- or from a pendulum, EA from a pull, the section's stiffness from a squeeze; all fitted together.
 --
 --     local found = sw.calibration { name = "my cable", outer_diameter = 2.4e-3, mass_per_length = 0.0105,
 --       sag = { file = "sag.csv", length = 1, to = { 0.8, 0 } },
@@ -20,8 +20,8 @@ local twist = require "softworld.calibration.twist"
 local calibration = {}
 
 local WHAT = "sw.calibration"
-local WIDE = 8           -- range of what was measured by itself, in its sigma
-local GJ_LEAST, GJ_MOST = 0.02, 20 -- over EI
+local WIDE = 8           -- half width of the range of an independently measured value, in its sigma
+local GJ_LEAST, GJ_MOST = 0.02, 20 -- range of GJ over EI
 
 local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a real cable from measurements", {
   gives = "a calibration: values with intervals, a catalogue entry, charts",
@@ -43,7 +43,7 @@ local call = rows.call(WHAT, "{...}", "EA, EI, GJ and section stiffness of a rea
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
 
--- A number, or { value, sigma = }.
+-- Reads a number, or { value, sigma = }.
 local function read_uncertain(what, given, unit)
   local value, sigma = given, nil
   if type(given) == "table" then
@@ -63,7 +63,7 @@ end
 
 -- --- the model ---------------------------------------------------------------------------------
 
--- A parameter that was measured by itself: its own datum; or a constant without sigma.
+-- Adds a parameter that was measured independently: as a datum of its own, or without sigma as a constant.
 local function add_known(model, name, known)
   if not known.sigma then
     model.constants[name] = known.value
@@ -136,7 +136,7 @@ end
 
 -- --- the fit -----------------------------------------------------------------------------------
 
--- Parameters that a group depends on.
+-- Returns the parameters that a group depends on.
 local function of_group(model, group)
   local names = {}
   if group == model.sag then names.EI = true end
@@ -146,7 +146,7 @@ local function of_group(model, group)
   return names
 end
 
--- Fit these groups; held: values of parameters that are not fitted.
+-- Fits these groups; held: values of parameters that are not fitted.
 local function fit(model, name, groups, parameters, held)
   local constants, data = {}, {}
   for key, value in pairs(model.constants) do constants[key] = value end
@@ -170,12 +170,12 @@ local function fit(model, name, groups, parameters, held)
   return s:fit { data = data, tolerance = 1e-7 }
 end
 
--- The middle of a range, or where it starts.
+-- Returns the middle of a range, or its start value.
 local function middle(p)
   return p.start or p.log and math.sqrt(p[1] * p[2]) or 0.5 * (p[1] + p[2])
 end
 
--- Where several things were measured and one has no sigma: that of its own residuals.
+-- If several things were measured and one has no sigma, estimates it from its own residuals.
 local function estimate_sigma(model, said)
   if #model.groups == 1 then return end
   for _, group in ipairs(model.groups) do

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a calibration has found as an entry for the catalogue: what was measured flagged so, with its source;
--- the rest from an entry that is alike, or guessed.
+--- Makes a catalogue entry from a calibration: measured values are flagged so, with their source; the rest is
+-- taken from a similar entry, or guessed.
 -- @module softworld.calibration.entry
 local cable = require "softworld.cable"
 
@@ -12,7 +12,7 @@ local function source_of(own, key)
   return group and ("%s: %s"):format(own.source, group.source) or own.source
 end
 
--- A value that was measured; nil where it was not, an error where the data did not tell it.
+-- Returns a measured value; nil if it was not measured; raises an error if the data did not determine it.
 local function measured(own, key)
   local q = own.parameters[key]
   if not q then return nil end
@@ -40,19 +40,19 @@ local function of_like(own, key)
   return guessed(q.value, q.low, q.high, ("that of %s, taken for alike"):format(like.name))
 end
 
--- EI where it was given, not fitted.
+-- Returns EI if it was given, not fitted.
 local function given_EI(own)
   local EI = own.model.constants.EI
   return EI and { value = EI, low = EI, high = EI, flag = "measured", source = own.source .. ": given" }
 end
 
---- EA where nobody measured it [N]: of an entry that is alike, or as if half of the mass [kg/m] were copper.
+--- Returns EA if it was not measured [N]: of a similar entry, or as if half of the mass [kg/m] were copper.
 function entry.EA(like, mass)
   if like ~= nil then return cable.get(like).EA.value end
   return 115e9 * mass / 2 / 8930
 end
 
---- The fields of an entry, as sw.cable.define takes them.
+--- Returns the fields of an entry, as sw.cable.define takes them.
 function entry.fields(own)
   local EI = measured(own, "EI") or given_EI(own)
   if not EI then

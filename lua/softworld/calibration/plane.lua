@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- From a photograph to a plane: the projective map that takes pixels (u, v) of at least four known points to
+--- Maps a photograph to a plane: the projective map takes pixels (u, v) of at least four known points to
 -- their places (x, z) in the plane, x = (a u + b v + c) / (g u + h v + 1), z = (d u + e v + f) / (...).
--- The lens has to be free of distortion.
+-- The lens must be free of distortion.
 -- @module softworld.calibration.plane
 local checks = require "softworld.checks"
 
 local plane = {}
 
-local MOST = 1000       -- known points
-local FLAT = 1e-10      -- pivot below which points lie on a line, of the scaled equations
-local ROUGH = 0.05      -- distance that more than four known points may be missed by, of their extent
+local MOST = 1000       -- most known points
+local FLAT = 1e-10      -- pivot of the scaled equations below which points lie on a line
+local ROUGH = 0.05      -- largest error at more than four known points, over their extent
 
 local function fail(text, ...) error(text:format(...), 0) end
 
--- Solve the symmetric a x = b of n unknowns by elimination; nil where it is singular.
+-- Solves the symmetric a x = b of n unknowns by elimination; nil if it is singular.
 local function solve(a, b, n)
   for k = 1, n do
     local at = k
@@ -35,7 +35,8 @@ local function solve(a, b, n)
   return b
 end
 
--- Middle and size of the columns i, i + 1 of a list of rows: numbers about 1 for the equations.
+-- Returns the middle and size of the columns i, i + 1 of a list of rows, which scale the equations to about
+-- 1.
 local function scale_of(known, i)
   local x, z, size, n = 0, 0, 0, #known
   for _, p in ipairs(known) do x, z = x + p[i] / n, z + p[i + 1] / n end
@@ -72,7 +73,7 @@ local function read(what, known)
   end
 end
 
--- Do three of the first four known points lie on a line (in columns i, i + 1)?
+-- True if three of the first four known points lie on a line (in columns i, i + 1).
 local function on_a_line(known, i, size)
   for skip = 1, 4 do
     local p = {}
@@ -86,7 +87,7 @@ local function on_a_line(known, i, size)
   return false
 end
 
--- The map of numbers h, as a function u, v -> x, z.
+-- Returns the map with numbers h, as a function u, v -> x, z.
 local function map_of(h, from, to)
   return function(u, v)
     u, v = (u - from[1]) / from[3], (v - from[2]) / from[3]
@@ -96,8 +97,8 @@ local function map_of(h, from, to)
   end
 end
 
---- The map of known points { { u, v, x, z }, ... }: a function u, v -> x, z, and a number above 0 on the side
--- of the picture's horizon on which they are.
+--- Returns the map of known points { { u, v, x, z }, ... }: a function u, v -> x, z, and a number above 0 on
+-- the side of the picture's horizon on which they lie.
 function plane.map(what, known)
   read(what, known)
   local from, to, rows = scale_of(known, 1), scale_of(known, 3), {}
@@ -127,7 +128,7 @@ function plane.map(what, known)
   return map
 end
 
---- How long a pixel is in the plane at u, v [m]: the root of the area that it covers.
+--- Returns the length of a pixel in the plane at u, v [m]: the root of the area it covers.
 function plane.scale(map, u, v)
   local x, z = map(u, v)
   local xu, zu = map(u + 0.5, v)

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Measured points, from a table of a script (in SI units) or from a CSV file whose columns tell their units:
+--- Reads measured points from a table of a script (in SI units) or from a CSV file whose columns name their
+-- units:
 --
 --     x [mm], z [mm]
 --     0, 0
@@ -12,11 +13,11 @@ local units = require "softworld.units"
 
 local readings = {}
 
-local MOST = 20000 -- points
+local MOST = 20000 -- most points
 
 local function fail(text, ...) error(text:format(...), 0) end
 
--- Factor and divisor of a unit as people write it: "N/mm", "kg/m3"; nil where it is none of that kind.
+-- Returns factor and divisor of a unit as people write it: "N/mm", "kg/m3"; nil if it has another dimension.
 local function factor_of(text, unit)
   if unit == "px" or text == "px" then return text == unit and 1 or nil, 1 end
   local name = text:gsub("%s", ""):gsub("/", "_per_")
@@ -24,20 +25,20 @@ local function factor_of(text, unit)
   if found == unit then return times, by end
 end
 
--- Units that a column may be in.
+-- Returns the units that a column may have.
 local function units_of(unit)
   local usual = { m = "m, mm, cm", N = "N, kN, mN", rad = "rad, deg, turns", s = "s, ms", px = "px" }
   return usual[unit] or unit
 end
 
--- "x [mm]" or "x_mm"
+-- Splits "x [mm]" or "x_mm".
 local function split(title)
   local name, unit = title:match "^%s*(.-)%s*%[%s*(.-)%s*%]%s*$"
   if not name then name, unit = title:match "^(%a+)_([%w_]+)$" end
   return name or title, unit
 end
 
--- The column of a name: { values, times, by }; nil where there is none.
+-- Returns the column of a name: { values, times, by }; nil if there is none.
 local function find(what, data, column)
   for i, title in ipairs(data.names) do
     local name, unit = split(title)
@@ -66,13 +67,13 @@ local function missing(what, data, column)
     table.concat(data.names, ", "))
 end
 
--- All columns of a file as rows in SI units, with the file's lines.
+-- Returns all columns of a file as rows in SI units, with the file's lines.
 local function from_file(what, path, columns)
   if type(path) ~= "string" or path == "" or path:find "\n" then
     fail("%s: file must be the name of a CSV file, got %s", what, checks.got(path))
   end
   local fine, data = pcall(csv.read, path)
-  if not fine then -- the error's place in the file, so that the script's own stands before it
+  if not fine then -- only the place in the file; the script's place comes before it
     fail("%s: %s", what, (tostring(data):gsub("^([^\n]-):(%d+):(%d+): ", "%1, line %2, place %3: ")))
   end
   local found, rows = {}, { name = data.name, lines = data.lines }
@@ -106,8 +107,8 @@ local function from_table(what, points, columns)
   return rows
 end
 
---- Rows { {value, ...}, ... } of columns { { name =, unit = }, ... } in SI units; given has file or points.
--- least: so many there must be. rows.where(k): where row k is, for messages.
+--- Returns rows { {value, ...}, ... } of columns { { name =, unit = }, ... } in SI units; given has file or
+-- points. least: least number of rows. rows.where(k): the place of row k, for messages.
 function readings.read(what, given, columns, least)
   if (given.file ~= nil) == (given.points ~= nil) then
     fail("%s: give either file or points", what)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Points of a hanging wire, measured or from a photograph: they tell EI over the weight.
+--- Points of a hanging wire, measured or from a photograph: they determine EI over the weight.
 -- @module softworld.calibration.sag
 local checks = require "softworld.checks"
 local plane = require "softworld.calibration.plane"
@@ -10,8 +10,8 @@ local sagged = require "softworld.calibration.sagged"
 local sag = { name = "sag" }
 
 local WHAT = "sw.calibration: sag"
-local FARTHEST = 1.05 -- of the wire's length, from its start
--- weight length^3 / EI of what can be told; stiffer slack wires between two ends snap to other shapes
+local FARTHEST = 1.05 -- farthest point from the wire's start over its length
+-- weight length^3 / EI that can be determined; stiffer slack wires between two ends snap to other shapes
 local SOFTEST, STIFFEST, STIFFEST_BETWEEN = 1e5, 0.03, 0.5
 
 sag.rows = rows.list{
@@ -78,7 +78,7 @@ local function ends(o)
   o.directions = directions(o)
 end
 
--- Pixels as points of the plane, and the sigma of each.
+-- Returns pixels as points of the plane, and the sigma of each.
 local function from_pixels(o, list)
   local map, sigma = plane.map(WHAT, o.pixels), {}
   for k, p in ipairs(list) do
@@ -110,7 +110,7 @@ local function read_points(o)
   return list
 end
 
---- Read it: a group { name =, sigma =, unit =, values = (zeros: points lie beside the wire by nothing),
+--- Reads the sag: a group { name =, sigma =, unit =, values = zeros (distances of the points from the wire),
 -- predict(p) -> list, source =, EI = its range, points =, length =, curve(p) }. radius [m], mass [kg/m].
 function sag.read(o, radius, mass)
   ends(o)
@@ -122,7 +122,7 @@ function sag.read(o, radius, mass)
     EI = { size / SOFTEST, size / (o.ends == "cantilever" and STIFFEST or STIFFEST_BETWEEN) } }
   for k = 1, #points do group.values[k] = 0 end
   local key, kept
-  --- Stations of the wire; those of the last parameters are kept, since GJ and the like change nothing.
+  --- Returns the stations of the wire; the last ones are kept, because GJ and the like do not change them.
   function group.curve(p)
     local now = ("%a %a %a %a"):format(p.EI, p.EA, p.mass_per_length, p.length)
     if now ~= key then

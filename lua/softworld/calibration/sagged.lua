@@ -1,17 +1,18 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A wire that hangs in a plane, as it was photographed: its equilibrium as a rod, and how far measured
--- points lie beside it.
+--- A wire that hangs in a plane, as in a photograph: its equilibrium as a rod, and the distances of measured
+-- points from it.
 -- @module softworld.calibration.sagged
 local core = require "softworld.core"
 
 local sagged = {}
 
-local COARSE = 60 -- segments; and twice as many, from which its error, of second order, is taken out
+local COARSE = 60 -- segments; a mesh with twice as many gives the second-order error, which is removed
 local GRAVITY = 9.81 -- [m/s2]
-local ITERATIONS = 500 -- of an equilibrium that is beside the arc it begins with; others are none of a sag's
+local ITERATIONS = 500 -- of an equilibrium beside the arc it starts from; others are no sag
 
--- A polygon of n equal edges of a length in an arc below the chord from one end to the other, so that nodes
--- lie on its corners: the half angle of the arc, sin(a) / (n sin(a / n)) = chord / length, by halving.
+-- Returns a polygon of n equal edges of a given length, in an arc below the chord between the ends with nodes
+-- at its corners. The half angle a of the arc, sin(a) / (n sin(a / n)) = chord / length, is found by
+-- bisection.
 local function arc(from, to, length, n)
   local dx, dz = to[1] - from[1], to[2] - from[2]
   local chord = math.sqrt(dx * dx + dz * dz)
@@ -53,7 +54,7 @@ local function place(scene, o, wire)
   return w
 end
 
--- Stations of one mesh.
+-- Returns the stations of one mesh.
 local function stations(o, wire, segments)
   local scene = core.scene { gravity = { 0, 0, -GRAVITY } }
   wire.segments = segments
@@ -69,9 +70,9 @@ local function stations(o, wire, segments)
   return list
 end
 
---- The equilibrium of o { ends = "clamped" | "hung" | "cantilever", from =, to = {x, z}, directions =,
--- length =, radius = } with EI, EA and a mass per length: stations { { x, z, tx, tz }, ... } along it. Raises
--- when there is none.
+--- Returns the equilibrium of o { ends = "clamped" | "hung" | "cantilever", from =, to = {x, z}, directions
+-- =, length =, radius = } with EI, EA and a mass per length: stations { { x, z, tx, tz }, ... } along it.
+-- Raises an error if there is none.
 function sagged.curve(o, EI, EA, mass_per_length)
   local wire = { EI = EI, EA = EA, GJ = EI, mass_per_length = mass_per_length, radius = o.radius }
   local coarse, fine = stations(o, wire, COARSE), stations(o, wire, 2 * COARSE)
@@ -81,7 +82,7 @@ function sagged.curve(o, EI, EA, mass_per_length)
   return fine
 end
 
--- Cubic of Hermite between two stations: place and direction at t from 0 to 1.
+-- Returns place and direction on the Hermite cubic between two stations, at t from 0 to 1.
 local function between(a, b, h, t)
   local u = 1 - t
   local h0, h1 = (1 + 2 * t) * u * u, t * t * (3 - 2 * t)
@@ -92,7 +93,7 @@ local function between(a, b, h, t)
     d0 * (a[1] - b[1]) + d1 * a[3] + d2 * b[3], d0 * (a[2] - b[2]) + d1 * a[4] + d2 * b[4]
 end
 
---- Places along the curve for a picture: xs, zs.
+--- Returns places along the curve for a picture: xs, zs.
 function sagged.line(list)
   local xs, zs, parts = { list[1][1] }, { list[1][2] }, 5
   for k = 2, #list do
@@ -103,8 +104,8 @@ function sagged.line(list)
   return xs, zs
 end
 
---- How far a point {x, z} is to the left of the curve, beside its nearest place (beyond an end, beside its
--- prolongation) [m].
+--- Returns the distance of a point {x, z} to the left of the curve, at the nearest place (beyond an end, from
+-- the extension) [m].
 function sagged.beside(list, point)
   local nearest, least = 1, math.huge
   for k = 1, #list do

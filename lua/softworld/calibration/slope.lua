@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Way over force as a straight line: a pull gives EA, a squeeze between plates the section's stiffness.
--- Where the line begins is not known, so it is found too.
+--- Displacement over force as a straight line: a pull gives EA, a squeeze between plates the section's
+-- stiffness. The line's zero is not known, so it is fitted too.
 -- @module softworld.calibration.slope
 local readings = require "softworld.calibration.readings"
 local rows = require "softworld.rows"
@@ -24,13 +24,14 @@ slope.kinds = {
     rows = options("approach", "of wire between the plates") },
 }
 
--- Way at a force: pull F L / EA, plates F / (L K) with K the force per length over the approach [Pa].
+-- Returns the displacement at a force: pull F L / EA, plates F / (L K) with K the line force over the
+-- approach [Pa].
 local function way(kind, o, force, stiffness)
   if kind.stiffness == "EA" then return force * o.length / stiffness end
   return force / (o.length * stiffness)
 end
 
--- The line through the points, for ranges and starts: way per force, way at no force.
+-- Returns the regression line, for ranges and starts: displacement per force, and at zero force.
 local function regression(list)
   local n, mf, mw, ff, fw = #list, 0, 0, 0, 0
   for _, p in ipairs(list) do mf, mw = mf + p[1] / n, mw + p[2] / n end
@@ -40,7 +41,7 @@ local function regression(list)
   return ff > 0 and fw / ff or 0, mw - (ff > 0 and fw / ff or 0) * mf
 end
 
---- Read it: a group with the ranges of its two parameters.
+--- Reads the points: returns a group with the ranges of its two parameters.
 function slope.read(kind_name, o)
   local kind = slope.kinds[kind_name]
   local what = "sw.calibration: " .. kind_name

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What tells GJ: the twist at which a straight wire buckles (with its EI), or a torsional pendulum.
+--- Measurements that determine GJ: the twist at which a straight wire buckles (with its EI), or a torsional
+-- pendulum.
 -- @module softworld.calibration.twist
 local readings = require "softworld.calibration.readings"
 local rows = require "softworld.rows"
@@ -8,7 +9,7 @@ local twisted = require "softworld.calibration.twisted"
 local twist = { name = "twist" }
 
 local WHAT = "sw.calibration: twist"
-local MOST = 1e4 -- angle at which a wire buckles [rad]
+local MOST = 1e4 -- largest angle at which a wire buckles [rad]
 
 twist.rows = rows.list{
   { "length", "number", "m", "of the straight wire between its ends", min = 0, above = true,
@@ -28,7 +29,7 @@ twist.rows = rows.list{
 
 local function fail(text, ...) error((WHAT .. ": " .. text):format(...), 0) end
 
--- Which of the three ways was measured.
+-- Checks which of the three ways was measured.
 local function check(o)
   local ways = (o.angle and 1 or 0) + (o.period and 1 or 0) + ((o.file ~= nil or o.points ~= nil) and 1 or 0)
   if ways ~= 1 then
@@ -46,7 +47,7 @@ local function pendulum(o)
     predict = function(p) return { twisted.period(o, p.GJ) } end }
 end
 
---- Read it: a group, with needs_EI where GJ is told together with EI.
+--- Reads the measurement: returns a group, with needs_EI if GJ is determined together with EI.
 function twist.read(o)
   check(o)
   if o.period then return pendulum(o) end

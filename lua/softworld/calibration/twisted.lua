@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The twisting moment at which a straight isotropic rod buckles between two ends whose tangents are clamped
--- along its axis, or which are hinged (A. G. Greenhill 1883); the twist of a rod before is moment L / GJ.
+--- The twisting moment at which a straight isotropic rod buckles between two ends that are hinged, or whose
+-- tangents are clamped along its axis (A. G. Greenhill 1883); before that its twist is moment L / GJ.
 --
 -- With m = M L / EI and t = T L^2 / EI (T the tension) the deflection y1 + i y2 obeys
 -- y'''' - i m y''' - t y'' = 0: 1, s, exp(i a s), exp(i b s) with a, b = m / 2 -+ q, q^2 = m^2 / 4 - t.
@@ -8,16 +8,16 @@
 -- @module softworld.calibration.twisted
 local twisted = {}
 
-local STEPS = 400  -- of q over pi, to see a change of sign
-local NEAR = 0.02  -- |t| below which the determinant, of order t^2, is between those of -NEAR and NEAR
+local STEPS = 400  -- intervals of q over pi in the search for a change of sign
+local NEAR = 0.02  -- |t| below which the determinant, of order t^2, is interpolated between -NEAR and NEAR
 local FREE = 8.986818915715815 -- m without tension: tan(m / 2) = m / 2
 
 local function determinant(q, t)
   return 2 * q * (math.cos(q) - math.cos(math.sqrt(q * q + t))) - t * math.sin(q)
 end
 
--- The first q at which the determinant is 0. It is above pi, and above the root of -t, where m is 0; up to
--- there the determinant does not change its sign.
+-- Returns m at the first q at which the determinant is 0. This q is above pi, and above the root of -t, where
+-- m is 0; the determinant does not change its sign up to there.
 local function clamped(t)
   local low = t > 0 and math.pi or math.max(math.pi, math.sqrt(-t))
   local before = determinant(low + 1e-9, t) > 0
@@ -34,7 +34,7 @@ local function clamped(t)
   end
 end
 
---- m at which it buckles; nil where it buckles without any (t <= -4 pi^2 clamped, -pi^2 hinged).
+--- Returns m at buckling; nil if it buckles without a moment (t <= -4 pi^2 clamped, -pi^2 hinged).
 function twisted.moment(t, hinged)
   if hinged then
     return t > -math.pi ^ 2 and 2 * math.sqrt(math.pi ^ 2 + t) or nil
@@ -47,15 +47,15 @@ function twisted.moment(t, hinged)
   return clamped(t)
 end
 
---- The angle by which one end is turned when it buckles [rad]: o { length =, tension =, ends = }, tension by
--- point. Raises where it buckles untwisted.
+--- Returns the angle by which one end is turned at buckling [rad]: o { length =, tension =, ends = }, tension
+-- by point. Raises an error if it buckles untwisted.
 function twisted.angle(o, tension, EI, GJ)
   local m = twisted.moment(tension * o.length ^ 2 / EI, o.ends == "hinged")
   if not m then error("the push buckles it without a twist", 0) end
   return m * EI / GJ
 end
 
---- Period of a weight that the wire turns to and fro [s], 2 pi sqrt(inertia L / GJ).
+--- Returns the period of a weight on the wire as a torsional pendulum [s], 2 pi sqrt(inertia L / GJ).
 function twisted.period(o, GJ) return 2 * math.pi * math.sqrt(o.inertia * o.length / GJ) end
 
 return twisted

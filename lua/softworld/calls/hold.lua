@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What clamps, pins, grips, feeds and sliders have: rows of what the core gives them.
+--- Rows of the methods and fields that the core gives clamps, pins, grips, feeds and sliders.
 -- @module softworld.calls.hold
 local rows = require "softworld.rows"
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What obstacles, joins, forces and objects of particles have: rows of what the core gives them.
+--- Rows of the methods and fields that the core gives obstacles, joins, forces and objects of particles.
 -- @module softworld.calls.obstacle
 local rows = require "softworld.rows"
 

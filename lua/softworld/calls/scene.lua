@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a scene has: rows of the methods and fields that the core gives it. What makes things has its own
--- parameters besides, see help 'wire', 'obstacle', 'clamp', ...
+--- Rows of the methods and fields that the core gives a scene. Calls that make objects also have parameters
+-- of their own, see help 'wire', 'obstacle', 'clamp', ...
 -- @module softworld.calls.scene
 local core = require "softworld.core"
 local rows = require "softworld.rows"
@@ -12,7 +12,7 @@ end
 rows.calls{
   { "scene.name", nil, "name in messages and files", "text" },
   { "scene.time", nil, "of its present state", "s" },
-  -- what it is made of
+  -- parts
   { "scene:wire", "{...}", "a wire, a cable or a tube", "a wire" },
   { "scene:obstacle", "{...}", "a rigid body, fixed or moving", "an obstacle" },
   { "scene:force", "{...}", "acts on wires: damping, wind, a spring, a function of your own", "a force" },
@@ -23,7 +23,7 @@ rows.calls{
   { "scene:gravity", "g", "the present one, or sets it", "{x, y, z} [m/s2]" },
   { "scene:find", "name", "what has this name", "a wire, an obstacle, ..." },
   { "scene:names", "", "that scene:find knows", "a list" },
-  -- what it does
+  -- computations
   { "scene:run", "{ duration =, dt =, ... }", "computes the motion, see help 'results'", "a run" },
   { "scene:settle", "{ tolerance = }", "looks for the equilibrium", "{ ok, iterations, residual [N], ... }" },
   { "scene:snapshot", "", "its state, to go back to", "a snapshot" },
@@ -32,7 +32,7 @@ rows.calls{
   { "scene:resume", "file", "goes on from a file that a run of the same script saved",
     "true, or false: no such file" },
   { "scene:close", "", "gives its memory back" },
-  -- what it tells
+  -- readings
   { "scene:energy", "", "kinetic, gravity, stored by kind, and their total, now", "a table [J]" },
   { "scene:evaluate", "wire, {...}", "energy and force of each kind of force on a wire; changes nothing",
     "{ kind = { energy [J], force [N], product [N], count } }" },
@@ -44,7 +44,7 @@ rows.calls{
   { "scene:events", "", "what happened in the run", "a list, and how many there was no room for" },
   { "scene:tell", "{ kind =, text =, object =, s =, value = }", "adds an event of your own" },
   { "scene:stable_dt", "", "longest step of explicit methods", "s" },
-  -- what players draw
+  -- for players
   { "scene:frame_count", "", "frames that the run kept", "count" },
   { "scene:frame", "i", "one of them: places of all that is drawn", "a table" },
   { "scene:clear_frames", "", "forgets them" },

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What trajectories and shapes have: rows of what the core gives them.
+--- Rows of the methods and fields that the core gives trajectories and shapes.
 -- @module softworld.calls.trajectory
 local rows = require "softworld.rows"
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a wire has: rows of the methods and fields that the core gives it.
+--- Rows of the methods and fields that the core gives a wire.
 -- @module softworld.calls.wire
 local core = require "softworld.core"
 local rows = require "softworld.rows"
@@ -12,7 +12,7 @@ rows.calls{
   { "wire.radius", nil, "of its outside", "m" },
   { "wire.beam", nil, "its section's stiffness", "EA [N], EI, GJ [N m2], mass_per_length [kg/m], ..." },
   { "wire:cable", "", "its entry of the catalogue", "an entry or nil" },
-  -- where it is
+  -- place
   { "wire:position", "s", "place of its centre line at s", "{x, y, z} [m]" },
   { "wire:tangent", "s", "direction of its centre line at s", "{x, y, z}" },
   { "wire:velocity", "s", "of its centre line at s", "{x, y, z} [m/s]" },
@@ -23,7 +23,7 @@ rows.calls{
   { "wire:set_velocity", "v, omega, about", "as a rigid body [m/s], [rad/s], about a point [m]" },
 }
 
--- what is in it: tension, curvature, ...
+-- internal forces and the like: tension, curvature, ...
 for _, r in ipairs(core.registry().readouts) do
   rows.calls{ { "wire:" .. r.name, r.at_place and "s" or "", r.summary, r.unit } }
 end

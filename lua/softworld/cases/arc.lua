@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A quarter circle, its shape without load, that stands out level from a clamp and droops: bent in
+--- A quarter-circle wire (its shape without load) stands out level from a clamp and droops: bent in
 -- two planes and twisted, static. EI = GJ.
--- Options: weight = w L^3/EI (20; 5 and 80 are known too).
--- error(): distance of the tip from the exact one over L.
+-- Options: weight = w L^3/EI (20; 5 and 80 have exact values too).
+-- error(): distance of the tip from the exact tip over L.
 -- @module softworld.cases.arc
 local sw = require "softworld"
 local frame = require "softworld.cases.frame"
@@ -15,7 +15,7 @@ local exact = {
   { 80, 0.1471340051, 0.1160624307, -0.9128043087 },
 }
 
-local points = 2000 -- that the arc is drawn along
+local points = 2000 -- points of the path
 
 return function(options)
   local f = frame.new(options)

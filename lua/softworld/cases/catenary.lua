@@ -31,7 +31,7 @@ local function find(rows, ratio, gamma)
   end
 end
 
--- Half of L/(2 a): sinh(u)/u = 1/span for the chain of length 1.
+-- Returns half of L/(2 a): sinh(u)/u = 1/span for a chain of length 1.
 local function parameter(span)
   local u = 1
   for _ = 1, 60 do

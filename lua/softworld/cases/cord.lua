@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A straight cantilever of rubber cord with a small axial and transverse shake: where
+--- A straight cantilever of rubber cord with a small axial and transverse shake, in which
 -- explicit methods lose stability.
 -- Options: segments (25, 50 or 100 have exact limits), shake [m/s] (1e-3).
 -- exact.leapfrog, exact.rk4: largest stable step of the undamped lumped-mass wire [s].
@@ -8,7 +8,7 @@ local sw = require "softworld"
 local frame = require "softworld.cases.frame"
 
 -- Eigenvalues of the lumped chain with the clamp's half hinge: N, leapfrog [s], RK4 [s].
--- The axial wave decides: 2/omega_max, omega_max = (2 c/h) cos(pi/(4N)) or the like.
+-- The axial wave sets the limit: 2/omega_max, omega_max = (2 c/h) cos(pi/(4N)) or similar.
 local exact = {
   { 25, 0.000490139803, 0.0006931623262 },
   { 50, 0.0002449791968, 0.0003464528873 },
@@ -34,7 +34,7 @@ return function(options)
 
   function c.run(o) return scene:run(o or { duration = 0.5 }) end
 
-  --- Energy now over energy at the start.
+  --- Returns the energy over the energy at the start.
   function c.growth() return scene:energy().total / c.energy0 end
   return c
 end

@@ -2,7 +2,7 @@
 --- A wire clamped level at one end droops under its own weight, static.
 -- Options: gamma (10), axial (EA L^2/EI; default that of the round section), radius (0.0025 m),
 -- section (of meshes).
--- error(): distance of the tip from the exact one over L.
+-- error(): distance of the tip from the exact tip over L.
 -- @module softworld.cases.droop
 local sw = require "softworld"
 local frame = require "softworld.cases.frame"

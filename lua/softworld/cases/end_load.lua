@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- A weightless wire clamped level, a dead force down at its end, static.
 -- Options: load = P L^2/EI (1), axial (EA L^2/EI, default 1e8).
--- error(): distance of the tip from the exact one over L.
+-- error(): distance of the tip from the exact tip over L.
 -- @module softworld.cases.end_load
 local sw = require "softworld"
 local frame = require "softworld.cases.frame"

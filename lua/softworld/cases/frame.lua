@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The axes a case is built in: x along the wire, z up. Options gravity, rotation
--- and at turn and shift them; a case's answers are given in its own axes.
+--- The axes in which a case is built: x along the wire, z up. Options gravity, rotation
+-- and at turn and shift them; a case's answers are in its own axes.
 -- @module softworld.cases.frame
 local frame = {}
 
@@ -28,14 +28,14 @@ local function product(p, q)
     p[1] * q[4] + p[2] * q[3] - p[3] * q[2] + p[4] * q[1] }
 end
 
--- The shortest turn of straight down into the direction g of length size.
+-- Returns the shortest turn of straight down into the direction g of length size.
 local function hang(g, size)
   local d = { g[1] / size, g[2] / size, g[3] / size }
   if d[3] > 1 - 1e-12 then return { 0, 1, 0, 0 } end
   return normal{ 1 - d[3], d[2], -d[1], 0 }
 end
 
---- Axes from a case's options. g: gravity [m/s2]; point, vector: from the case's
+--- Returns the axes for a case's options. g: gravity [m/s2]; point, vector: from the case's
 -- axes to the world's; local_point, local_vector: back.
 function frame.new(options)
   local q, at, g = { 1, 0, 0, 0 }, options.at or { 0, 0, 0 }, 9.81
@@ -58,7 +58,7 @@ function frame.new(options)
   return f
 end
 
---- The product of two turns.
+--- Returns the product of two turns.
 frame.product = product
 
 return frame

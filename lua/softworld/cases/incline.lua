@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A rod lies along the fall line of a rough slope and is let go.
--- Options: angle [deg] (20), friction (0.3), across (false): it lies across the slope and rolls.
+--- A rod lies along the fall line of a rough slope and is released.
+-- Options: angle [deg] (20), friction (0.3), across (false): if true, it lies across the slope and rolls.
 -- run{ duration =, dt = }.
 -- exact.acceleration = max(0, g (sin - mu cos)) [m/s2]; exact.threshold = tan(angle). Across:
--- 2/3 g sin above the threshold tan(angle)/3, below it as above.
--- error(): of the distance gone, over g t^2/2 [-].
+-- 2/3 g sin for friction above tan(angle)/3, below that as for sliding.
+-- error(): of the distance travelled, over g t^2/2 [-].
 -- @module softworld.cases.incline
 local sw = require "softworld"
 local frame = require "softworld.cases.frame"
@@ -14,7 +14,7 @@ return function(options)
   local angle, mu = math.rad(options.angle or 20), options.friction or 0.3
   local radius = 0.0025
   local scene = sw.scene{ name = "incline", gravity = f.gravity }
-  local half = { math.cos(angle / 2), 0, math.sin(angle / 2), 0 } -- x axis goes downhill
+  local half = { math.cos(angle / 2), 0, math.sin(angle / 2), 0 } -- x axis points downhill
   local slope = frame.new{ rotation = frame.product(f.quaternion, half), at = options.at }
   scene:obstacle{ shape = "plane", friction = mu, at = f.point(0, 0, 0),
     rotation = slope.quaternion }
@@ -31,7 +31,7 @@ return function(options)
   function c.run(o)
     local p = { duration = 0.5, dt = 0.01 }
     for k, v in pairs(o or {}) do p[k] = v end
-    -- first it sinks into the slope under the part of gravity across it
+    -- first it sinks into the slope under the normal component of gravity
     local across = f.g * math.cos(angle)
     scene:gravity(slope.vector(0, 0, -across))
     c.settled = scene:settle()

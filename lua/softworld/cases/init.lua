@@ -9,8 +9,8 @@
 -- Every case is a function of options that returns a table:
 --   name, scene, wire, clamp      what was built
 --   run(options)                  computes it: scene:settle or scene:run options
---   error()                       one number, [-] (share of the length unless said)
---   exact                         reference values and where they come from
+--   error()                       one number, [-] (over the length unless said otherwise)
+--   exact                         reference values and their source
 --   measured()                    the same quantities as computed (static cases)
 -- Options of every case: segments, model, gravity = {x, y, z} [m/s2] (the scene is
 -- turned so that it hangs along it), rotation = {w, x, y, z} (turn of the whole
@@ -24,7 +24,7 @@ for _, name in ipairs{ "droop", "end_load", "release", "transport", "catenary", 
   end })
 end
 
---- Names of all cases, sorted.
+--- Returns the names of all cases, sorted.
 function cases.names()
   local list = {}
   for name, case in pairs(cases) do

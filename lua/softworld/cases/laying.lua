@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Laying over three thin walls: the wire starts straight from (0, 0, 0.15) to
--- (-1, 0, 0.15), a level clamp at its first end moves by 2 m in 5 s (minimum jerk) over
+--- Laying over three thin walls. The wire starts straight from (0, 0, 0.15) to
+-- (-1, 0, 0.15). A level clamp at its first end moves by 2 m in 5 s (minimum jerk) over
 -- a table with walls 10 mm thick and 100 mm high at x = 0.4, 0.9 and 1.4 m.
 -- Options: gamma (10), friction (0.3), segments (100), distance [m] (2), duration [s] (5).
--- No exact answer; measured() gives what must stay small.
+-- No exact answer; measured() returns values that must stay small.
 -- @module softworld.cases.laying
 local sw = require "softworld"
 local frame = require "softworld.cases.frame"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Laying: a long wire lies straight on a frictionless table, its end is held at
+--- Lifting: a long wire lies straight on a frictionless table, and its end is held at
 -- height h above its resting height, static. Lengths in l = (EI/w)^(1/3).
 -- Options: hold = "pinned" | "horizontal", h in l (0.5; 0.1, 0.5, 2, 8 have exact
 -- values), total: length of the wire in l (6), l [m] (0.1), shift: resting position
@@ -39,7 +39,7 @@ return function(options)
   local shift = (options.shift or 0) * L / n
   local scene = sw.scene{ name = "lift", gravity = f.gravity }
   scene:obstacle{ shape = "plane", friction = 0, at = f.point(0, 0, 0), rotation = f.quaternion }
-  -- the end to be lifted is s = L; a shorter wire moves the mesh against lift-off
+  -- the lifted end is s = L; a shorter wire moves the mesh against lift-off
   local wire = scene:wire{ EA = (options.axial or 1e7) * EI / L ^ 2, EI = EI, radius = radius,
     mass_per_length = m, from = f.point(shift - L, 0, radius), to = f.point(0, 0, radius),
     segments = n, model = options.model }
@@ -51,8 +51,8 @@ return function(options)
       angle = math.rad(row[6]), M = row[7] * w * l * l,
       source = "boundary-value solution of the heavy elastica, error 3e-9" } }
 
-  --- Raises the end in steps, each settled. Along the table nothing holds the wire
-  -- but its end, so it is raised straight up.
+  --- Raises the end in steps and settles each. Only the end holds the wire along the table,
+  -- so it is raised straight up.
   function c.run(o)
     local steps, total, result = options.steps or 4, 0, nil
     for k = 1, steps do

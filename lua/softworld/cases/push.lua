@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A stiff rod of 1 kg on a rough floor pushed along its axis by force * m g.
--- Options: force (1), friction (0.4), g 9.8 as in the DisMech case it comes from.
+--- A stiff rod of 1 kg on a rough floor, pushed along its axis by force * m g.
+-- Options: force (1), friction (0.4), g 9.8 as in the DisMech case it is taken from.
 -- exact.acceleration = g max(0, force - mu).
 -- @module softworld.cases.push
 local sw = require "softworld"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A wire clamped level, straight and at rest, is let go: undamped swing for 1 s.
+--- A wire clamped level, straight and at rest, is released: undamped swing for 1 s.
 -- Options: gamma (10 or 100), axial (EA L^2/EI; default that of the round section, which the
 -- reference has with radius 2.5 mm), radius (0.0025 m), section (of meshes), every: time between
 -- samples [s] (0.1; must divide 0.1 by a whole number, at the finest 0.05).

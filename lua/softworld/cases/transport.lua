@@ -2,7 +2,7 @@
 --- A wire hangs from a clamp that moves sideways by 0.5 m in 1 s and stops: the load
 -- swings on, undamped, to 2 s.
 -- Options: every: time between samples [s] (0.1; or 0.05).
--- error(): largest distance of the tip from the exact one over L up to 2 s.
+-- error(): largest distance of the tip from the exact tip over L up to 2 s.
 -- largest(t): the same up to t [m].
 -- @module softworld.cases.transport
 local sw = require "softworld"
@@ -52,7 +52,7 @@ return function(options)
     source = "geometrically exact Hermite elements, error about 4e-6 m" }
   local run = wires.compared(c, exact, options.every)
 
-  --- options of scene:run; settle = false leaves out the equilibrium before.
+  --- o: options of scene:run; settle = false leaves out the equilibrium before.
   function c.run(o)
     o = o or {}
     local settled = scene:settle()

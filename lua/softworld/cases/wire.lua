@@ -6,7 +6,7 @@ local wire = {}
 
 local pi = math.pi
 
---- Parameters for scene:wire, without from and to. options: gamma, g, length,
+--- Returns parameters for scene:wire, without from and to. options: gamma, g, length,
 -- radius, density, segments, model; axial: EA L^2 / EI (default: that of a solid
 -- round section, 4 L^2 / r^2).
 function wire.parameters(options)
@@ -18,13 +18,13 @@ function wire.parameters(options)
     segments = options.segments or 50, model = options.model, section = options.section }
 end
 
---- Add a straight wire between two points of the case's axes.
+--- Adds a straight wire between two points of the case's axes.
 function wire.straight(scene, frame, p, from, to)
   p.from, p.to = frame.point(from[1], from[2], from[3]), frame.point(to[1], to[2], to[3])
   return scene:wire(p)
 end
 
---- Points of an inextensible curve of length 1 in the x-z plane from (0, 0, 0) to
+--- Returns points of an inextensible curve of length 1 in the x-z plane from (0, 0, 0) to
 -- (span, 0, 0) whose slope is a multiple of shape(u), u = s/L, found by bisection.
 function wire.arch(frame, segments, span, shape)
   local low, high = 0, 2.5
@@ -46,14 +46,14 @@ function wire.arch(frame, segments, span, shape)
   return points
 end
 
---- The row that starts with key, or nil.
+--- Returns the row that starts with key, or nil.
 function wire.row(rows, key)
   for _, row in ipairs(rows) do
     if math.abs(row[1] - key) <= 1e-6 * math.abs(key) then return row end
   end
 end
 
---- A run of a scene in pieces that end at the given times; one report.
+--- Runs a scene in pieces that end at the given times; returns one report.
 function wire.sampled(scene, times, options, sample)
   local total = { ok = true, reason = "", steps = 0, rejected = 0, iterations = 0,
     evaluations = 0, wall = 0, cpu = 0, smallest_dt = math.huge }
@@ -75,14 +75,14 @@ function wire.sampled(scene, times, options, sample)
   return total
 end
 
---- How far the tip of a sample is from its row, see wire.compared [m].
+--- Returns the distance of a sample's tip from its row, see wire.compared [m].
 function wire.off(sample)
   local p, row = sample.tip, sample.row
   return ((p[1] - row[2]) ^ 2 + p[2] ^ 2 + (p[3] - row[3]) ^ 2) ^ 0.5
 end
 
---- Let a case compare its wire's tip with rows { t, x, z } 0.05 s apart, every so often (0.1 s): gives
--- it samples and largest(t), and returns the run that fills them.
+--- Lets a case compare its wire's tip with rows { t, x, z } 0.05 s apart, each `every` seconds (0.1 s): adds
+-- samples and largest(t) to the case, and returns the run that fills them.
 function wire.compared(case, rows, every)
   local stride = math.floor((every or 0.1) / 0.05 + 0.5)
   case.samples = {}

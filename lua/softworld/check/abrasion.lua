@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Abrasion where wires slide on obstacles and on each other, at the place where it is most, of every step
--- of a run with wear = true: work of friction per area, and depth worn off by Archard's law,
+--- Abrasion where wires slide on obstacles and on each other, at the place where it is largest, from every
+-- step of a run with wear = true: work of friction per area, and worn depth by Archard's law,
 --     depth = coefficient x normal force x way / area.
--- The area is the wire's length times a width across it on which it rubs. Of a mesh the friction of all
--- particles of a section counts at its place. Friction in feeds, sliders and
--- clips, and that of blows, is not in it.
+-- The area is the wire's length times the width of rubbing across it. For a mesh, the friction of all
+-- particles of a section counts at the section's place. Friction in feeds, sliders and
+-- clips is left out, and so is that of blows.
 -- @module softworld.check.abrasion
 local worn = require "softworld.check.worn"
 
 local abrasion = {}
 
--- Width on which the wire rubs, and words where nobody gave it.
+-- Returns the width on which the wire rubs, and a note if nobody gave it.
 local function width(entry, given)
   if given and given.width then return given.width end
   return entry.object.radius, ("on a width of %.3g m, assumed: its radius"):format(entry.object.radius)
@@ -18,7 +18,7 @@ end
 
 local function join(a, b) return a and b and a .. "; " .. b or a or b end
 
---- The largest of { rubbed =, slid = } over places by what of(place) gives, times repeats, over the width.
+--- Returns the largest of { rubbed =, slid = } over places by of(place), times repeats, over the width.
 function abrasion.largest(entry, context, of)
   local given = context.abrasion
   local places = worn.places(entry)
@@ -32,7 +32,7 @@ function abrasion.largest(entry, context, of)
   return best
 end
 
---- Where the coefficient is from, in words.
+--- Returns the source of the coefficient in words.
 function abrasion.source(given)
   return ("%.3g 1/Pa, %s"):format(given.coefficient, join(given.source, given.flag)
     or "assumed: its source is not given")

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Error bars of the rows of a check: scene:run{ check = {...} } computes the run on level after level until
--- edges and steps decide every row.
+--- Error bars of the rows of a check: scene:run{ check = {...} } computes the run level by level until edges
+-- and steps decide every row.
 -- @module softworld.check.bars
 local check = require "softworld.check.check"
 local checks = require "softworld.checks"
@@ -8,10 +8,10 @@ local registry = require "softworld.check.registry"
 
 local bars = {}
 
-local NONE = 0 / 0 -- the value of a row where there is nothing to measure
+local NONE = 0 / 0 -- value of a row with nothing to measure
 
--- How far a row's value may be off without another verdict, in its unit; infinite where none depends on it:
--- no limit is known, or the data leave it open.
+-- Returns how far a row's value may be off without changing the verdict, in its unit; infinite if no verdict
+-- depends on it, because no limit is known or the data leave it open.
 local function room(row)
   if not row.side then return math.huge end
   local low, high = row.low or row.value, row.high or row.value
@@ -22,7 +22,7 @@ local function room(row)
   return share >= 0 and share or math.huge
 end
 
--- Rows by name, those of two limits as one, and the names in their order.
+-- Returns rows by name, those with two limits as one, and the names in order.
 local function gather(rows)
   local found, names = {}, {}
   for _, row in ipairs(rows) do
@@ -38,7 +38,7 @@ local function gather(rows)
   return found, names
 end
 
--- A row that this level is the first to have.
+-- Adds a row that did not exist on earlier levels.
 local function add(job, name, unit)
   local values = {}
   for k = 1, job.known or 0 do values[k] = NONE end
@@ -49,7 +49,7 @@ local function add(job, name, unit)
   return q
 end
 
--- Did the script ask for what is kept of every step only?
+-- True if the script asks for data that only wear = true records.
 local function wears(args)
   if args.fatigue or args.abrasion then return true end
   for name in pairs(type(args.limits) == "table" and args.limits or {}) do
@@ -59,8 +59,8 @@ local function wears(args)
   return false
 end
 
---- Take check out of the arguments of a run, and check it. Sets job.rows(result), to be called with each
--- level's run: values and tolerances of the rows.
+--- Takes check out of the arguments of a run and checks it. Sets job.rows(result), to be called with each
+-- level's run, which reads values and tolerances of the rows.
 function bars.take(job, args)
   local given = args.check
   args.check = nil

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Bend radius of the inside of the bend, against what a class of use allows: the smallest of all steps, so
+--- Bend radius at the inside of the bend, against the limit of a class of use: the smallest of all steps, so
 -- that of the moving wire too. Inside: radius of the centre line less that of the wire (IEC 62440).
 -- @module softworld.check.bend_radius
 local bendrule = require "softworld.wire.bendrule"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Rows of checks as lines of a terminal, as CSV and as JSON.
+--- Writes rows of checks as lines of a terminal, as CSV and as JSON.
 -- @module softworld.check.cells
 local json = require "softworld.output.json"
 local number = require "softworld.output.number"
@@ -7,16 +7,16 @@ local sink = require "softworld.output.sink"
 
 local cells = {}
 
---- A text without control characters.
+--- Returns a text without control characters.
 function cells.one_line(text) return (tostring(text):gsub("%c", " ")) end
 
---- The same without the characters of Unicode that turn the order of what follows, U+202A to U+202E and
--- U+2066 to U+2069: a name cannot make a terminal show other numbers.
+--- Returns a text also without the Unicode characters that change the order of what follows, U+202A to U+202E
+-- and U+2066 to U+2069, so that a name cannot make a terminal show other numbers.
 function cells.plain(text)
   return (cells.one_line(text):gsub("\226\128[\170-\174]", " "):gsub("\226\129[\166-\169]", " "))
 end
 
---- A number with its unit; "" where there is none.
+--- Returns a number with its unit; "" for other values.
 function cells.number(value, unit)
   if type(value) ~= "number" then return "" end
   return number.text(value, unit ~= "-" and unit or nil)
@@ -24,7 +24,7 @@ end
 
 local function pad(text, width) return text .. (" "):rep(width - number.columns(text)) end
 
---- Add lines of cells, aligned, with the note of each below it.
+--- Adds lines of cells, aligned, with the note of each below it.
 function cells.add_table(lines, list)
   local widths = {}
   for _, line in ipairs(list) do
@@ -40,7 +40,7 @@ end
 
 -- --- files -----------------------------------------------------------------------------------------
 
---- Raise unless it is the name of a file. what: the method; extension: with its article.
+--- Raises an error unless path is a file name. what: the method; extension: with its article.
 function cells.check_path(what, path, extension)
   if type(path) == "string" and path ~= "" then return end
   error(("%s expects the name of %s file, got %s"):format(what, extension, path == "" and "''"
@@ -59,7 +59,7 @@ local function cell(value)
   return type(value) == "number" and sink.number(value) or quoted(tostring(value))
 end
 
---- Write rows as CSV.
+--- Writes rows as CSV.
 function cells.write_csv(path, columns, rows)
   return sink.write_file(path, function(write)
     write(table.concat(columns, ",") .. "\n")
@@ -71,13 +71,13 @@ function cells.write_csv(path, columns, rows)
   end)
 end
 
--- Numbers that JSON does not have are texts: "inf", "nan".
+-- Returns numbers that JSON lacks as texts: "inf", "nan".
 local function known(value)
   if type(value) == "number" and value - value ~= 0 then return sink.number(value) end
   return value
 end
 
---- Rows with these columns as JSON takes them.
+--- Returns rows with these columns, ready for JSON.
 function cells.known_rows(columns, rows)
   local list = {}
   for i, row in ipairs(rows) do
@@ -87,7 +87,7 @@ function cells.known_rows(columns, rows)
   return list
 end
 
---- Write a document as JSON.
+--- Writes a document as JSON.
 function cells.write_json(path, document)
   return sink.write_file(path, function(write)
     json.write(document, write)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- run:check: does the process pass? Rows with value, limit, margin and verdict. See help "check".
+--- run:check: decides whether a process passes. Rows with value, limit, margin and verdict. See help "check".
 -- @module softworld.check.check
 local build = require "softworld.scene.build"
 local bendrule = require "softworld.wire.bendrule"
@@ -75,14 +75,14 @@ local function context_of(run, args)
   return c
 end
 
--- The error bar that the run has of a quantity of this name [unit], or nil.
+-- Returns the run's error bar for a quantity of this name [unit], or nil.
 local function error_bar(run, object, name)
   local known = run.quantities or {}
   local q = object and known[object .. "." .. name] or known[name]
   return q and type(q.value) == "number" and q.error or nil
 end
 
--- Widen what is known of a value by its error bar; value.share: low and high are by the same share wrong.
+-- Widens the range of a value by its error bar. value.share: the error scales with low and high.
 local function with_error(value, bar)
   if not bar then return value end
   value.error = bar
@@ -98,7 +98,7 @@ local function add_note(row, text)
   if text then row.note = row.note and row.note .. "; " .. text or text end
 end
 
--- A row without its verdict.
+-- Adds a row without a verdict.
 local function start_row(self, name, object, label, unit, value)
   local row = { name = object and object .. "." .. name or name, object = object, what = label, unit = unit,
     value = value.value, error = value.error, low = value.low, high = value.high, s = value.s,
@@ -121,7 +121,7 @@ local function close_row(row, value, limit, side, suspicious, text)
   if text then add_note(row, text) end
 end
 
--- A row for each side on which the script limits it.
+-- Adds a row for each side that the script limits.
 local function judge_given(given, known, reference, fresh, value, unit, own_side)
   for _, side in ipairs{ "min", "max" } do
     local limit = given[side]
@@ -144,7 +144,7 @@ local function missing_row(row, member, entry)
     member.missing, key, member.unit))
 end
 
--- The limit that holds without the script's; nil and why, where the catalogue cannot say.
+-- Returns the limit from the catalogue or a standard; nil and the reason if there is none.
 local function known_limit(member, entry, context)
   if not member.limit then return nil end
   local fine, known = pcall(member.limit, entry, context)
@@ -153,7 +153,7 @@ local function known_limit(member, entry, context)
   return nil, checks.shown(known)
 end
 
--- All rows of one check on one object.
+-- Adds all rows of one check on one object.
 local function judge_one(self, member, entry, context, list)
   local given = limits.of(list, member, entry)
   local full = entry.name and entry.name .. "." .. member.name or member.name
@@ -180,7 +180,7 @@ local function judge_one(self, member, entry, context, list)
     local reference = member.reference and member.reference(entry, context)
     judge_given(given, known, reference, fresh, value, member.unit, member.side)
     if given[member.side] or member.asked and not known then return end
-  end -- a limit on the other side alone does not take the place of that on its own
+  end -- a limit on the other side alone does not replace the check's own
   if not known then
     local row = fresh()
     missing_row(row, member, entry)
@@ -209,7 +209,7 @@ local function judge_own(self, one)
   add_note(row, "limit is missing: give max or min")
 end
 
--- A limit that nothing of the scene is judged by does not pass in silence.
+-- Adds an open row for each limit that applies to nothing in the scene.
 local function judge_unused(self, list)
   for _, member in ipairs(registry.list) do
     if list[member.name] and not self.made[member.name] then
@@ -220,7 +220,7 @@ local function judge_unused(self, list)
   end
 end
 
--- What was taken away on the way is not judged, and that is told.
+-- Adds an open row for each wire that was removed during the run.
 local function judge_gone(self)
   for _, g in ipairs(build.data(self.scene).gone or {}) do
     if g.kind == "wire" and g.time >= self.start then
@@ -237,7 +237,7 @@ local function refuse(self, why)
   self.verdict, self.reason, self.no_numbers = "FAIL", why, true
 end
 
--- Why there can be no numbers, or nil.
+-- Returns why the run has no usable numbers, or nil.
 local function unfit(run)
   if not run.ok then
     return ("the run FAILED %s%s"):format(run.reason, run.advice and (" (%s)"):format(run.advice) or "")
@@ -315,14 +315,14 @@ local function make(run, args)
   return self
 end
 
---- Raise what is wrong with the arguments of a check, before there is a run.
+--- Raises an error for wrong arguments of a check, before the run.
 function check.early(scene, args)
   local own_args, context = read({ scene = scene }, args)
   limits.read(own_args.limits, context)
   own.read(own_args.checks, registry.by_name)
 end
 
---- The rows of a run that is one of several.
+--- Returns the rows of a run that is one of several.
 function check.rows(run, args) return make(run, args).rows end
 
 --- run:check{ use =, limits =, checks =, landing =, trial = }: see help "run:check".

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Least distance of a wire's surface from the zones that it is to keep out of, over the whole motion: at the
--- end of every step, and between two as its nodes go straight from one to the other. A place that was a away
--- and is b away after a way w was never nearer than (a + b - w) / 2, so no sweep through a zone is missed.
+--- Least distance of a wire's surface from the zones to keep out of, over the whole motion: at the end of
+-- every step, and between steps, where its nodes move on straight lines. A place at distance a before a way w
+-- and at distance b after it was never nearer than (a + b - w) / 2, so no sweep through a zone is missed.
 -- @module softworld.check.clearance
 local core = require "softworld.core"
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- sw.compare: what is different between two checks, of two runs or of two versions of a process.
+--- sw.compare: differences between two checks, of two runs or of two versions of a process.
 -- @module softworld.check.compare
 local build = require "softworld.scene.build"
 local check = require "softworld.check.check"
@@ -12,7 +12,7 @@ local sink = require "softworld.output.sink"
 
 local compare = {}
 
-local ROUNDING = 1e-9 -- change of a value that other compilers may make, as a share of it [-]
+local ROUNDING = 1e-9 -- relative change of a value that another compiler may cause [-]
 local NUMBERS = { "value", "error", "low", "high", "limit", "limit_low", "limit_high", "margin", "s", "time" }
 local TEXTS = { "name", "object", "what", "unit", "side", "step", "note" }
 local VERDICTS = checks.set "PASS FAIL OPEN"
@@ -34,7 +34,7 @@ local function number_of(value)
   return type(value) == "number" and value or nil
 end
 
--- A row of a file; raises what is wrong with it.
+-- Returns a row of a file, or raises an error that says what is wrong with it.
 local function read_row(row, i)
   local function wrong(text) error(("row %d %s"):format(i, text), 0) end
   if type(row) ~= "table" then wrong "is no object" end
@@ -76,7 +76,7 @@ local function of_file(which, path)
   error(("sw.compare: %s: %s is not what check:json writes: %s"):format(which, path, why), 0)
 end
 
--- What is known of a check, a run or a file: label, verdict, reason, rows.
+-- Returns label, verdict, reason and rows of a check, a run or a file.
 local function side_of(which, value)
   local kind = checks.kind(value)
   if kind == "string" then return of_file(which, value) end
@@ -91,7 +91,7 @@ end
 
 -- --- which row belongs to which --------------------------------------------------------------------
 
--- Rows of b by name, unit and, if wanted, side: lists, in their order.
+-- Returns the free rows by key: lists, in their order.
 local function by_key(list, taken, key_of)
   local found = {}
   for _, row in ipairs(list) do
@@ -107,7 +107,7 @@ end
 local function full_key(row) return table.concat({ row.name, row.unit, row.side or "" }, "\0") end
 local function short_key(row) return row.name .. "\0" .. row.unit end
 
--- row of a -> row of b. A row that has a limit in one of them only is the same row.
+-- Returns row of a -> row of b. A row with a limit in only one of them is still the same row.
 local function pairs_of(a, b)
   local mate, taken = {}, {}
   for _, key_of in ipairs{ full_key, short_key } do
@@ -125,7 +125,7 @@ end
 
 local function equal(x, y) return x == y or x ~= x and y ~= y and x ~= nil and y ~= nil end
 
--- Do the ranges in which the values are known to lie have nothing in common?
+-- True if the known ranges of the two values do not overlap.
 local function apart(a, b, tolerance)
   if equal(a.value, b.value) then return false end
   if not (a.value and b.value) or a.value ~= a.value or b.value ~= b.value then return true end
@@ -135,7 +135,7 @@ local function apart(a, b, tolerance)
   return (a.high or a.value) < (b.low or b.value) or (b.high or b.value) < (a.low or a.value)
 end
 
--- By how much the value may be off in both together; nil where nobody knows.
+-- Returns the error of both values together; nil if it is not known.
 local function error_of(a, b)
   local sum = 0
   for _, row in ipairs{ a, b } do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What sw.compare gives: prints what is different, is written as CSV and JSON.
+--- The result of sw.compare: prints the differences, writes CSV and JSON.
 -- @module softworld.check.comparison
 local cells = require "softworld.check.cells"
 local json = require "softworld.output.json"
@@ -80,13 +80,13 @@ end
 
 -- --- files -----------------------------------------------------------------------------------------
 
---- Rows as CSV; a cell is empty where there is no value.
+--- Writes the rows as CSV; a cell is empty if there is no value.
 function Comparison:csv(path)
   cells.check_path("comparison:csv", path, "a .csv")
   return cells.write_csv(path, columns, sealed.fields(self).rows)
 end
 
---- The comparison as JSON: a, b (label, verdict, reason), same, reason, rows.
+--- Writes the comparison as JSON: a, b (label, verdict, reason), same, reason, rows.
 function Comparison:json(path)
   cells.check_path("comparison:json", path, "a .json")
   local own = sealed.fields(self)
@@ -122,12 +122,12 @@ local function reason_of(list)
     + count["only in b"] == 0
 end
 
--- Of a run that failed there is one row, without a value.
+-- True for a failed run, which has one row without a value.
 local function has_no_numbers(side)
   return side.verdict == "FAIL" and #side.rows == 1 and side.rows[1].name == "run" and not side.rows[1].value
 end
 
---- A comparison of two sides { label =, verdict =, reason =, rows = } whose rows are compared in the list.
+--- Returns a comparison of two sides { label =, verdict =, reason =, rows = }; list: the compared rows.
 function comparison.new(a, b, list)
   local reason, same = reason_of(list)
   for _, side in ipairs{ a, b } do side.no_numbers = has_no_numbers(side) end

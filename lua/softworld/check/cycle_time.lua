@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Cycle time: how long the run was.
+--- Cycle time: the duration of the run.
 -- @module softworld.check.cycle_time
 return { name = "cycle_time", unit = "s", side = "max", on = "run", asked = true, label = "cycle time",
   missing = "allowed cycle time",

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Bend radius of the inside of the bend as the wire lies at the end, against what is allowed to a cable that
--- is laid once. That of the moving wire is min_bend_radius, by the run's own class of use.
+--- Bend radius at the inside of the bend at the end of the run, against the limit of a cable that is laid
+-- once. min_bend_radius checks the moving wire, by the run's own class of use.
 -- @module softworld.check.end_bend_radius
 local bendrule = require "softworld.wire.bendrule"
 local cable = require "softworld.cable"

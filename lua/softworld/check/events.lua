@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Events of a run of some kinds, counted.
+--- Counts events of some kinds in a run.
 -- @module softworld.check.events
 local checks = require "softworld.checks"
 
---- A function that counts events of these kinds (a text of words), with place and time of the first.
+--- Returns a function that counts events of these kinds (a text of words), with place and time of the first.
 return function(kinds)
   local wanted = checks.set(kinds)
   return function(_, context)

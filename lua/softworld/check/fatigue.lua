@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Fatigue: the share of its life that the wire loses, at the place where that is most. Cycles of tension and
--- of bending are counted there by rainflow and added up by Miner's rule, times repeats, with the S-N curves
--- that the script gives, else those of the cable, else those of its copper strands, whose spread is wide.
+--- Fatigue: the share of its life that the wire loses, at the place where it loses most. Cycles of tension
+-- and of bending are counted there by rainflow and summed by Miner's rule, times repeats, with the S-N curves
+-- of the script, else of the cable, else of its copper strands, whose spread is wide.
 --
--- With scene:run{ wear = true } they are those of every step. Bending is then that of the fibres all round
--- the wire: to and fro is one cycle of the whole range, and what rolls while bent is bent. Without it there
--- are the tensions of the stored frames, and no bending: curvature is stored without its sign.
+-- With scene:run{ wear = true } all steps count. Bending is then that of the fibres all round the wire:
+-- bending to and fro is one cycle of the whole range, and rolling a bent wire counts as bending. Without it
+-- only the tensions of the stored frames count, and no bending, because curvature is stored without its sign.
 -- @module softworld.check.fatigue
 local core = require "softworld.core"
 local rainflow = require "softworld.check.rainflow"
@@ -15,7 +15,8 @@ local worn = require "softworld.check.worn"
 
 local WAYS = 12 -- directions in which bending is counted [-]
 
--- Miner's sum over a flat list of range, mean, number; and the largest range. strength: Goodman's [N].
+-- Returns Miner's sum over a flat list of range, mean, number, and the largest range. strength: Goodman's
+-- [N].
 local function damage(cycles, curve, strength)
   local sum, most = 0, 0
   for i = 1, #cycles, 3 do
@@ -27,8 +28,8 @@ local function damage(cycles, curve, strength)
   return sum, most
 end
 
--- The largest sum over all directions: of the parabola through the logarithms of the largest and its
--- neighbours, which of bends in one plane is off by less than 1e-4.
+-- Returns the largest sum over all directions, by the parabola through the logarithms of the largest and its
+-- neighbours. For bends in one plane its error is below 1e-4.
 local function around(sums)
   local best = 1
   for k = 2, #sums do if sums[k] > sums[best] then best = k end end
@@ -39,9 +40,9 @@ local function around(sums)
   return b * math.exp((before - after) ^ 2 / (8 * (before + after)))
 end
 
--- Miner's sum of a run that is gone through so many times: of the first time as it is counted, half cycles
--- that wait too; of each further one what closes as the run is gone through again. Half cycles at its begin
--- count each time, which is on the safe side. open: its reversals that wait for their cycle.
+-- Returns Miner's sum for several repeats of a run. The first pass counts as it is, with its open half
+-- cycles. Each further pass counts what closes when the run is repeated. Half cycles at its start count each
+-- time, which is on the safe side. open: the reversals that wait for their cycle.
 local function repeated(cycles, open, given, curve, strength)
   local once, most = damage(cycles, curve, strength)
   if given.repeats <= 1 then return once * given.repeats, most end
@@ -51,7 +52,7 @@ local function repeated(cycles, open, given, curve, strength)
   return once + (given.repeats - 1) * (once - 2 * waiting + both), math.max(most, wider)
 end
 
--- Of one place: what tension takes and what bending takes, with their largest ranges.
+-- Returns the damage at one place by tension plus bending, and the largest range of each.
 local function of_place(object, k, given, strength)
   local pull, pull_range, bend, bend_range = 0, 0, 0, 0
   if given.curve then
@@ -86,7 +87,7 @@ local function of_steps(entry, given, places, strength)
   return best
 end
 
--- Tensions of each node over the frames, and their number; nil where a wire has not always the same nodes.
+-- Returns the tensions of each node over the frames, and their number; nil if the nodes of the wire changed.
 local function histories(context, entry)
   local list, places, nodes = {}, {}, nil
   local same = true
@@ -115,14 +116,15 @@ local function of_frames(entry, context, strength, given)
   return best
 end
 
--- Goodman's strength [N], nil where it is not wanted; false where it is and nobody knows it.
+-- Returns Goodman's strength [N]; nil if the rule is not used; false if it is used but the strength is not
+-- known.
 local function strength_of(entry, given)
   if given.mean ~= "goodman" then return nil end
   local load = tension.limit(entry)
   return given.strength or load and (load.low or load.value) or false
 end
 
--- The curves that hold for a wire: those of the script, else of its cable, else of its strands; or nil.
+-- Returns the S-N curves of a wire: of the script, else of its cable, else of its strands; or nil.
 local function curves_of(entry, given)
   if given.curve or given.bending then return given, given.source or "of the script" end
   local known = entry.object:cable()
@@ -130,7 +132,7 @@ local function curves_of(entry, given)
   if type(own) == "table" and (own.curve or own.bending) then return own, own.source end
 end
 
--- Curves with what else is given, as of_steps takes them.
+-- Returns curves with the other arguments, as of_steps takes them.
 local function with(curves, given)
   return { curve = curves.curve, bending = curves.bending, repeats = given.repeats }
 end
@@ -142,7 +144,7 @@ local function at_curves(entry, context, given, strength)
   return of_frames(entry, context, strength, given)
 end
 
--- How far the curves leave the sum open: by their factor, or by the curves of least and most damage.
+-- Adds the range of the sum: by the curves' factor, or by the curves of least and most damage.
 local function add_spread(best, entry, curves, given, strength)
   local places = worn.places(entry)
   if curves.high and places then

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How far the natural frequencies of a wire, where it lies at the end, are from bands of excitation: the
--- least share of a band's edge that is between, below 0 where one is in a band.
+--- Gap between the natural frequencies of a wire, as it lies at the end, and bands of excitation: the least
+-- distance over the band's edge, below 0 if a frequency is in a band.
 -- @module softworld.check.frequency_gap
 local swings = require "softworld.check.swings"
 
--- Of a frequency from a band, above 0 outside of it.
+-- Returns the gap of a frequency from a band, above 0 outside.
 local function apart(f, band)
   if f < band[1] then return (band[1] - f) / band[1] end
   if f > band[2] then return (f - band[2]) / band[2] end

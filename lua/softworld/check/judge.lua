@@ -1,22 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Verdicts: a value, known between low and high, against a limit, known between low and high.
--- PASS where the whole range of the value keeps the whole range of the limit, FAIL where none of it does,
--- OPEN between. A value that is exactly the limit is met.
+--- Verdicts on a value against a limit, each known between low and high.
+-- PASS if the whole range of the value keeps the whole range of the limit, FAIL if no part of it does or a
+-- number is NaN, else OPEN. A value exactly at the limit keeps it.
 -- @module softworld.check.judge
 local number = require "softworld.output.number"
 
 local judge = {}
 
-local FAR = 100       -- a limit so many times what limits of its kind are like is hardly meant [-]
-local THOUSAND = 500  -- a value so far from a limit may be in another unit, where nothing better is known [-]
+local FAR = 100       -- a limit this many times laxer than usual ones is probably not meant [-]
+local THOUSAND = 500  -- same against the value itself, if nothing better is known: its unit may be wrong [-]
 
--- Is a kept?  side: "max" or "min".
+-- True if a keeps the limit. side: "max" or "min".
 local function kept(a, limit, side)
   if side == "max" then return a <= limit end
   return a >= limit
 end
 
---- The verdict. value and limit: { value =, low =, high = }, low and high may be missing.
+--- Returns the verdict. value and limit: { value =, low =, high = }, low and high may be missing.
 function judge.verdict(value, limit, side)
   local low, high = value.low or value.value, value.high or value.value
   local least, most = limit.low or limit.value, limit.high or limit.value
@@ -29,13 +29,13 @@ function judge.verdict(value, limit, side)
   return kept(best, soft, side) and "OPEN" or "FAIL"
 end
 
---- How much is left up to the limit, below 0 where it is broken, in its unit.
+--- Returns the distance to the limit in its unit, below 0 if the limit is broken.
 function judge.margin(value, limit, side)
   if side == "max" then return limit.value - value.value end
   return value.value - limit.value
 end
 
--- How many times laxer a limit is than what is given; nil where that cannot be told.
+-- Returns how many times laxer a limit is than a reference; nil if that cannot be told.
 local function laxer(limit, than, side)
   if not than or than <= 0 or limit <= 0 or than == math.huge then return nil end
   return side == "max" and limit / than or side == "min" and than / limit
@@ -43,8 +43,8 @@ end
 
 local function times(x) return ("%.3g"):format(x >= 1 and x or 1 / x) end
 
---- What is odd about a limit of the user's: nil, or a text, and whether the row must not pass for that.
--- known: the limit that holds without the user's; reference: what limits of the kind are like; or nil.
+--- Returns what is odd about a limit of the user's, or nil; and whether the row must not pass because of it.
+-- known: the limit without the user's; reference: a usual limit of this kind; or nil.
 function judge.suspicion(value, limit, side, unit, known, reference)
   local usual = known and known.value or reference
   if usual and usual > 0 and side == "min" and limit.value <= 0 then

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Kinks: events of bends sharper than a wire bears.
+--- Kinks: events of bends sharper than the wire bears.
 -- @module softworld.check.kinks
 local count = require "softworld.check.events"
 

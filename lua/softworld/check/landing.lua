@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Landing error: the largest distance of the wire's middle line from a wanted path, at the end of the run.
--- Path and wire are lines of straight pieces; the wire's nodes are looked at.
+--- Landing error: the largest distance of the wire's centre line from a wanted path, at the end of the run.
+-- Path and wire are polylines; the distance is measured at the wire's nodes.
 -- @module softworld.check.landing
 local vec = require "softworld.vec"
 
 local SLACK = 1e-9 -- rounding of arc lengths [m]
 
--- Distance of a point from the piece between a and b.
+-- Returns the distance of a point from the piece between a and b.
 local function from_piece(p, a, b)
   local way, to = vec.sub(b, a), vec.sub(p, a)
   local long = vec.dot(way, way)

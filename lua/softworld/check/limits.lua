@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Limits that a script gives: limits = { max_tension = 80, ["left.peak_force"] = { max = 20,
+--- Reads the limits that a script gives: limits = { max_tension = 80, ["left.peak_force"] = { max = 20,
 -- source = "sheet" }, max_strain = false }. A number is a limit on the check's own side.
 -- @module softworld.check.limits
 local core = require "softworld.core"
@@ -16,7 +16,7 @@ limits.rows = rows.list{
   { "sure", "boolean", "-", "true: it is meant, however far from what is usual", usual = "false" },
 }
 
--- Every name that a limit may have, those without an object first.
+-- Returns every name that a limit may have, those without an object first.
 local function names_of(context)
   local names, known = {}, {}
   for _, member in ipairs(registry.list) do names[#names + 1] = member.name end
@@ -35,7 +35,7 @@ local function finite(what, value)
   end
 end
 
---- Raise where a table of min and max contradicts itself, or has what is no limit.
+--- Raises an error if a table of min and max contradicts itself, or a limit is not a finite number.
 function limits.consistent(what, given)
   for _, side in ipairs{ "min", "max" } do
     if given[side] then finite(("%s: %s"):format(what, side), given[side]) end
@@ -62,7 +62,7 @@ local function read(name, given)
   return own
 end
 
---- The checked table: name -> false or { value = } or { max =, min =, source =, sure = }.
+--- Returns the checked table: name -> false or { value = } or { max =, min =, source =, sure = }.
 function limits.read(given, context)
   if given == nil then return {} end
   if checks.kind(given) ~= "table" then
@@ -81,8 +81,8 @@ function limits.read(given, context)
   return list
 end
 
---- The limits of one check of one object, by side: { max = { value, from, source, sure }, min = }, false
--- where it is left out, nil where the script has none.
+--- Returns the limits of one check of one object, by side: { max = { value, from, source, sure }, min = };
+-- false if the check is left out; nil if the script gives none.
 function limits.of(list, member, entry)
   local given = entry.name and list[entry.name .. "." .. member.name]
   if given == nil then given = list[member.name] end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Mean force of a gripper, over the time in which it holds something.
+--- Mean force of a gripper over the time in which it holds something.
 -- @module softworld.check.mean_force
 return { name = "mean_force", unit = "N", side = "max", on = "gripper", asked = true, label = "mean force",
   missing = "rating of the gripper",

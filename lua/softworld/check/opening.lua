@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest opening of a gripper's pads in the run, against what the gripper can open.
+--- Largest opening of a gripper's pads in the run, against the gripper's largest possible opening.
 -- @module softworld.check.opening
 return { name = "opening", unit = "m", side = "max", on = "gripper", asked = true,
   label = "largest opening of the pads", missing = "stroke of the gripper",

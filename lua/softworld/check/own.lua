@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Checks of the script's own: checks = { { name =, unit =, of = function(run), max =, min = } }.
+--- The script's own checks: checks = { { name =, unit =, of = function(run), max =, min = } }.
 -- @module softworld.check.own
 local checks = require "softworld.checks"
 local limits = require "softworld.check.limits"
@@ -30,7 +30,7 @@ local function check_list(given)
   end
 end
 
---- The checked list of them. taken: names that others have.
+--- Returns their checked list. taken: names of other checks.
 function own.read(given, taken)
   local list, seen = {}, {}
   if given == nil then return list end
@@ -47,7 +47,7 @@ function own.read(given, taken)
   return list
 end
 
---- The value, or nil and why there is none.
+--- Returns the value, or nil and why there is none.
 function own.value(one, run)
   local fine, value, s, time = pcall(one.of, run)
   if not fine then

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Line load of pads on the wire: largest force of a finger at any step over the pads' width along the wire.
--- Ends of pads and wires that lie askew press harder at places; see gripper:pressure_map.
+--- Line load of pads on the wire: largest force of a finger in any step over the pads' width along the wire.
+-- Ends of pads and wires that lie askew press harder locally; see gripper:pressure_map.
 -- @module softworld.check.pad_load
 return { name = "pad_load", unit = "N/m", side = "max", on = "gripper", asked = true,
   label = "force of a finger over the pads' width", missing = "allowed line load",

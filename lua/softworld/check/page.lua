@@ -22,11 +22,11 @@ local call = rows.call("check:report", "path, {...}", "a page with rows, picture
   { "change", "what study:change gave", "-", "is shown below the rows", usual = "none" },
 })
 
--- Which column of the series a row's limit belongs to: its ending.
+-- Name of a check -> ending of the series column that shows its limit.
 local curves = { max_tension = "tension", min_bend_radius = "bend_radius", peak_force = "force",
   peak_moment = "moment" }
 
--- The curve of a row, and its limit there: bend radii of series are those of the centre line.
+-- Returns the curve of a row, and its limit there. Bend radii of series are those of the centre line.
 local function curve_of(row, run)
   local what = row.object and row.limit and curves[row.name:sub(#row.object + 2)]
   if not what or row.limit - row.limit ~= 0 then return nil end
@@ -42,7 +42,7 @@ local function curve_of(row, run)
   return { name = row.object .. "." .. what, limit = limit }
 end
 
--- Of numbers with their units, not of words that begin with u.
+-- Writes a micro sign in numbers with units, but not in words that begin with u.
 local function micro(text)
   return (text:gsub("(%d) u([mNsJWP]a?)%f[%A]", "%1 µ%2"))
 end
@@ -58,7 +58,7 @@ local function shown(row)
   return texts
 end
 
--- Steps of the processes within the run.
+-- Returns the steps of the processes within the run.
 local function steps_of(run)
   local list = {}
   for _, stage in ipairs(build.data(run.scene).stages or {}) do
@@ -69,7 +69,7 @@ local function steps_of(run)
   return list
 end
 
--- The lines of what study:change gave, but its first.
+-- Returns the lines of a result of study:change except the first.
 local function change_of(change)
   if change == nil then return nil end
   if checks.kind(change) ~= "change" then
@@ -93,7 +93,7 @@ local function data_of(own, run, o)
     steps = steps_of(run), change = change_of(o.change) }
 end
 
--- Without what was recorded after the run, by another one.
+-- Returns the series without what a later run has recorded.
 local function until_end(series, time)
   local count = #series.time
   while count > 0 and series.time[count] > time do count = count - 1 end

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Deepest penetration of all steps. Contact is a model of hard bodies: beyond a quarter of the thinnest
--- wire's radius its forces are not to be trusted. What there is of it is an error of the steps, which comes
--- and goes with each of them: its bar is as large as the depth itself, at least.
+--- Deepest penetration of all steps. Contact models hard bodies: beyond a quarter of the thinnest wire's
+-- radius its forces cannot be trusted. Penetration itself is an error of the steps and changes with each of
+-- them, so its bar is at least as large as the depth.
 -- @module softworld.check.penetration
 local build = require "softworld.scene.build"
 

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Rainflow count of a history of load, ASTM E1049-85, 5.4.4, and the damage of its cycles by Miner's sum.
+--- Rainflow count of a load history, ASTM E1049-85, 5.4.4, and the damage of its cycles by Miner's sum.
 -- @module softworld.check.rainflow
 local rainflow = {}
 
---- The reversals of a history: its first value, each where it turns, its last.
+--- Returns the reversals of a history: its first value, each turning point, its last value.
 function rainflow.reversals(history)
   local list = {}
   for _, x in ipairs(history) do
     local n = #list
     if n >= 2 and (list[n] - list[n - 1]) * (x - list[n]) >= 0 then
-      list[n] = x -- it goes on the same way
+      list[n] = x -- same direction
     elseif n == 0 or x ~= list[n] then
       list[n + 1] = x
     end
@@ -17,7 +17,7 @@ function rainflow.reversals(history)
   return list
 end
 
---- Cycles { range =, mean =, count = 1 or 0.5 } in the order of being counted.
+--- Returns the cycles { range =, mean =, count = 1 or 0.5 } in the order of counting.
 function rainflow.count(history)
   local cycles, open = {}, {}
   for _, x in ipairs(rainflow.reversals(history)) do
@@ -43,7 +43,7 @@ function rainflow.count(history)
   return cycles
 end
 
---- The same as one list of range, mean, count.
+--- Returns them as one list of range, mean, count.
 function rainflow.flat(history)
   local list = {}
   for _, c in ipairs(rainflow.count(history)) do
@@ -52,8 +52,8 @@ function rainflow.flat(history)
   return list
 end
 
---- Cycles that a range may be repeated for: straight lines through the curve's points { range, cycles } in
--- logarithms, the outer ones going on; no range is endured for ever.
+--- Returns the number of cycles that a range is endured: straight lines through the curve's points { range,
+-- cycles } in logarithms, the outer ones extended. There is no endurance limit.
 function rainflow.life(curve, range)
   local i = 1
   while i + 2 <= #curve and range > curve[i + 1][1] do i = i + 1 end
@@ -62,7 +62,7 @@ function rainflow.life(curve, range)
   return a[2] * (range / a[1]) ^ slope
 end
 
---- Miner's sum of a history: the share of its life that it takes. Returns that and the largest range.
+--- Returns Miner's sum of a history, the share of life it uses, and the largest range.
 function rainflow.damage(history, curve)
   local sum, most = 0, 0
   for _, cycle in ipairs(rainflow.count(history)) do

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What run:check looks at, in the order of its rows: one file per check, one line here.
+--- The checks of run:check, in the order of its rows: one file per check, one line here.
 --
 -- A member: { name =, unit =, side = "min" or "max", label =, on = "wire", "gripper", "clip", "tie" or "run",
--- asked =, missing =, value =, limit =, reference =, wanted = }. asked: only where the script gives a limit,
--- or wanted(context) says so. missing: which value is wanted where nobody knows a limit. Functions take the
--- object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
---   value: { value =, s = [m], time = [s], note =, low =, high = }, low and high where the value is known to
---     lie between these; nil where there is nothing to judge
+-- asked =, missing =, value =, limit =, reference =, wanted = }. asked: judged only if the script gives a
+-- limit, or wanted(context) is true. missing: name of the missing value if no limit is known. Functions take
+-- the object's entry { name =, object = } and the context { run =, scene =, use =, ... }:
+--   value: { value =, s = [m], time = [s], note =, low =, high = }; low and high bound the value if it is
+--     not known exactly; nil if there is nothing to judge
 --   limit: { value =, low =, high =, from = "catalogue", "standard" or "definition", source = }, or nil
---   reference: what a limit of this kind is like, to tell one of other units
+--   reference: a usual limit of this kind, to detect limits in other units
 -- @module softworld.check.registry
 local registry = {}
 

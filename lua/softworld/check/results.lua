@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The rows of a check as results of a study's evaluation, numbers by name: of the row "cable.max_tension"
+--- The rows of a check as results of a study's evaluation, numbers by name: the row "cable.max_tension" gives
 -- cable_max_tension (value), cable_max_tension_margin, cable_max_tension_error (half of the range in which
--- the value is known to lie, where that is known) and cable_max_tension_verdict (PASS 1, OPEN 0, FAIL -1).
+-- the value is known to lie, if known) and cable_max_tension_verdict (PASS 1, OPEN 0, FAIL -1).
 -- @module softworld.check.results
 local core = require "softworld.core"
 local sealed = require "softworld.sealed"
 
 local results = {}
 
-local LONGEST = 48 -- of a name without its ending [characters]
+local LONGEST = 48 -- longest name without its ending [characters]
 
---- Numbers that stand for verdicts.
+--- Numbers for verdicts.
 results.verdicts = { PASS = 1.0, OPEN = 0.0, FAIL = -1.0 }
 
--- What a row is called as a result.
+-- Returns the name of a row as a result.
 local function word_of(row)
   local word = row.name:gsub("[^%w_]", "_")
   if not word:find "^%a" then word = "row_" .. word end
@@ -23,7 +23,7 @@ local function word_of(row)
   return word
 end
 
--- Is one of the names that stand for a row taken already?
+-- True if one of the names for a row is taken already.
 local function is_taken(word, taken)
   for _, ending in ipairs{ "", "_margin", "_error", "_verdict" } do
     if taken[word .. ending] then return true end
@@ -31,7 +31,7 @@ local function is_taken(word, taken)
   return false
 end
 
---- The rows with their words: a list of { key =, row = }. taken: names of the study's parameters.
+--- Returns the rows with their names: a list of { key =, row = }. taken: names of the study's parameters.
 function results.keys(check, taken)
   local list, seen = {}, {}
   for name in pairs(taken) do seen[name] = true end
@@ -51,8 +51,8 @@ end
 
 local function is_finite(x) return type(x) == "number" and x - x == 0 end
 
---- A check as a table of numbers; nil and the reason where its run failed. Values that are not finite are not
--- in it, but their verdict is.
+--- Returns a check as a table of numbers; nil and the reason if its run failed. Values that are not finite
+-- are left out, but not their verdicts.
 function results.of(check, taken)
   local own = sealed.fields(check)
   if own.no_numbers then return nil, own.reason end

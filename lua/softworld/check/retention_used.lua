@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest pull on a wire in a clip so far, over what the clip holds; also of one that came out in the run.
+--- Largest pull on a wire in a clip so far, over the clip's retention; also for a wire that came out in the
+-- run.
 -- @module softworld.check.retention_used
 return { name = "retention_used", unit = "-", side = "max", on = "clip",
   label = "largest pull out of the clip, of what it holds", missing = "allowed share of the retention",

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Is there a wire in the clip's seat at the end of the run? 1 where there is.
+--- Whether a wire is in the clip's seat at the end of the run: 1 if so.
 -- @module softworld.check.seated
 return { name = "seated", unit = "-", side = "min", on = "clip", label = "wire in the seat at the end",
   missing = "wanted state",

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Sidewall pressure of a wire that is drawn round something: tension over the radius of the bend, T/R, where
--- it touches [N/m]. With scene:run{ wear = true } the largest mean over the run's window; else frames give
--- the largest that is stored, and the largest tension and the sharpest bend of each step, which may be at two
--- places, are a bound for what passes between them.
+--- Sidewall pressure of a wire drawn round something: tension over the bend radius, T/R, where it touches
+-- [N/m]. With scene:run{ wear = true } it is the largest mean over the run's window. Otherwise it is the
+-- largest stored in frames; the largest tension times the sharpest bend of each step, which may be at two
+-- places, is an upper bound for the time between frames.
 -- @module softworld.check.sidewall
 local bendrule = require "softworld.wire.bendrule"
 local build = require "softworld.scene.build"
@@ -10,7 +10,7 @@ local core = require "softworld.core"
 local stored = require "softworld.check.stored"
 local tension = require "softworld.check.tension"
 
--- Largest product of both over the steps of the run [N/m].
+-- Returns the largest product of both over the steps of the run [N/m].
 local function bound(entry, start)
   local rows, count = entry.object:log(start)
   local most = 0
@@ -20,8 +20,8 @@ local function bound(entry, start)
   return most
 end
 
--- T/R at a node that touches. Chords on a round thing turn by turns too much and too little: where the next
--- node touches too, the mean of both counts.
+-- Returns T/R at a node that touches. On a round body, chords turn alternately too much and too little; if
+-- the next node touches too, the mean of both counts.
 local function pressure(values, k)
   local T, bent, touches = values.tension, values.curvature, values.contact
   if touches[k] <= 0 then return 0 end

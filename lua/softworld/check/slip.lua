@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Slip margin of pads: friction over what the normal forces allow while they hold, as a mean over the
--- window of peaks; 1: it slips.
+-- window of peaks; 1 means slip.
 -- @module softworld.check.slip
-local SLIPS = 1 - 1e-9 -- a wire that slides has 1 but for rounding [-]
+local SLIPS = 1 - 1e-9 -- a sliding wire has 1 within rounding [-]
 
 return { name = "peak_margin", unit = "-", side = "max", on = "gripper",
   label = "friction used, of what the pads allow", missing = "allowed share of the friction",

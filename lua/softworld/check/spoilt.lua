@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Events after which the forces of a run are wrong, or a wire is lost: crashes, holds driven against
--- everything, sections folded through themselves, tubes pressed flat, wires pulled beyond their load or out
--- of their pads, or crushed there, ties and clips that broke or are beyond what they describe.
+-- anything, sections folded through themselves, tubes pressed flat, wires pulled beyond their load or out
+-- of their pads, or crushed there, ties and clips that broke or left the range of their model.
 -- @module softworld.check.spoilt
 local count = require "softworld.check.events"
 

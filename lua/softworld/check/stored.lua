@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Values of a wire at its nodes, of the stored frames. What passes between two of them is not there: whoever
--- judges by them says so.
+--- Reads values at a wire's nodes from the stored frames. Values between two frames are missing; a check that
+-- uses them says so.
 -- @module softworld.check.stored
 local build = require "softworld.scene.build"
 
 local stored = {}
 
--- Arc lengths of the nodes, in equal parts of the wire as it is; nil where the mesh is uneven.
+-- Returns the arc length of node k, with equal edges.
 local function place(wire, k, count) return count > 1 and wire.length * (k - 1) / (count - 1) or 0 end
 
---- Call look(values, k, time, s) at every node k of every frame of the run. Returns how many frames of steps
--- there are, without that of its begin; nil where they cannot be told apart: wires were taken away.
+--- Calls look(values, k, time, s) at every node k of every frame of the run. Returns the number of frames
+-- without the one at its start; nil if wires were removed, because frames cannot tell wires apart then.
 function stored.each(context, entry, look)
   local scene, run = context.scene, context.run
   if #(build.data(scene).gone or {}) > 0 then return nil end
@@ -26,7 +26,7 @@ function stored.each(context, entry, look)
   return count
 end
 
---- Do the frames have every step?
+--- True if the frames contain every step.
 function stored.whole(context, count) return count ~= nil and count >= context.run.steps end
 
 return stored

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest strain of the outermost fibres of all steps, from tension and bending, of a solid wire.
+--- Largest strain of the outermost fibres in all steps, from tension and bending, of a solid wire.
 -- @module softworld.check.strain
 return { name = "max_strain", unit = "-", side = "max", on = "wire", asked = true,
   label = "largest strain of the outermost fibres, of a solid wire", missing = "allowed strain",

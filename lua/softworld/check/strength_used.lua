@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest pull of a tie in a single step over its strength; also of one that broke in the run.
+--- Largest pull of a tie in a single step over its strength; also for one that broke in the run.
 -- @module softworld.check.strength_used
 return { name = "strength_used", unit = "-", side = "max", on = "tie",
   label = "largest pull of the tie, of its strength", missing = "allowed share of the strength",

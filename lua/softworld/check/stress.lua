@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Largest stress of the outermost fibres of all steps, from tension and bending, of a solid wire.
+--- Largest stress of the outermost fibres in all steps, from tension and bending, of a solid wire.
 -- @module softworld.check.stress
 return { name = "max_stress", unit = "Pa", side = "max", on = "wire", asked = true,
   label = "largest stress of the outermost fibres, of a solid wire", missing = "allowed stress",

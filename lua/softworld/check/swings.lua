@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Natural frequencies of a wire where it lies at the end of the run, for checks of vibration.
+--- Natural frequencies of a wire as it lies at the end of the run, for checks of vibration.
 -- @module softworld.check.swings
-local MOST = 200 -- modes that are asked for at most [-]
+local MOST = 200 -- most modes asked for [-]
 local FIRST = 12
--- A check comes before scene:settle, which begins the peaks anew.
+-- A check must come before scene:settle, which starts new peaks.
 local ADVICE = "let the run go on until the wire rests, or give vibration = { tolerance = }"
 
 local swings = {}
 
--- As many as there are, if these are fewer than wanted.
+-- Returns the first count modes, or all if there are fewer.
 local function ask(wire, count, args)
   local fine, found = pcall(wire.frequencies, wire, { modes = count, shapes = args.shapes,
     tolerance = args.tolerance })
@@ -20,8 +20,8 @@ local function ask(wire, count, args)
   return wire:frequencies{ modes = free, shapes = args.shapes, tolerance = args.tolerance }, free, true
 end
 
---- Frequencies of the wire up to one, or args.modes of them; args as of wire:frequencies. Returns them, and
--- whether they are all that is asked for.
+--- Returns the frequencies of the wire up to `highest`, or args.modes of them, and whether these are all that
+-- is asked for. args as of wire:frequencies.
 function swings.up_to(wire, highest, args)
   local count = args.modes or FIRST
   while true do

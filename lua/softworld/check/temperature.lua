@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Temperatures that a wire is exposed to, in the zones that it enters at any step, against the class of its
--- cable. A wire has the temperature of a zone at once: how long it takes to warm up is not reckoned with.
+--- Temperatures to which a wire is exposed in the zones it enters in any step, against the class of its
+-- cable. A wire takes the temperature of a zone at once; the time to warm up is neglected.
 -- @module softworld.check.temperature
 local core = require "softworld.core"
 
 local worse = { max = function(a, b) return a > b end, min = function(a, b) return a < b end }
 
--- The worst temperature of the zones that the wire entered, and of those that it may have entered.
+-- Returns the worst temperature of the zones that the wire entered, and of those it may have entered.
 local function exposed(entry, side)
   local best
   for _, zone in ipairs(core.zones(entry.object)) do
@@ -28,7 +28,7 @@ local function exposed(entry, side)
   return best
 end
 
---- The check of one side: "max" or "min".
+--- Returns the check of one side: "max" or "min".
 return function(side)
   local class = side == "max" and "high" or "low"
   return { name = side .. "_temperature", unit = "degC", side = side, on = "wire",

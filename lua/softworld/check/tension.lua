@@ -5,9 +5,9 @@
 local core = require "softworld.core"
 local window = require "softworld.run.window"
 
-local YIELD = 0.01 -- strain that no pull of handling reaches [-]
+local YIELD = 0.01 -- strain that no pull in handling reaches [-]
 
--- The wire's own load, or that of its cable with its spread.
+-- Returns the wire's own load, or that of its cable with its spread.
 local function limit(entry)
   local own, known = core.data(entry.object).breaking, entry.object:cable()
   local load = known and known.breaking_load

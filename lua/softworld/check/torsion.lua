@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Torsion per metre, M_t / GJ: the largest of all steps. Of a mesh of particles that of the stored frames;
--- nothing is kept of the steps between them, so a run that is to pass needs a frame of each.
+--- Torsion per metre, M_t / GJ: the largest of all steps. For a mesh of particles, the largest of the stored
+-- frames; nothing is known of the steps between, so a run can pass only with a frame of each step.
 -- @module softworld.check.torsion
 local stored = require "softworld.check.stored"
 local worn = require "softworld.check.worn"

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Amplitude of a wire whose holds all shake at random with a spectrum of acceleration W(f): three times the
--- standard deviation against them, at the node where that is most, of Miles' response of each mode,
---     sigma^2 = W(f) / (2 damping) / (32 pi^3 f^3)  (its displacement for a participation of 1),
--- times shape and participation, squares added up over the modes.
+-- standard deviation relative to the holds, at the node where it is largest, by Miles' response of each mode,
+--     sigma^2 = W(f) / (2 damping) / (32 pi^3 f^3)  (displacement for a participation of 1),
+-- times shape and participation, with squares summed over the modes.
 -- @module softworld.check.vibration_amplitude
 local swings = require "softworld.check.swings"
 local vec = require "softworld.vec"
 
-local SIGMAS = 3 -- that a peak is taken as [-]
+local SIGMAS = 3 -- a peak in standard deviations [-]
 
--- The spectrum at f: straight lines in logarithms, nothing beyond its ends.
+-- Returns the spectrum at f: straight lines in logarithms, 0 beyond its ends.
 local function spectrum_at(points, f)
   for i = 1, #points - 1 do
     local a, b = points[i], points[i + 1]
@@ -20,7 +20,7 @@ local function spectrum_at(points, f)
   return 0
 end
 
--- Mass of each node [kg].
+-- Returns the mass of each node [kg].
 local function masses(wire)
   local _, s = wire:positions()
   local list, per_length = {}, wire.beam.mass_per_length
@@ -30,7 +30,7 @@ local function masses(wire)
   return list, s
 end
 
--- Participation of a mode by direction: shape times mass [sqrt(kg)].
+-- Returns the participation of a mode by direction: shape times mass [sqrt(kg)].
 local function participation(shape, mass)
   local sum = { 0, 0, 0 }
   for i = 1, #mass do
@@ -39,7 +39,7 @@ local function participation(shape, mass)
   return sum
 end
 
--- Variances of the nodes' displacement [m2].
+-- Returns the variances of the nodes' displacement [m2].
 local function variances(found, given, mass)
   local sums = {}
   for i = 1, #mass do sums[i] = 0 end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What scripts give to run:check besides limits: tables of parameters, and what is wrong with them.
+--- Reads the arguments of run:check except limits: tables of parameters, and errors in them.
 -- @module softworld.check.wanted
 local cable = require "softworld.cable"
 local checks = require "softworld.checks"
@@ -68,7 +68,7 @@ function read.fatigue(given)
   end
 end
 
--- A pair of numbers.
+-- Returns a pair of numbers.
 local function pair(what, point, units)
   if type(point) ~= "table" then
     error(("%s must be a pair of numbers, got %s"):format(what, checks.got(point)), 0)
@@ -129,7 +129,7 @@ function read.landing(given)
   end
 end
 
---- Raise where one of these tables of run:check's arguments makes no sense; what they hold becomes copies.
+--- Raises an error for a wrong table in run:check's arguments; replaces the contents by copies.
 function wanted.read(args)
   for name, one in pairs(read) do
     if args[name] then one(args[name]) end

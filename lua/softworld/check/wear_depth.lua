@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Depth that is worn off a wire, by Archard's law.
+--- Depth worn off a wire, by Archard's law.
 -- @module softworld.check.wear_depth
 local abrasion = require "softworld.check.abrasion"
 

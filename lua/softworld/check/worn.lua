@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a run kept of the wear of a wire: scene:run{ wear = true }.
+--- Reads what a run recorded of a wire's wear: scene:run{ wear = true }.
 -- @module softworld.check.worn
 local core = require "softworld.core"
 
 local worn = { HOW = "scene:run{ wear = true } keeps it of every step" }
 
---- The places of a wire { { s =, rubbed =, slid =, side = }, ... }; nil where nothing was kept.
+--- Returns the places of a wire { { s =, rubbed =, slid =, side = }, ... }; nil if nothing was recorded.
 function worn.places(entry) return core.worn(entry.object) end
 
---- A row's value where nothing was kept: it is not known.
+--- Returns a row's unknown value, for a run that recorded nothing.
 function worn.missing()
   return { value = 0, low = 0, high = math.huge, note = "it was not kept: " .. worn.HOW }
 end
 
---- Mark a value as the least that it may be, and say why.
+--- Marks a value as a lower bound, with the reason.
 function worn.at_least(value, why)
   value.low, value.high = value.low or value.value, math.huge
   value.note = value.note and value.note .. "; " .. why or why

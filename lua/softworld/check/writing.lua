@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What run:check gives: prints as a table, is written as CSV, JSON, JUnit XML and a page, with the same
+--- The result of run:check: prints as a table, writes CSV, JSON, JUnit XML and a page, all with the same
 -- numbers.
 -- @module softworld.check.writing
 local cells = require "softworld.check.cells"
@@ -15,7 +15,7 @@ local sink = require "softworld.output.sink"
 local writing = {}
 local Check = { __name = "check" }
 
--- Columns of files, in their order; numbers are in the row's unit, s in m, time in s.
+-- Columns of files, in order; numbers are in the row's unit, s in m, time in s.
 writing.columns = { "verdict", "name", "object", "what", "value", "error", "low", "high", "unit", "side",
   "limit", "limit_low", "limit_high", "from", "source", "margin", "s", "time", "step", "note" }
 
@@ -37,7 +37,7 @@ local function line_of(row)
     cells.plain(table.concat(place, ", ")), note = row.note }
 end
 
--- Does any row tell how far edges and steps let its value be off?
+-- True if any row has an error bar of edges and steps.
 local function has_bars(list)
   for _, row in ipairs(list) do
     if row.error then return true end
@@ -63,13 +63,13 @@ end
 
 -- --- files ---------------------------------------------------------------------------------------------
 
---- Rows as CSV; a cell is empty where there is no value.
+--- Writes the rows as CSV; a cell is empty if there is no value.
 function Check:csv(path)
   cells.check_path("check:csv", path, "a .csv")
   return cells.write_csv(path, columns, sealed.fields(self).rows)
 end
 
---- The check as JSON: name, verdict, reason, start, time, use, version, skipped, rows.
+--- Writes the check as JSON: name, verdict, reason, start, time, use, version, skipped, rows.
 function Check:json(path)
   cells.check_path("check:json", path, "a .json")
   local own = sealed.fields(self)
@@ -101,7 +101,7 @@ local function write_case(write, suite, row)
   write "  </testcase>\n"
 end
 
---- JUnit XML: a case for each row, which fails where it is FAIL and has an error where it is OPEN.
+--- Writes JUnit XML: a case for each row, with a failure for FAIL and an error for OPEN.
 function Check:junit(path)
   cells.check_path("check:junit", path, "an .xml")
   local own, count = sealed.fields(self), { FAIL = 0, OPEN = 0, PASS = 0 }
@@ -117,7 +117,7 @@ end
 
 -- --- the object ----------------------------------------------------------------------------------------
 
---- The first row of that name, also without its object.
+--- Returns the first row of this name, also without its object.
 function Check:row(name)
   local names = {}
   for _, row in ipairs(sealed.fields(self).rows) do
@@ -134,7 +134,7 @@ rows.later(Check, "softworld.check.page", "report")
 methods.found("check", Check,
   { "verdict", "ok", "reason", "rows", "skipped", "name", "start", "time" }, "use")
 
---- A check of these fields.
+--- Returns a check with these fields.
 function writing.new(own) return sealed.new(Check, own) end
 
 return writing

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- In which way a gripper takes hold, and which words go with each.
+--- Chooses how a gripper takes hold, and checks which parameters go with each way.
 -- @module softworld.grip.approach
 local build = require "softworld.scene.build"
 
@@ -9,7 +9,7 @@ local pad_words = { "force", "distance", "speed" }
 local mesh_words = { "region", "model", "section", "spacing", "particles", "layers", "across",
   "margin", "freeze" }
 
---- Raise where words are given that do not go with an approach.
+--- Raises an error if parameters are given that do not go with an approach.
 function approach.check(self, way, args)
   local function refuse(words, wanted)
     for _, word in ipairs(words) do
@@ -22,7 +22,7 @@ function approach.check(self, way, args)
   if way ~= "mixed" then refuse(mesh_words, "'mixed'") end
 end
 
---- How it is to take hold; a run that chooses its model chooses that too, where the script leaves it open.
+--- Returns the approach. If the script leaves it open, a run that chooses its model chooses the approach too.
 function approach.of(self, wires, args)
   local auto = build.data(self.scene).auto
   local open = args.approach == "auto" or args.approach == nil and auto and args.force

@@ -18,14 +18,14 @@ local vec = require "softworld.vec"
 local grasp = { methods = jaws.methods }
 local Methods = grasp.methods
 
--- Raise while it moves: wires and things that it holds besides could not go with it.
+-- Raises an error while the gripper moves: another wire could not join the move.
 local function check_rest(self, what)
   if (self.busy_until or -math.huge) > self.scene.time * (1 + 1e-12) + 1e-12 then
     error(("gripper '%s' moves until t = %g s; %s after that"):format(self.name, self.busy_until, what), 0)
   end
 end
 
--- One with the wire at s (nil: at the place nearest to the tool).
+-- Holds the wire rigidly at s (nil: at the place nearest to the tool).
 local function impose(self, wire, s)
   if s == nil then
     local at = (#self.grips > 0 or self.carrier or self.at) and self:position()
@@ -55,7 +55,7 @@ local function impose(self, wire, s)
   self.grips, self.hold, self.wire = grips, self.hold or hold, self.wire or wire
 end
 
--- Let go of one; the others stay.
+-- Lets go of one wire; the others stay.
 local function drop(self, wire)
   local left = {}
   for _, grip in ipairs(self.grips) do
@@ -75,7 +75,7 @@ end
 
 grasp.drop = drop
 
--- All of the wires or none more than before.
+-- Takes all of the wires, or raises an error and takes none.
 local function grasp_imposed(self, wires, args)
   if self.tool then
     error(("gripper '%s' has pads; it grasps by 'plates' or 'mixed'"):format(self.name), 3)
@@ -93,7 +93,7 @@ local function grasp_imposed(self, wires, args)
   end
 end
 
--- The thickest, which must go between the pads, comes first.
+-- Returns the wires with the thickest first; it must fit between the pads.
 local function by_thickness(wires)
   local list = table.move(wires, 1, #wires, 1, {})
   table.sort(list, function(a, b) return a.radius > b.radius end)
@@ -118,7 +118,7 @@ local function grasp_by_pads(self, wires, args)
   local order = jaws.order(self, args, "gripper:grasp")
   local nearest = s or stand.nearest_place(wire, self.tool and self.tool:pose() or self:position())
   local is_mesh = wire.model ~= "rod" and wire.model ~= "string" -- its section is not quite round
-  if is_mesh then wire:width(nearest, { 0, 1, 0 }) end -- refused where it is a line: before pads are made
+  if is_mesh then wire:width(nearest, { 0, 1, 0 }) end -- raises if it is a line there: before pads are made
   stand.place_tool(self, wire, s, 4)
   self.wire, self.grips, self.s = wire, {}, nearest
   for i, one in ipairs(wires) do self.grips[i] = { wire = one } end
@@ -162,7 +162,7 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
   { "layers", "mesh", "-", "of mixed, as of wire:remodel" },
   { "across", "mesh", "-", "of mixed, as of wire:remodel" },
 })
--- The wire or list of wires as a list.
+-- Returns the wire or list of wires as a list.
 local function wires_of(self, given)
   local list = type(given) == "table" and given or { given }
   if #list == 0 then
@@ -185,7 +185,7 @@ local function wires_of(self, given)
   return seen
 end
 
--- May the gripper hold these wires besides those that it holds?
+-- Raises an error if the gripper cannot hold these wires in addition to those it holds.
 local function check_free(self, wires, approach, args)
   if type(args.s) == "table" and #args.s ~= #wires then
     error(("gripper '%s': s has %d places for %d wires"):format(self.name, #args.s, #wires), 0)
@@ -207,9 +207,9 @@ local function check_free(self, wires, approach, args)
   end
 end
 
---- Take hold of a wire, see help "gripper:grasp". A list of wires, with one s or a list of them, is taken at
--- once; an imposed grip also takes one wire after another. In a process it returns when the wire is held;
--- elsewhere jaws begin to close.
+--- Takes hold of a wire, see help "gripper:grasp". A list of wires, with one s or a list of them, is taken at
+-- once; an imposed grip can also take one wire after another. In a process the call returns when the wire is
+-- held; elsewhere the jaws start to close.
 function Methods:grasp(wire, args)
   if args == nil then args = {} end
   if type(self) ~= "table" or not self.pads then error("gripper:grasp: call it with a colon", 2) end
@@ -251,7 +251,7 @@ local let_go = rows.call("gripper:release", "{...}", "lets go", {
   { "speed", "number", "m/s", "of the opening", min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED },
 })
 
---- Let go; see gripper:release.
+--- Lets go; see gripper:release.
 function grasp.release(self, args)
   args = let_go:read(args or {})
   local one = args.wire

@@ -1,9 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Do the pads press on the wire that was to be grasped, or on another one?
+--- Checks whether the pads press on the wire that was to be grasped, or on another one.
 -- @module softworld.grip.grasped
 local grasped = {}
 
--- Normal forces on each wire [N per finger], and the names of those that were not meant, the largest first.
+-- Returns the normal force on each wire [N per finger], and the names of unintended wires, the largest force
+-- first.
 local function pressed(self)
   local on, others, fingers, count, meant = {}, {}, {}, 0, { [self.wire.name] = true }
   for _, grip in ipairs(self.grips) do meant[grip.wire.name] = true end
@@ -21,8 +22,8 @@ local function pressed(self)
   return on, others
 end
 
---- Once the pads press: nil when all is well; else the trouble as a text, and true when the wire that was
--- meant is not between the pads at all. An event of the run tells it.
+--- Called once the pads press. Returns nil if only the intended wires are between the pads; else the trouble
+-- as a text, and true if the intended wire is not there at all. The run logs an event about it.
 function grasped.check(self)
   if not self.wire then return nil end
   local on, others = pressed(self)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Grippers. Three ways to take hold of a wire: "imposed", where the wire between the pads is one
--- with the gripper and follows its trajectory; "plates", where rigid pads squeeze it and carry it
--- by friction; "mixed", which squeezes it for real and then carries it as imposed.
+--- Grippers. Three ways to take hold of a wire: "imposed" fixes the wire between the pads rigidly to
+-- the gripper, so that it follows the gripper's trajectory; "plates" squeezes it between rigid pads
+-- and carries it by friction; "mixed" squeezes it with pads and then carries it as imposed.
 --
 --     local left = scene:gripper{ name = "left", pads = { width = 0.02, friction = 0.6 } }
 --     scene:process(function(p)
@@ -40,7 +40,7 @@ for _, part in ipairs{ grasp, measures, gripmoves } do
   for name, f in pairs(part.methods) do Gripper[name] = f end
 end
 
--- Are there real pads, or just how wide an imposed grip is?
+-- True if there are real pads; with only `width` given, the grip is imposed.
 local function has_pads(given)
   for key in pairs(given or {}) do
     if key ~= "width" then return true end
@@ -61,7 +61,7 @@ local new = rows.call("scene:gripper", "{...}", "takes hold of wires, moves them
     choices = reactions.words, usual = "record" },
 })
 
--- What a gripper keeps that a snapshot does not know.
+-- Fields that a gripper keeps if a restored snapshot does not contain it.
 local lasting = { scene = true, name = true, pads = true, width = true, arm = true, first_at = true,
   solid = true, slip_tolerance = true }
 
@@ -76,10 +76,10 @@ local function make(scene, args)
   remarks.on("pads", ("gripper '%s': pads"):format(self.name), a.pads or {})
   self.at, self.rotation, self.arm, self.on_crash = a.at, a.rotation, a.arm or false, a.on_crash
   self.slip_tolerance = a.slip_tolerance
-  self.past, self.spans = {}, {} -- clamps of all grasps, and { from =, to = [s] } of each
+  self.past, self.spans = {}, {} -- holds of all grasps, and { from =, to = [s] } of each
   self.grips = {} -- what is held: { wire =, hold = }
   self.first_at = a.at or false
-  self.solid = a.arm ~= nil or a.on_crash ~= nil or has_pads(args and args.pads) -- also while empty
+  self.solid = a.arm ~= nil or a.on_crash ~= nil or has_pads(args and args.pads) -- even while empty
   self.events = {} -- what happened: { kind =, time =, s =, ... }
   data.grippers[#data.grippers + 1] = self
   return self
@@ -91,7 +91,7 @@ function core.class.scene.gripper(scene, args)
   return (build.call(3, make, scene, args))
 end
 
---- A snapshot from before it was made is restored.
+--- Resets the gripper, for a restored snapshot from before it was made.
 function Gripper:leave()
   local own = sealed.fields(self)
   for key in pairs(own) do
@@ -100,7 +100,7 @@ function Gripper:leave()
   own.grips, own.past, own.spans, own.events, own.gone = {}, {}, {}, {}, true
 end
 
--- Raise unless the gripper can be moved. Makes nothing yet, for the arguments may be wrong.
+-- Raises an error unless the gripper can be moved. Makes nothing yet, because the arguments may be wrong.
 local function check_place(self, verb)
   if getmetatable(self) ~= Gripper then
     error(("gripper:%s is a method: call it with a colon"):format(verb), 3)
@@ -112,13 +112,13 @@ local function check_place(self, verb)
     .. "you make it: at = {x, y, z} [m]"):format(self.name, verb), 3)
 end
 
--- The thing that moves: tool or hold; nil when there is none yet.
+-- Returns the moving object: tool or hold; nil if there is none yet.
 local function moved(self)
   if self.hold and not self.tool then return self.carrier or self.hold end
   return self.tool or self.carrier
 end
 
--- The thing that moves; a new tool at the gripper's place when there is none yet.
+-- Returns the moving object; makes a tool at the gripper's place if there is none yet.
 local function make_moved(self)
   if moved(self) then return moved(self) end
   if self.solid then stand.make_tool(self, 4) else build.call(4, stand.make_carrier, self) end
@@ -133,7 +133,7 @@ end
 
 local move_keys = { path = true, points = true, to = true, by = true, rotation = true, scale = true }
 
--- The trajectory's table for a move from the present pose.
+-- Returns the trajectory's table for a move from the present pose.
 local function move_table(self, args)
   local t = {}
   for k, v in pairs(args) do
@@ -160,14 +160,14 @@ local function move_table(self, args)
     local numbers = type(x) == "number" and type(y) == "number" and type(z) == "number"
     local gap = numbers and ((x - here[1]) ^ 2 + (y - here[2]) ^ 2 + (z - here[3]) ^ 2) ^ 0.5 or 0
     if gap > 1e-9 and not (first.t or t.times) then
-      points = table.move(points, 1, #points, 2, { here }) -- the caller's stays as it is
+      points = table.move(points, 1, #points, 2, { here }) -- a copy: the caller's table stays as it is
     end
   end
   t.points = points
   return t
 end
 
--- The trajectory of a move; errors name the move.
+-- Returns the trajectory of a move; errors name the move.
 local function motion_of(args)
   local fine, result = pcall(core.trajectory, args)
   if fine then return result end
@@ -188,7 +188,7 @@ local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it
   reactions.on_slip_row,
 })
 
---- Move the tool, see help "gripper:move".
+--- Moves the tool, see help "gripper:move".
 function Gripper:move(args)
   check_place(self, "move")
   args = move:read(args)
@@ -224,7 +224,7 @@ local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its ce
   { "on_slip", "reaction", "-", "as of gripper:move", choices = reactions.words },
 })
 
---- Turn the tool, see help "gripper:rotate".
+--- Turns the tool, see help "gripper:rotate".
 function Gripper:rotate(args)
   rotate:read(args)
   local t = {}
@@ -233,7 +233,7 @@ function Gripper:rotate(args)
   return self:move(t)
 end
 
---- It stays where it is now; a move that a process waits for is over when it would have been.
+--- Stops the tool where it is. A process that waits for its move still waits until the planned end.
 function Gripper:stop()
   check_place(self, "stop")
   local held = moved(self)
@@ -250,7 +250,7 @@ local press = rows.call("gripper:press", "{...}", "goes on until the wire pushes
   { "distance", "number", "m", "longest way", min = 0, above = true, default = 0.1 },
 })
 
---- Press on the wire, see help "gripper:press".
+--- Presses on the wire, see help "gripper:press".
 function Gripper:press(args)
   check_place(self, "press")
   args = press:read(args)
@@ -258,7 +258,7 @@ function Gripper:press(args)
   if not p then error("gripper:press works inside a process only", 2) end
   local force, speed, most, way = args.force, args.speed, args.distance, vec.unit(args.direction)
   if not way then error("gripper:press: direction must not be zero", 2) end
-  local function pushed() -- the gripper pushes the wire along its way
+  local function pushed() -- force of the gripper on the wire along its way
     local f = self:force()
     return f[1] * way[1] + f[2] * way[2] + f[3] * way[3]
   end
@@ -276,13 +276,13 @@ end
 
 rows.calls{ { "gripper:position", "", "the tool's centre, or where it will be", "{x, y, z} [m], or nil" } }
 
---- Let go, see help "gripper:release".
+--- Lets go, see help "gripper:release".
 function Gripper:release(args)
   if getmetatable(self) ~= Gripper then
     error("gripper:release is a method: call it with a colon", 2)
   end
   stand.check_scene(self, 3)
-  if not self.wire and self.bereft then -- it was taken away
+  if not self.wire and self.bereft then -- its wire was removed
     self.bereft = nil
     return self.tool and self:open_jaws(args or {}) or self
   end
@@ -314,7 +314,7 @@ function Gripper:__index(key)
   local own = rawget(sealed.fields(self), key)
   if own ~= nil then return own end
   if shortcuts[key] then return self:over()[key] end
-  if key == "wires" then -- that it holds
+  if key == "wires" then -- the wires it holds
     local list = {}
     for i, grip in ipairs(self.grips) do list[i] = grip.wire end
     return list
@@ -370,7 +370,7 @@ for name, value in pairs(Gripper) do
   end
 end
 
---- Names of methods and measures, for completion at the prompt.
+--- Returns the names of methods and measures, for completion at the prompt.
 function Gripper.__names()
   local names = { "name", "width", "events", "wire", "wires" }
   for name in pairs(Gripper) do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The jaws of a gripper: closed and opened, to a force, an opening, or until there is contact.
+--- Closes and opens the jaws of a gripper: to a force, an opening, or until contact.
 -- @module softworld.grip.jaws
 local mixed = require "softworld.grip.mixed"
 local process = require "softworld.run.process"
@@ -10,10 +10,10 @@ local tension = require "softworld.check.tension"
 local jaws = { methods = {} }
 local Methods = jaws.methods
 
-jaws.SPEED = 0.02 -- of the opening, unless told [m/s]
-jaws.MOST = 1e3   -- largest opening, and speed of it, that the core takes [m], [m/s]
-local PATIENCE = 2 -- a force is waited for so long after jaws could have closed [s]
-local CRUSHED = 0.2 -- opening over the wire's diameter at which it is [-]
+jaws.SPEED = 0.02 -- default speed of the opening [m/s]
+jaws.MOST = 1e3   -- largest opening and largest speed that the core accepts [m], [m/s]
+local PATIENCE = 2 -- wait for a force after the time in which the jaws could have closed [s]
+local CRUSHED = 0.2 -- a wire is crushed below this opening over its diameter [-]
 
 local function note(self, kind, fields)
   fields.kind, fields.time = kind, self.scene.time
@@ -36,7 +36,7 @@ local open = rows.call("gripper:open_jaws", "{...}", "opens the jaws", {
   { "speed", "number", "m/s", "of the opening", min = 0, max = jaws.MOST, above = true, usual = jaws.SPEED },
 })
 
---- The core's order for close_jaws' words, which are checked.
+--- Returns the core's order for the arguments of close_jaws, after checks.
 function jaws.order(self, args, what)
   local distance, force, speed = args.distance, args.force, args.speed or jaws.SPEED
   if not (distance or force or args.speed) then
@@ -44,7 +44,7 @@ function jaws.order(self, args, what)
   end
   if distance then return { mode = "to", opening = distance, speed = speed, force = force } end
   if force then return { mode = "force", speed = speed, force = force } end
-  -- by speed: until there is contact, which is a force that counts against the wire's weight
+  -- by speed: until contact, a force of 1 % of the wire's weight but at least 1 mN
   local contact = 0.01
   if self.wire then
     contact = math.max(1e-3, 0.01 * self.wire.beam.mass_per_length * 9.81 * self.wire.length)
@@ -52,7 +52,7 @@ function jaws.order(self, args, what)
   return { mode = "to", opening = 0, speed = speed, force = contact }
 end
 
--- Raise why the jaws cannot do it.
+-- Stops the jaws and raises an error with the reason why they failed.
 local function give_up(self, order, wire, state, crushed, longest)
   self.tool:jaws{ mode = "still" }
   local force = order.mode == "force" and ("%g N"):format(order.force) or "the force"
@@ -76,8 +76,9 @@ local function give_up(self, order, wire, state, crushed, longest)
     self.name, force, longest, state.squeeze, 1e3 * state.opening), 0)
 end
 
--- Pads that go to an opening press on a rod as on a solid section of its mean modulus: a hundredth of a
--- cable's diameter takes kilonewtons, where its insulation would give way. More than breaks it is told.
+-- Logs an event if the pads press on a rod harder than its strength. Pads that go to an opening press on a
+-- rod as on a solid section of its mean modulus: squeezing a cable by a hundredth of its diameter takes
+-- kilonewtons there, while the insulation of a real cable would yield.
 local function tell_overload(self, wire, state)
   local rod = wire and (wire.model == "rod" or wire.model == "string")
   local limit = rod and tension.limit{ object = wire }
@@ -88,7 +89,7 @@ local function tell_overload(self, wire, state)
       :format(self.name, wire.name, state.squeeze, limit.value) }
 end
 
--- Wait until the jaws are done; raises when they cannot do it.
+-- Waits until the jaws are done; raises an error if they fail.
 local function wait_for_jaws(self, p, order)
   local state, crushed
   local wire = self.wire -- another process may let go of it meanwhile
@@ -105,7 +106,7 @@ local function wait_for_jaws(self, p, order)
   local longest = self.tool:state().opening / order.speed + PATIENCE
   local arrived = p:wait_until(done, { timeout = longest })
   if arrived and not crushed and state.jaws ~= "empty" then
-    if state.squeeze > 0 and state.opening < least then -- as they were told to
+    if state.squeeze > 0 and state.opening < least then -- the order asked for this opening
       note(self, "crushed", { opening = state.opening, squeeze = state.squeeze })
     end
     tell_overload(self, wire, state)
@@ -114,7 +115,7 @@ local function wait_for_jaws(self, p, order)
   give_up(self, order, wire, state, crushed, longest)
 end
 
---- Give an order; in a process wait until it is done: returns the state then.
+--- Gives an order to the jaws. In a process it waits until they are done and returns their state.
 function jaws.move(self, order)
   self.order = order
   self.tool:jaws(order)
@@ -122,7 +123,7 @@ function jaws.move(self, order)
   return p and wait_for_jaws(self, p, order)
 end
 
---- Close the jaws, see help "gripper:close_jaws". Errors tell what is in the way.
+--- Closes the jaws, see help "gripper:close_jaws". Errors name what is in the way.
 function Methods:close_jaws(args)
   stand.check_scene(self, 3)
   local order = jaws.order(self, close:read(args), "gripper:close_jaws")
@@ -136,7 +137,7 @@ function Methods:close_jaws(args)
   return self
 end
 
---- Open the jaws, see help "gripper:open_jaws".
+--- Opens the jaws, see help "gripper:open_jaws".
 function Methods:open_jaws(args)
   stand.check_scene(self, 3)
   args = open:read(args or {})

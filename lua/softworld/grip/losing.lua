@@ -1,23 +1,23 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Grippers whose wires are taken away, and grippers that are: see scene:remove.
+--- Grippers whose wires are removed, and grippers that are removed: see scene:remove.
 -- @module softworld.grip.losing
 local grasp = require "softworld.grip.grasp"
 local mixed = require "softworld.grip.mixed"
 
 local losing = {}
 
---- The gripper is about to be taken away: its wires are as they would be had it let go.
+--- Prepares to remove the gripper: its wires become what they would be after a release.
 function losing.begin(self)
   if self.frozen then mixed.thaw(self) end
   if self.tool and self.way == "mixed" and self.wire then mixed.finish(self) end
 end
 
---- It has been taken away.
+--- Drops all wires after the gripper was removed.
 function losing.all(self)
   for _, grip in ipairs(self.grips) do losing.wire(self, grip.wire) end
 end
 
---- The wire has been taken away: the gripper has it no more, and to let go of it later is no mistake.
+--- Drops a removed wire. A later release of it is no error.
 function losing.wire(self, wire)
   local left, held = {}, false
   for _, grip in ipairs(self.grips) do

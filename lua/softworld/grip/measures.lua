@@ -19,7 +19,7 @@ local function in_axes(self, v, axes)
   return vec.rotate(vec.conjugate(q), v)
 end
 
--- The hold of one of several wires.
+-- Returns the hold of one of several wires.
 local function grip_of(self, wire, what)
   for _, grip in ipairs(self.grips) do
     if grip.wire == wire then return grip end
@@ -28,7 +28,7 @@ local function grip_of(self, wire, what)
     core.type(wire) == "wire" and ("wire '%s'"):format(wire.name) or "this: wire must be a wire"), 3)
 end
 
--- Force and moment about a point (nil: the centre) by the pads on one of several wires.
+-- Returns the force and moment, about a point (nil: the centre), of the pads on one of several wires.
 local function pads_on(self, wire, at, finger)
   local force, moment = { 0, 0, 0 }, { 0, 0, 0 }
   local centre, q = self.tool:pose()
@@ -44,7 +44,7 @@ local function pads_on(self, wire, at, finger)
   return force, moment
 end
 
--- The carriers of the wires: the pads, or the holds of all wires.
+-- Returns what carries the wires: the pads, or the carrier of all holds.
 local function carrier_of(self) return self.tool or self.hold and self.carrier or nil end
 
 local axes = { "axes", "choice", "-", "of the result", choices = { "world", "gripper" }, usual = "world" }
@@ -57,7 +57,7 @@ local moment = rows.call("gripper:moment", "{...}", "of the gripper on its wires
   gives = "{x, y, z} [N m]",
   { "at", "vector", "m", "point that it is about", usual = "the tool's centre" }, axes, finger, one_wire })
 
---- Force on the wire now, of several on all of them.
+--- Returns the present force on the wire; with several wires, on all of them.
 function Measures:force(args)
   args = force:read(args or {})
   local f, carrier = { 0, 0, 0 }, carrier_of(self)
@@ -70,7 +70,7 @@ function Measures:force(args)
   return in_axes(self, f, args.axes)
 end
 
---- Moment on the wire now.
+--- Returns the present moment on the wire.
 function Measures:moment(args)
   args = moment:read(args or {})
   local m, carrier = { 0, 0, 0 }, carrier_of(self)
@@ -84,7 +84,7 @@ function Measures:moment(args)
   return in_axes(self, m, args.axes)
 end
 
--- While it held something by this carrier.
+-- True if the gripper held something by this carrier at time t.
 local function carried_at(self, t)
   for _, span in ipairs(self.spans) do
     if span.carried and t >= span.carried and (not span.to or t <= span.to) then return true end
@@ -92,9 +92,9 @@ local function carried_at(self, t)
   return false
 end
 
--- Every recorded step: t, span, force, moment; of a tool also opening, squeeze, margin, slip. span:
--- above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end it
--- is the force, 0 at an equilibrium. t1, t2: not those that are further from these times than one step.
+-- Returns every recorded step: t, span, force, moment; for a tool also opening, squeeze, margin, slip. span:
+-- above 0 = the force is the mean over this time up to t; below 0 = it is the force at the end of a step of
+-- this length; 0 = an equilibrium. t1, t2: steps further from these times than one step are left out.
 local function records(self, t1, t2)
   local list = {}
   local function add(log, count, spans, wanted, jaws)
@@ -131,7 +131,7 @@ local function records(self, t1, t2)
   return list
 end
 
--- Did a gripper without pads hold nothing at this time?
+-- True if a gripper without pads held nothing at this time.
 local function is_gap(self, t)
   if self.tool then return false end
   for _, span in ipairs(self.spans) do
@@ -149,7 +149,7 @@ local over = rows.call("gripper:over", "t1, t2, {...}",
   { "at", "vector", "m", "point that moments are about", usual = "the tool's centre" },
 })
 
--- The third argument of gripper:over: a point, or a table of options.
+-- Reads the third argument of gripper:over: a point, or a table of options.
 local function over_options(options)
   if options == nil then return {} end
   if type(options) ~= "table" or options[1] ~= nil or options.x ~= nil then
@@ -160,12 +160,12 @@ end
 
 --- Measures over [t1, t2] [s]: a table with peak_force, mean_force [N],
 -- peak_moment, mean_moment [N m], impulse (vector), impulse_size [N s] and the times of the
--- peaks. Means are over the time in which it holds something, of the magnitudes. Peaks are of means
--- over a window of time, and beside them raw_peak_force, raw_peak_moment of single steps; see help
--- "peaks". Moments are about the tool centre. options: { window = [s], at = point [m] that moments are
+-- peaks. Means are of the magnitudes, over the time in which it holds something. Peaks are of means
+-- over a window of time; raw_peak_force and raw_peak_moment are of single steps; see help "peaks".
+-- Moments are about the tool centre. options: { window = [s], at = point [m] that moments are
 -- about }, or that point.
--- Of pads also peak_squeeze [N] of single steps, peak_margin, raw_peak_margin (while they hold, not while
--- they close or let go), slip [m].
+-- With pads also peak_squeeze [N] of single steps, peak_margin, raw_peak_margin (while they hold, not
+-- while they close or let go), slip [m].
 function Measures:over(t1, t2, options)
   t1, t2, options = t1 or -math.huge, t2 or math.huge, over_options(options)
   for name, time in pairs{ t1 = t1, t2 = t2 } do
@@ -192,8 +192,8 @@ function Measures:over(t1, t2, options)
   return m
 end
 
---- Series: { t =, force = {{x, y, z}, ...}, moment = } and, of pads, opening, squeeze, margin (NaN while
--- they hold nothing, close on it or let it go), slip.
+--- Returns the series { t =, force = {{x, y, z}, ...}, moment = } and, with pads, opening, squeeze, margin
+-- (NaN while they hold nothing, close or let go), slip.
 function Measures:series()
   local s = { t = {}, force = {}, moment = {} }
   for i, r in ipairs(records(self)) do
@@ -214,9 +214,9 @@ local function needs_tool(self, verb)
     :format(self.name, verb), 3)
 end
 
---- What the pads do: a table with jaws ("rests", "moves", "holds", "stopped", "empty"), opening
--- [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
--- the normal forces allow; of a frozen grip force and moment over what its touches could balance
+--- Returns the state of the pads: a table with jaws ("rests", "moves", "holds", "stopped", "empty"),
+-- opening [m], squeeze (force per finger [N]), normal (sum over pads [N]), margin (|friction| over what
+-- the normal forces allow; for a frozen grip, force and moment over what its touches could balance
 -- [-]), sliding (share of the normal force that slides [-]), slip [m] with its vector slipped in
 -- the tool's axes, and, once it exceeds the gripper's slip_tolerance, slip_time [s] and slip_place
 -- (arc length [m]).
@@ -229,8 +229,8 @@ function Measures:state()
   return now
 end
 
---- How far the wire is squeezed at the pads: height from pad to pad and width across that [m], and
--- the share of the height that is missing [-].
+--- Returns how far the wire is squeezed at the pads: height from pad to pad and width across [m], and
+-- the lost share of the height [-].
 function Measures:squeeze()
   needs_tool(self, "squeeze")
   local state = self:state()
@@ -267,9 +267,9 @@ local pressure = rows.call("gripper:pressure_map", "{...}", "where the pads pres
   { "cell", "list", "m", "size along and across", usual = "an eighth of the width" },
 })
 
---- Where the pads press: a map of the mean pressure [Pa] over cells of the pads,
+--- Returns a map of the pads' mean pressure [Pa] over cells,
 -- { { finger =, x =, z =, pressure = }, ... } in the tool's axes [m], with
--- .largest, .force (sum of normal forces [N]) and .touches, the single places with { finger, at
+-- .largest, .force (sum of normal forces [N]) and .touches, the single touches with { finger, at
 -- (in the tool's axes), normal [N], force, s, slid [m] }. Options: cell = { along, across } [m].
 function Measures:pressure_map(args)
   local cell = pressure:read(args or {}).cell or { self.width / 8, self.width / 8 }

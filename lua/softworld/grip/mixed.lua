@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The mixed grasp: near the pads the wire becomes a mesh, the pads squeeze it for real, and once nothing
--- moves there any more it is carried on as a rod which the gripper holds rigidly, at the cost of one. When
--- the load comes near to the most that the pads could bear, or the gripper opens, the mesh takes over
--- again as it was.
+--- The mixed grasp. Near the pads the wire becomes a mesh, which the pads squeeze. Once nothing moves there
+-- any more, the grip is frozen: the gripper carries the wire rigidly as a rod, at the cost of a rod. When the
+-- load comes near the most that the pads could bear, or the gripper opens, the mesh takes over again in the
+-- state it was frozen in.
 -- @module softworld.grip.mixed
 local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
@@ -10,11 +10,11 @@ local process = require "softworld.run.process"
 local mixed = {}
 
 local mesh_words = { "section", "spacing", "particles", "layers", "across", "model" }
-local BESIDE = 6 -- the mesh reaches so many radii beyond the pads, unless region says else [-]
-local LIMIT = 0.9 -- margin, forces and moments together, at which the pads take over again [-]
-local STEADY = 0.005 -- change of the force in TIME that counts as none, of the force [-]
-local TIME = 0.02 -- [s]
-local PATIENCE = 2 -- steady or not, a grasp is not frozen later than this [s]
+local BESIDE = 6 -- length of the mesh beyond the pads, in radii of the wire, unless region says else [-]
+local LIMIT = 0.9 -- margin (forces and moments together) at which the pads take over again [-]
+local STEADY = 0.005 -- relative change of force, and change of margin, within TIME that counts as none [-]
+local TIME = 0.02 -- interval between looks at the force [s]
+local PATIENCE = 2 -- a grasp is frozen after this time at the latest, steady or not [s]
 
 local function note(self, kind, report)
   self.events[#self.events + 1] = { kind = kind, time = self.scene.time, s = self.s,
@@ -22,7 +22,7 @@ local function note(self, kind, report)
     after = report.after, force = report.force, moment = report.moment }
 end
 
---- Make the wire a mesh around the pads.
+--- Turns the wire into a mesh around the pads.
 function mixed.prepare(self, args)
   local wire, how = self.wire, {}
   for _, word in ipairs(mesh_words) do how[word] = args[word] end
@@ -41,14 +41,14 @@ function mixed.prepare(self, args)
   build.call(4, wire.remodel, wire, how)
 end
 
---- Wait until the squeeze has come to rest, then freeze.
+--- Waits until the squeeze is steady, then freezes the grip.
 function mixed.settle(self, args)
   local p = process.current()
   self.margin = args.margin or LIMIT
   local last, since, quiet = self.tool:state(), self.scene.time, 0
   local late, wire = since + PATIENCE, self.wire
   p:wait_until(function()
-    if not self.tool or not self.wire then -- let go by another process, or a snapshot was restored
+    if not self.tool or not self.wire then -- another process let go, or a snapshot was restored
       if wire then build.present(wire) end
       error(("gripper '%s': it let go while its grasp was to come to rest"):format(self.name), 0)
     end
@@ -64,7 +64,7 @@ function mixed.settle(self, args)
   mixed.freeze(self)
 end
 
---- Hold the wire rigidly as the pads hold it now; see grasp{ freeze = false }.
+--- Holds the wire rigidly in its present state between the pads; see grasp{ freeze = false }.
 function mixed.freeze(self)
   if not self.tool or not self.wire or self.way ~= "mixed" then
     error(("gripper '%s': only a mixed grasp can be frozen"):format(self.name), 2)
@@ -79,7 +79,7 @@ function mixed.freeze(self)
   return self
 end
 
---- Back to the pads and the mesh between them.
+--- Returns to the pads and the mesh between them.
 function mixed.thaw(self)
   if not self.frozen then return self end
   local report = build.call(3, self.tool.thaw, self.tool)
@@ -88,13 +88,13 @@ function mixed.thaw(self)
   return self
 end
 
---- A frozen grip that the pads could not give any more goes back to them.
+--- Thaws a frozen grip whose load exceeds what the pads could bear.
 function mixed.lose(self, state)
   mixed.thaw(self)
   self.events[#self.events].margin = state.margin
 end
 
---- The jaws are open: the mesh near the pads becomes the rod that it was.
+--- Called when the jaws are open: turns the mesh near the pads back into a rod.
 function mixed.finish(self)
   local rod = self.rod_model == "rod" or self.rod_model == "string"
   if rod and self.wire.model == self.mesh_model then

@@ -12,8 +12,8 @@ local vec = require "softworld.vec"
 
 local Moves = {}
 
-local SPEED, SLOW = 0.2, 0.05 -- unless told [m/s]
-local DISTANCE = 0.05 -- [m]
+local SPEED, SLOW = 0.2, 0.05 -- defaults [m/s]
+local DISTANCE = 0.05 -- default [m]
 
 local function this_process(self, verb)
   if type(self) ~= "table" or not rawget(sealed.fields(self), "pads") then
@@ -25,7 +25,7 @@ local function this_process(self, verb)
   return p
 end
 
---- Stay for a time [s].
+--- Waits for a time [s].
 function Moves:wait(seconds)
   local p = this_process(self, "wait")
   checks.number("gripper:wait: seconds", seconds, 0, " s", 3)
@@ -48,7 +48,7 @@ local come = rows.call("gripper:approach", "place, {...}", "goes to a wire or po
   { "slow", "number", "m/s", "on the last way", min = 0, above = true, usual = SLOW },
 })
 
--- The point to go to: itself, or a wire's place.
+-- Returns the goal: the point itself, or the place of a wire.
 local function target(self, what, args, level)
   if core.type(what) ~= "wire" then
     return checks.vector("gripper:approach: where, a wire or a point,", what, "m", level + 1)
@@ -64,7 +64,8 @@ local function target(self, what, args, level)
   return what:position(checks.number("gripper:approach: s", s, 0, " m", level + 1, what.length))
 end
 
---- Go to a place of a wire or a point, see help "gripper:approach". One that is nowhere yet begins before it.
+--- Goes to a place of a wire or to a point, see help "gripper:approach". A gripper without a place starts at
+-- the point before the goal.
 function Moves:approach(where, args)
   this_process(self, "approach")
   args = come:read(args == nil and {} or args)
@@ -89,14 +90,14 @@ local go = rows.call("gripper:retreat", "{...}", "goes away from where it is", {
   { "speed", "number", "m/s", "on the way", min = 0, above = true, default = SPEED },
 })
 
---- Go away, see help "gripper:retreat".
+--- Goes away, see help "gripper:retreat".
 function Moves:retreat(args)
   args = go:read(args == nil and {} or args)
   local way = direction_of("gripper:retreat", args.direction)
   return build.call(3, self.move, self, { by = vec.scale(way, args.distance), speed = args.speed })
 end
 
---- Move the tool's centre to a point: move_to({x, y, z}, { speed =, rotation =, ... }).
+--- Moves the tool's centre to a point: move_to({x, y, z}, { speed =, rotation =, ... }).
 function Moves:move_to(point, args)
   local t = {}
   if args ~= nil and type(args) ~= "table" then
@@ -113,7 +114,7 @@ rows.calls{
     "the other gripper" },
 }
 
---- Hand the wire over to another gripper, which takes hold with args (see grasp), then let go.
+--- Hands the wire over: the other gripper takes hold with args (see grasp), then this one lets go.
 function Moves:handover(other, args)
   if getmetatable(other) ~= getmetatable(self) then
     error("gripper:handover expects the gripper that takes over", 2)

@@ -12,7 +12,7 @@ local pads = {}
 local turn = vec.turn
 local X = { 1, 0, 0 }
 
--- Parts of one finger that opens towards +y: shape, with its place at an opening of zero.
+-- Functions that return the parts of one finger that opens towards +y: shape, and its place at opening zero.
 local makers = {}
 
 --- A plate: width along the wire, height, thickness.
@@ -21,7 +21,7 @@ function makers.flat(p)
     at = { 0, p.thickness / 2, p.height / 2 - p.below } } }
 end
 
---- A groove along the wire between two plates at an angle; the opening is between the bottoms.
+--- A groove along the wire between two plates at an angle; the opening is measured between the bottoms.
 function makers.v(p)
   local parts, lean = {}, math.pi / 2 - p.angle / 2
   for _, side in ipairs{ -1, 1 } do
@@ -40,7 +40,7 @@ function makers.round(p)
     at = { 0, p.radius, p.height / 2 - p.below } } }
 end
 
---- A finger from a mesh file; its own axes are the tool's, for the finger at +y.
+--- A finger from a mesh file; the mesh's axes are the tool's, for the finger at +y.
 function makers.mesh(p)
   local mesh = meshfile.read(p.file)
   return { { shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale,
@@ -49,9 +49,9 @@ end
 
 pads.kinds = makers
 
-local MOST = 1e3 -- longer ones are no obstacles that the core makes [m]
+local MOST = 1e3 -- longest size; the core makes no longer obstacles [m]
 
---- What can be said of pads.
+--- Parameters of pads.
 pads.rows = rows.list{
   { "shape", "choice", "-", "of a finger", choices = { "flat", "mesh", "round", "v" }, default = "flat" },
   { "fingers", "integer", "-", "how many close on the wire", min = 1, max = 6, default = 2 },
@@ -75,16 +75,16 @@ pads.rows = rows.list{
   { "restitution", "number", "-", "share of speed kept after a blow", min = 0, max = 1, default = 0 },
 }
 
---- What can be said of an arm.
+--- Parameters of an arm.
 pads.arm_rows = rows.list{
   { "radius", "number", "m", "of the capsule", min = 0, max = MOST, above = true, required = true },
   { "length", "number", "m", "upwards from the fingers", min = 0, max = MOST, above = true, required = true },
 }
 
---- The description of pads with defaults filled in; raises for impossible ones. Errors have no place.
+--- Returns the description of pads with defaults; raises an error for impossible ones. Errors have no place.
 function pads.check(args, what)
   local p = pads.rows:read(args, what, what .. ".")
-  for _, key in ipairs{ "friction", "kinetic_friction" } do -- may be lists, one for each finger
+  for _, key in ipairs{ "friction", "kinetic_friction" } do -- may be lists, one value per finger
     if type(p[key]) == "table" and #p[key] ~= p.fingers then
       error(("%s.%s has %d values; it must have one, or one for each of %d fingers"):format(what, key,
         #p[key], p.fingers), 0)
@@ -93,7 +93,7 @@ function pads.check(args, what)
   if (p.shape == "mesh") ~= (args.file ~= nil) then
     error(("%s: file goes with shape = 'mesh'"):format(what), 0)
   end
-  if p.file ~= nil then -- what is wrong with it is told now, not when the pads are needed
+  if p.file ~= nil then -- reports a wrong file at once, not when the pads are made
     local fine, why = pcall(function()
       local mesh = meshfile.read(p.file)
       core.shape{ shape = "mesh", data = mesh.data, format = mesh.format, scale = p.scale }
@@ -103,7 +103,7 @@ function pads.check(args, what)
   return p
 end
 
--- A capsule that goes up from the fingers.
+-- Adds a capsule that goes up from the fingers.
 local function add_arm(scene, tool, name, arm, at, q, base)
   local middle = { 0, 0, base + arm.radius + arm.length / 2 }
   local obstacle = scene:obstacle{ name = name .. ".arm", shape = "capsule", radius = arm.radius,
@@ -112,7 +112,7 @@ local function add_arm(scene, tool, name, arm, at, q, base)
   return obstacle
 end
 
--- The parts of a finger, added to the obstacles of the tool.
+-- Adds the parts of a finger to the obstacles of the tool.
 local function add_finger(scene, tool, name, p, given, finger, at, q, opening, obstacles)
   local around = turn(X, 2 * math.pi * (finger - 1) / p.fingers)
   local opens = vec.rotate(around, { 0, 0.5, 0 })
@@ -134,8 +134,8 @@ local function add_finger(scene, tool, name, p, given, finger, at, q, opening, o
   end
 end
 
---- Make a gripper's tool and fingers in the scene, open, at a pose. Returns the tool and what its
--- obstacles are.
+--- Makes a gripper's tool and fingers in the scene, open, at a pose. Returns the tool and its
+-- obstacles.
 function pads.make(scene, gripper, at, rotation, radius)
   local name, p = gripper.name, gripper.pads
   if (p.shape == "flat" or p.shape == "v") and p.width <= 0 then

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Slips, losses and crashes of grippers: events, and what is to happen then.
+--- Slips, losses and crashes of grippers: logs events and reacts to them.
 -- @module softworld.grip.reactions
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -18,15 +18,15 @@ function reactions.check(what, value, level)
   if type(value) ~= "function" then checks.word(what, value, known, level + 1) end
 end
 
---- Reaction to a wire that slips, and to one that is lost: "record" (default), "warn", "stop" or a
--- function, called with the gripper and the event.
+--- Sets the reaction to a slipping or lost wire: "record" (default), "warn", "stop" or a function, called
+-- with the gripper and the event.
 function reactions.set_on_slip(self, value, level)
   reactions.check("gripper '" .. self.name .. "': on_slip", value, level + 1)
   self.on_slip = value
   reactions.watch(self)
 end
 
---- Slip counts from now on.
+--- Starts to measure slip.
 function reactions.watch(self)
   self.slip_event = nil
   if self.tool then
@@ -48,7 +48,7 @@ local function lost_text(self, event)
   return ("gripper '%s': nothing is left between the pads at t = %.4g s"):format(self.name, event.time)
 end
 
--- Keep the event and act on it; returns the text when the run is to stop.
+-- Logs the event and reacts to it; returns a text if the run has to stop.
 local function react(self, event, reaction, text)
   self.events[#self.events + 1] = event
   if reaction == "warn" then io.stderr:write("softworld: ", text(self, event), "\n")
@@ -56,7 +56,7 @@ local function react(self, event, reaction, text)
   elseif type(reaction) == "function" then reaction(self, event) end
 end
 
--- A crash of an imposed grip, which drives the wire itself into an obstacle.
+-- Looks for a crash of an imposed grip: it drives the wire itself into an obstacle.
 local function look_at_hold(self)
   local crash = self.hold:crash()
   if not crash or crash.time == self.crash_time then return end
@@ -65,7 +65,7 @@ local function look_at_hold(self)
     depth = crash.depth, s = self.s }, self.on_crash, crash_text)
 end
 
--- Events of one gripper with pads; returns why the run is to stop, or nil.
+-- Looks for events of one gripper with pads; returns why the run has to stop, or nil.
 local function look_at(self)
   local now, why = self.tool:state(), nil
   if now.crash_time and now.crash_time ~= self.crash_time then
@@ -79,7 +79,7 @@ local function look_at(self)
   end
   if self.unchecked and self.held and now.squeeze > 0 and now.jaws ~= "moves" then
     self.unchecked = nil
-    grasped.check(self) -- outside of a process: it is told, and the run goes on
+    grasped.check(self) -- outside a process: logs an event, and the run goes on
   end
   if self.held and now.normal == 0 and not now.frozen then
     self.held = false
@@ -90,7 +90,7 @@ local function look_at(self)
   return why
 end
 
---- After steps of a run: events of the scene's grippers. Returns why the run is to stop, or nil.
+--- Looks for events of the scene's grippers after steps of a run. Returns why the run has to stop, or nil.
 function reactions.look(scene)
   local why
   for _, self in ipairs(build.data(scene).grippers) do

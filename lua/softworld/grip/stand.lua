@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Where a gripper stands: is it there, its pads and its carrier, and the place of a wire near it.
+--- The place of a gripper: its pads and its carrier, and the place of a wire near it.
 -- @module softworld.grip.stand
 local build = require "softworld.scene.build"
 local pads = require "softworld.grip.pads"
@@ -8,7 +8,7 @@ local vec = require "softworld.vec"
 
 local stand = {}
 
---- Raise when the gripper was taken back with a snapshot.
+--- Raises an error if the gripper was made after a snapshot that was restored.
 function stand.check_there(self, level)
   if self.gone then
     error(("gripper '%s' was made after the snapshot that was restored; make it anew")
@@ -19,13 +19,13 @@ function stand.check_there(self, level)
   end
 end
 
---- The same, and when the scene may not be changed now.
+--- Same, and raises an error if the scene may not be changed at this moment.
 function stand.check_scene(self, level)
   stand.check_there(self, level + 1)
   build.check(self.scene, "gripper '" .. self.name .. "'", level + 1)
 end
 
---- The arc length of the wire nearest to a point, and how far it is.
+--- Returns the arc length of the wire nearest to a point, and the distance.
 function stand.nearest_place(wire, at)
   local x, s = wire:positions()
   local best, place = math.huge, 0
@@ -43,13 +43,13 @@ function stand.nearest_place(wire, at)
   return place, best ^ 0.5
 end
 
--- The orientation of a tool at arc length s: x along the wire, z as far up as may be.
+-- Returns the orientation of a tool at arc length s: x along the wire, z as close to up as possible.
 local function facing(scene, wire, s)
   local up = vec.unit(vec.scale(scene:gravity(), -1)) or { 0, 0, 1 }
   return vec.facing(vec.unit(wire:tangent(s)), up)
 end
 
---- Give the gripper its pads, where it is (at, rotation) or around the wire at s.
+--- Makes the gripper's pads at its place (at, rotation) or around the wire at s.
 function stand.make_tool(self, level, wire, s)
   local at = s and wire:position(s) or self.at or { 0, 0, 0 }
   local rotation = self.rotation or (s and facing(self.scene, wire, s)) or nil
@@ -59,7 +59,7 @@ function stand.make_tool(self, level, wire, s)
   end)
 end
 
---- Give it a place of its own that moves: while it holds nothing, and for several wires.
+--- Makes a carrier, a moving place, for a gripper without pads: while it holds nothing, or for several wires.
 function stand.make_carrier(self)
   local at, q = self.at or { 0, 0, 0 }, self.rotation or self.facing or nil
   if self.hold then at, q = self.hold:pose() end
@@ -67,7 +67,7 @@ function stand.make_carrier(self)
   return self.carrier
 end
 
---- Pads open at the wire's arc length s.
+--- Puts the open pads at the wire's arc length s.
 function stand.place_tool(self, wire, s, level)
   if not self.tool and self.carrier then self.at = (self.carrier:pose()) end
   if not self.tool then return stand.make_tool(self, level + 1, wire, s) end

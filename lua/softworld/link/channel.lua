@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Channels: troughs along a way, made of obstacles: for each leg a floor and two walls, cut to mitres
--- where legs meet, and a lid when it is closed.
+--- Channels: troughs along a way, made of obstacles. Each leg has a floor and two walls, mitred where
+-- legs meet, and a lid when the channel is closed.
 --
 --     local duct = scene:channel{ name = "duct", points = { {0, 0, 0}, {0.3, 0, 0}, {0.3, 0.2, 0} },
 --       width = 0.015, depth = 0.012, friction = 0.2 }
@@ -19,7 +19,7 @@ local dot, cross, add, unit, norm = vec.dot, vec.cross, vec.add, vec.unit, vec.n
 
 local properties = {}
 local Channel = fixing.class("channel", properties, { "lids", "count" })
-local SHARPEST = 0.3 -- cosine between a leg and the mitre's normal; below it corners are spikes
+local SHARPEST = 0.3 -- least cosine between a leg and the mitre's normal; below it corners are spikes
 
 local new = rows.call("scene:channel", "{...}", "a trough along points, with mitred corners and a lid", {
   gives = "a channel",
@@ -58,7 +58,7 @@ local function read_points(what, given)
   return points
 end
 
--- Each leg: from, to, along, side (to the left) and up, all unit vectors across each other.
+-- Returns the legs: from, to, along, side (to the left) and up; the last three are orthogonal unit vectors.
 local function legs_of(what, points, up)
   local legs = {}
   for i = 1, #points - 1 do
@@ -73,7 +73,7 @@ local function legs_of(what, points, up)
   return legs
 end
 
--- Normals of the planes in which legs meet, and the ends'.
+-- Returns the normals of the planes in which legs meet, and those of the two ends.
 local function mitres_of(what, legs)
   local mitres = { legs[1].along }
   for i = 2, #legs do
@@ -89,13 +89,13 @@ local function mitres_of(what, legs)
   return mitres
 end
 
--- Where the line along the leg that is y to the left and z up meets the mitre at one of its ends.
+-- Returns where the line along the leg, y to the left and z up, meets the mitre at one of its ends.
 local function corner(leg, at, normal, y, z)
   local offset = add(add({ 0, 0, 0 }, leg.side, y), leg.up, z)
   return add(add(at, offset), leg.along, -dot(offset, normal) / dot(leg.along, normal))
 end
 
--- The prism from y1 to y2 and z1 to z2 of a leg as flat points of a hull.
+-- Returns a leg's prism from y1 to y2 and z1 to z2, as flat points of a hull.
 local function prism(what, self, i, y1, y2, z1, z2)
   local leg, points = self.legs[i], {}
   for _, p in ipairs{ { y1, z1 }, { y2, z1 }, { y2, z2 }, { y1, z2 } } do
@@ -110,7 +110,7 @@ local function prism(what, self, i, y1, y2, z1, z2)
   return points
 end
 
--- The parts of the trough, each { name, points }.
+-- Returns the parts of the trough, each { name, points }.
 local function trough(what, self)
   local half, t, parts = self.width / 2, self.thickness, {}
   local list = { { "floor", -half - t, half + t, -t, 0 }, { "left", half, half + t, 0, self.depth },
@@ -133,15 +133,15 @@ local function lid(what, self)
   return parts
 end
 
-local LID = 0.7 -- transparency in pictures, so that the wire is seen
+local LID = 0.7 -- transparency in pictures, so that the wire is visible
 
 local function remove(parts)
   for _, part in ipairs(parts) do part:remove() end
 end
 
--- All of them or none.
+-- Makes all of the parts, or raises an error and makes none.
 local function raise(self, parts, transparency)
-  for _, part in ipairs(parts) do core.shape{ shape = "hull", points = part[2] } end -- before any stands
+  for _, part in ipairs(parts) do core.shape{ shape = "hull", points = part[2] } end -- check all first
   local list, shown = {}, build.data(self.scene).obstacles
   for i, part in ipairs(parts) do
     local ok, made = pcall(self.scene.obstacle, self.scene, { name = part[1], shape = "hull",
@@ -202,7 +202,7 @@ local function all_parts(self)
   return list
 end
 
---- Force of all wires on the channel and its lid [N].
+--- Returns the force of all wires on the channel and its lid [N].
 function Channel:force()
   local sum = { 0, 0, 0 }
   for _, part in ipairs(all_parts(self)) do sum = add(sum, (part:force())) end
@@ -212,7 +212,7 @@ end
 local moment = rows.call("channel:moment", "{...}", "of all wires on it", {
   gives = "{x, y, z} [N m]", { "at", "vector", "m", "point that it is about", usual = "its first one" } })
 
---- Moment of all wires on the channel about a point.
+--- Returns the moment of all wires on the channel about a point.
 function Channel:moment(args)
   local at = moment:read(args == nil and {} or args).at or self.legs[1].from
   local sum = { 0, 0, 0 }
@@ -222,7 +222,7 @@ function Channel:moment(args)
   return sum
 end
 
--- Is the point between the mitres of the leg, the walls, floor and `top`?
+-- True if the point is between the mitres of the leg, its walls, the floor and `top`.
 local function within(self, i, p, top)
   local leg = self.legs[i]
   if dot(add(p, leg.from, -1), self.mitres[i]) < 0 or dot(add(p, leg.to, -1), self.mitres[i + 1]) > 0 then
@@ -235,7 +235,7 @@ end
 
 local SAMPLES = 200
 
--- Share of the wire's length whose centre line is within, up to `top`.
+-- Returns the share of the wire's length whose centre line is inside, up to `top`.
 local function share(self, wire, top)
   local inside = 0
   for k = 1, SAMPLES do
@@ -250,13 +250,13 @@ local function share(self, wire, top)
   return inside / SAMPLES
 end
 
---- Share of the wire's length whose centre line lies in the channel, in steps of 1/200.
+--- Returns the share of the wire's length whose centre line lies in the channel, in steps of 1/200.
 function Channel:contains(wire)
   fixing.wire(self.scene, "channel:contains", "the argument", wire)
   return share(self, wire, self.depth)
 end
 
--- Would the lid be put into a wire?
+-- Raises an error if the lid would cut into a wire.
 local function check_lid(self)
   for _, entry in ipairs(build.data(self.scene).wires) do
     local wire = entry.object
@@ -275,7 +275,7 @@ local function check_lid(self)
   end
 end
 
---- Put the lid on. Refused while a wire stands out.
+--- Puts the lid on; raises an error while a wire stands out.
 function Channel:close()
   build.check(self.scene, "channel:close", 3)
   if is_closed(self) then return self end
@@ -289,20 +289,20 @@ function Channel:close()
   return self
 end
 
---- Take the lid off.
+--- Takes the lid off.
 function Channel:open()
   build.check(self.scene, "channel:open", 3)
   remove(is_closed(self) and self.lids or {})
   return self
 end
 
---- Take the channel away.
+--- Removes the channel.
 function Channel:release()
   build.check(self.scene, "channel:release", 3)
   remove(all_parts(self))
 end
 
---- Rows of a run's summary.
+--- Adds rows to a run's summary.
 function Channel:report(add_row)
   for _, entry in ipairs(build.data(self.scene).wires) do
     if core.exists(entry.object) then

@@ -9,7 +9,7 @@
 --       print(clip.inserted.time, clip.inserted.s, clip.inserted.peak_force)
 --     end)
 --
--- What the clip does to the wire is the force `clip` of the core (help "clip").
+-- The force of the clip on the wire is the force `clip` of the core (help "clip").
 -- @module softworld.link.clip
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -20,12 +20,12 @@ local fixshape = require "softworld.link.fixshape"
 
 local properties = {}
 local Clip = fixing.class("clip", properties, { "on", "radius", "damper" })
-local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's words
+local EMPTY, INSERTING, SEATED = 0, 1, 2 -- the core's states
 local BROKEN = { "its floor", "a wall", "a wall from outside", [5] = "it within one step" }
-local SNAP = 2e-3 -- [s]
-local STRONGEST = 1e12 -- [N]
-local STEEPEST = 1e6 -- ratio of insertion and retention: flanks of no length have no slope
-local THERE = 0.5 -- share of the clip that a wire in it passes through
+local SNAP = 2e-3 -- default time of the snap damping [s]
+local STRONGEST = 1e12 -- largest force [N]
+local STEEPEST = 1e6 -- largest ratio of insertion and retention: flanks of no length have no slope
+local THERE = 0.5 -- share of the clip's length that a wire must pass through to be in it
 
 local new = rows.call("scene:clip", "{...}", "a snap-in clip along the way of a wire", {
   gives = "a clip",
@@ -107,7 +107,7 @@ local function checked(scene, args)
   return args
 end
 
--- The damping of the wire that snaps in; without it there is no clip either.
+-- Makes the damping of the wire's snap; if it fails, the clip is released too.
 local function make_damper(scene, args, time, force)
   if time == 0 then return nil end
   local ok, damper = pcall(scene.force, scene, { kind = "snap", at = args.at, direction = args.direction,
@@ -132,7 +132,7 @@ end)
 
 function Clip.exists(self) return core.exists(self.object) and self.object.held end
 
---- Read-outs of the clip, one row for each wire that it acts on: { { wire =, share =, u =, ... } }.
+--- Returns the clip's readings, one for each wire it acts on: { { wire =, share =, u =, ... } }.
 local function readings(self)
   local list = {}
   fixing.check(self)
@@ -146,12 +146,12 @@ local function readings(self)
   return list
 end
 
--- Before the first step the core knows nothing: a wire drawn in the seat is there.
+-- True if the wire is in the seat. Before the first step the core has no state: then the place decides.
 local function is_seated(r)
   return r.share >= THERE and r.u < r.out and (r.state == SEATED or r.state == EMPTY and r.u > -r.out)
 end
 
--- The reading of the one wire, or of all.
+-- Returns the reading of this wire, or of all if wire is nil.
 local function chosen(self, wire, verb)
   if wire ~= nil then fixing.wire(self.scene, "clip:" .. verb, "the argument", wire) end
   local list = {}
@@ -161,7 +161,7 @@ local function chosen(self, wire, verb)
   return list
 end
 
---- Is a wire (or this one) in the seat?
+--- True if a wire (or this one) is in the seat.
 function Clip:seated(wire)
   for _, r in ipairs(chosen(self, wire, "seated")) do
     if is_seated(r) then return true end
@@ -169,7 +169,7 @@ function Clip:seated(wire)
   return false
 end
 
---- "empty", "inserting" (under the lips), "seated", or "broken" by the wire.
+--- Returns "empty", "inserting" (under the lips), "seated", or "broken" (by the wire).
 function Clip:state(wire)
   local state = "empty"
   for _, r in ipairs(chosen(self, wire, "state")) do
@@ -180,7 +180,7 @@ function Clip:state(wire)
   return state
 end
 
---- Force on the wire, with friction [N].
+--- Returns the force on the wire, friction included [N].
 function Clip:force(wire)
   local sum = { 0, 0, 0 }
   for _, r in ipairs(chosen(self, wire, "force")) do
@@ -189,8 +189,8 @@ function Clip:force(wire)
   return sum
 end
 
---- How near the seated wire was to being pulled out: largest pull so far over retention. 1 or
--- hardly less means that it came out.
+--- Returns how near the seated wire was to being pulled out: largest pull so far over retention. For a wire
+-- that came out it is 1 or hardly less.
 function Clip:ratio(wire)
   local most = 0
   for _, r in ipairs(chosen(self, wire, "ratio")) do
@@ -199,15 +199,15 @@ function Clip:ratio(wire)
   return most / self.retention
 end
 
---- Height of the wire over the seat towards the mouth, and the lips' height [m]; nil when no
--- wire passes.
+--- Returns the height of the wire over the seat towards the mouth, and the lips' height [m]; nil if
+-- no wire passes.
 function Clip:height(wire)
   for _, r in ipairs(chosen(self, wire, "height")) do
     if r.share >= THERE then return r.u, r.way end
   end
 end
 
---- Take the clip away.
+--- Removes the clip.
 function Clip:release()
   self.object:release()
   if self.damper then self.damper:release() end
@@ -235,14 +235,14 @@ function properties.inserted(self)
     count = math.tointeger(r.insertions) }
 end
 
---- The last time a wire came out: { time = [s], peak_force = [N], wire =, count = }, or nil.
+--- The last pull-out: { time = [s], peak_force = [N], wire =, count = }, or nil.
 function properties.pulled_out(self)
   local r = latest(self, "removals", "out_time")
   return r and { time = r.out_time, peak_force = r.out_peak, wire = r.wire,
     count = math.tointeger(r.removals) }
 end
 
---- How it was broken: { time = [s], force = [N], by = "its floor" and so on, wire =, strength = [N] }
+--- The break of the clip: { time = [s], force = [N], by = "its floor" and so on, wire =, strength = [N] }
 -- of the first wire that was pressed through it, or nil.
 function properties.overloaded(self)
   local best
@@ -253,7 +253,7 @@ function properties.overloaded(self)
     wire = best.wire, strength = best.strength }
 end
 
---- Of the last insertion, or of that under way [N]; 0 before.
+--- Peak force of the last insertion, or of the present one [N]; 0 before the first.
 function properties.peak_insertion_force(self)
   local most = 0
   for _, r in ipairs(readings(self)) do
@@ -262,7 +262,7 @@ function properties.peak_insertion_force(self)
   return most
 end
 
---- Rows of a run's summary.
+--- Adds rows to a run's summary.
 function Clip:report(add)
   local into, out = self.inserted, self.pulled_out
   if into then
@@ -283,7 +283,7 @@ function Clip:report(add)
   end
 end
 
---- Triangles for pictures, in the world's axes.
+--- Returns triangles for pictures, in the world's axes.
 function Clip:solids()
   local r = readings(self)[1]
   local radius = self.radius or self.on and self.on.radius or r and r.wire.radius or self.width / 2

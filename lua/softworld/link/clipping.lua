@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- gripper:clip: press the wire that a gripper holds through the mouth of a clip.
+--- gripper:clip: presses the wire that a gripper holds through the mouth of a clip.
 -- @module softworld.link.clipping
 local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
@@ -21,8 +21,8 @@ local into = rows.call("gripper:clip", "{...}", "presses its wire into a clip; i
   { "overtravel", "number", "m", "beyond the seat", min = 0, usual = "the wire's radius" },
   { "fail", "boolean", "-", "false: returns nil and why where it does not go in", usual = "true" },
 })
-local STEPS = 20 -- looks at the force on the way over the lips
-local USUAL_LIMIT = 5 -- of the insertion force
+local STEPS = 20 -- checks of the force on the way over the lips
+local USUAL_LIMIT = 5 -- default of max_force over the insertion force
 
 local function checked(self, args)
   if getmetatable(self) ~= Gripper then error("gripper:clip is a method: call it with a colon", 0) end
@@ -42,13 +42,13 @@ local function checked(self, args)
   return args, what
 end
 
--- How far the tool is over the seat, towards the mouth [m].
+-- Returns the height of the tool over the seat, towards the mouth [m].
 local function place(self, clip)
   return vec.dot(vec.add(self:position(), clip.at, -1), clip.direction)
 end
 
--- Where the wire that is nearest to the seat passes the clip: height, offset across [m], its
--- radius and the lips' height for it [m]. nil when none does.
+-- Returns where the wire nearest to the seat passes the clip: height, offset across [m], its
+-- radius and the height of the lips for this wire [m]. nil if no wire passes.
 local function passing(clip)
   local best, across = nil, vec.cross(clip.direction, clip.axis)
   local function look(wire, a, b, along_a, along_b)
@@ -70,10 +70,10 @@ local function passing(clip)
   return best.u, best.v, best.wire.radius, clip.object:read(best.wire).way
 end
 
-local LINED_UP = 0.02 -- offset of the wire over the mouth that is good enough, of its radius
+local LINED_UP = 0.02 -- sufficient alignment: offset of the wire over the mouth, over its radius
 local ROUNDS = 3
 
--- Over the mouth, first upwards, then across until the wire there is over it.
+-- Brings the wire over the mouth: first upwards, then across.
 local function line_up(self, clip, args, what)
   local tool = place(self, clip)
   local u, _, radius, way = passing(clip)
@@ -98,7 +98,7 @@ local function line_up(self, clip, args, what)
   return way, radius
 end
 
--- Returns the largest force of the gripper towards the seat, and why it did not go in.
+-- Returns the largest force of the gripper towards the seat, and the reason if the wire did not go in.
 local function press(self, clip, args, way, radius)
   local goal = -(args.overtravel or radius)
   local most, u = 0, place(self, clip)
@@ -111,7 +111,7 @@ local function press(self, clip, args, way, radius)
     self:move{ by = vec.add({ 0, 0, 0 }, clip.direction, -step), speed = args.speed, law = "linear" }
     local before = u
     u = place(self, clip)
-    if before - u <= 0.5 * step then -- a way of a femtosecond is none
+    if before - u <= 0.5 * step then -- the move was too short for a step
       error(("gripper:clip: speed = %g m/s is too fast: the tool does not get on in the time that this takes")
         :format(args.speed), 0)
     end
@@ -139,13 +139,13 @@ local function run(self, given)
     peak_force = clip.peak_insertion_force, s = clip.inserted and clip.inserted.s }
 end
 
---- Press the wire into a clip: { into = clip, speed = [m/s], max_force = [N], overtravel = [m] }.
--- The tool lines up over the mouth (align = false: it does not), goes towards the seat until the
--- wire snaps in, and stays there. Returns { force = largest of the gripper [N], peak_force = largest of
--- the lips [N], s = [m], duration = [s] }; where it does not go in it stops and raises an error that
--- says which force was reached, or with fail = false returns nil and that.
+--- Presses the wire into a clip: { into = clip, speed = [m/s], max_force = [N], overtravel = [m] }.
+-- The tool lines up over the mouth (unless align = false), goes towards the seat until the wire
+-- snaps in, and stays there. Returns { force = largest of the gripper [N], peak_force = largest of
+-- the lips [N], s = [m], duration = [s] }. If the wire does not go in, the tool stops and an error says
+-- which force was reached; with fail = false the call returns nil and this text instead.
 function Gripper.clip(self, args)
-  -- not by build.call: the process sleeps on the way
+  -- not by build.call: the process yields on the way
   local result = table.pack(pcall(run, self, args))
   if result[1] then return table.unpack(result, 2, result.n) end
   local message = result[2]

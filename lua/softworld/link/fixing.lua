@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Shared by clips, ties and channels: how they are made and asked, checks of arguments, and the scene's list
--- of such things, by which runs tell of them and pictures show them.
+--- Shared by clips, ties and channels ("fixings"): how they are made and read, checks of arguments, and the
+-- scene's list of them, which run summaries and pictures use.
 -- @module softworld.link.fixing
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -11,8 +11,8 @@ local sealed = require "softworld.sealed"
 
 local fixing = {}
 
---- The parameters of a new thing by its rows, and what messages call it. Errors have no place yet: call
--- from build.call.
+--- Returns the parameters of a new fixing by its rows, and its name in messages. Errors have no place yet:
+-- call it from build.call.
 function fixing.arguments(scene, call, kind, args)
   remarks.on(kind, call.name, args)
   checks.keys(call.name, args, call.known, 0)
@@ -23,7 +23,7 @@ function fixing.arguments(scene, call, kind, args)
   return copy, what
 end
 
---- A wire of the scene, or an error.
+--- Returns the value if it is a wire of the scene, else raises an error.
 function fixing.wire(scene, what, name, value)
   if core.type(value) ~= "wire" then
     error(("%s: %s must be a wire, got %s"):format(what, name, core.type(value) or type(value)), 0)
@@ -32,7 +32,7 @@ function fixing.wire(scene, what, name, value)
   return value
 end
 
---- The name to use, see build.name; errors have no place yet.
+--- Returns the name to use, see build.name; errors have no place yet.
 function fixing.name(scene, what, given, kind)
   if given ~= nil and (type(given) ~= "string" or given == "" or #given > 40) then
     error(("%s: name must be a string of 1 to 40 characters, got %s"):format(what, checks.got(given)), 0)
@@ -42,9 +42,9 @@ function fixing.name(scene, what, given, kind)
   return name
 end
 
---- Let scene:clip and so on make them. make: given the scene and what the call takes, gives the fields, name
--- and object (what it is in the core) among them. The scene's list has it from then on; it has exists(),
--- and report(add) for the summary.
+--- Adds scene:clip and the like. make(scene, ...) takes the call's arguments and returns the fields, among
+-- them name and object (the object of the core). The new fixing is put into the scene's list; its class has
+-- exists(), and report(add) for the summary.
 function fixing.made(class, make)
   local function new(scene, ...)
     local fields, list = make(scene, ...), build.data(scene).fixings
@@ -59,7 +59,7 @@ function fixing.made(class, make)
   end
 end
 
---- Those that there are.
+--- Returns the fixings that exist.
 function fixing.all(scene)
   local list = {}
   for _, entry in ipairs(build.data(scene).fixings) do
@@ -68,7 +68,8 @@ function fixing.all(scene)
   return list
 end
 
--- Reading a field, a property or a method; a typo names the nearest word. known: fields that may be nil.
+-- Returns an __index for fields, properties and methods. A misspelt name raises an error that proposes the
+-- nearest. known: fields that may be nil.
 local function reader(kind, class, properties, known)
   return function(self, key)
     local field = rawget(sealed.fields(self), key)
@@ -80,7 +81,7 @@ local function reader(kind, class, properties, known)
   end
 end
 
--- Setting: for the library alone.
+-- Returns a __newindex: only the library may set fields.
 local function writer(kind, class)
   return function(self, key, value)
     if not sealed.by_library() then
@@ -93,7 +94,7 @@ local function writer(kind, class)
   end
 end
 
--- Names of methods and properties, for completion at the prompt.
+-- Returns the names of methods and properties, for completion at the prompt.
 local function names_of(class, properties)
   local names = { "name" }
   for _, list in ipairs{ class, properties } do
@@ -105,17 +106,17 @@ local function names_of(class, properties)
   return names
 end
 
---- Raise unless its scene still knows it; errors have no place yet.
+--- Raises an error unless the fixing still exists; errors have no place yet.
 function fixing.check(self)
   if self:exists() then return end
   error(("%s '%s' was released, or taken back when a snapshot was restored"):format(
     getmetatable(self).__name, self.name), 0)
 end
 
--- What is asked of one that may be gone, by runs.
+-- Methods that runs call on fixings that may no longer exist.
 local always = { exists = true, solids = true, report = true }
 
--- The method of a class, which is called of one that is there; its errors have a place.
+-- Returns the method with a check that the fixing exists; its errors get a place.
 local function method(class, name, f)
   return build.placed(function(self, add, ...)
     if not always[name] then fixing.check(self) end
@@ -126,8 +127,8 @@ local function method(class, name, f)
   end)
 end
 
---- A class whose objects answer methods, then properties (functions of the object), and
--- name the nearest word for a typo. `own` lists fields that may be nil.
+--- Returns a class whose objects have methods and properties (functions of the object). A
+-- misspelt name raises an error that proposes the nearest. `own` lists fields that may be nil.
 function fixing.class(kind, properties, own)
   local class = { __name = kind }
   local known = checks.set(table.concat(own or {}, " "))

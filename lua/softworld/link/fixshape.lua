@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What clips look like: a slotted ring with wings at its mouth on a foot, extruded along its axis.
+--- The shape of clips in pictures: a slotted ring with wings at its mouth, on a foot, extruded along its
+-- axis.
 -- @module softworld.link.fixshape
 local vec = require "softworld.vec"
 
@@ -7,10 +8,10 @@ local fixshape = {}
 
 local ARC = 20 -- flat pieces of the ring
 local MOUTH = math.rad(42) -- half the angle of the mouth: two thirds of the wire's width
-local WALL = 0.5 -- of the seat's radius
-local WING = 0.9 -- length of the wings, of the same
+local WALL = 0.5 -- thickness over the seat's radius
+local WING = 0.9 -- length of the wings over the seat's radius
 
--- Pairs { inner, outer } of points { across, up } around the ring from one wing to the other.
+-- Returns pairs { inner, outer } of points { across, up } around the ring from one wing to the other.
 local function profile(radius)
   local list, wall, wing = {}, WALL * radius, WING * radius
   local function point(angle, r) return { r * math.sin(angle), r * math.cos(angle) } end
@@ -27,7 +28,7 @@ local function profile(radius)
   return list
 end
 
--- A strip of quadrilaterals (pairs of inner and outer points) extruded to both sides along x.
+-- Extrudes a strip of quadrilaterals (pairs of inner and outer points) to both sides along x.
 local function extrude(pairs_of, half)
   local v, f = {}, {}
   local function vertex(x, p) v[#v + 1], v[#v + 2], v[#v + 3] = x, p[1], p[2] end
@@ -51,7 +52,7 @@ local function extrude(pairs_of, half)
   return v, f
 end
 
--- From x along the axis, y across, z towards the mouth to the world.
+-- Transforms vertices from x along the axis, y across, z towards the mouth to the world.
 local function placed(clip, vertices)
   local across, out = vec.cross(clip.direction, clip.axis), {}
   for i = 1, #vertices, 3 do
@@ -63,7 +64,7 @@ local function placed(clip, vertices)
   return out
 end
 
---- A clip with at, direction, axis, width whose seat has this radius [m].
+--- Returns the shape of a clip with at, direction, axis, width and a seat of this radius [m].
 function fixshape.clip(clip, radius)
   local v, f = extrude(profile(radius), clip.width / 2)
   local low, wide = -radius * (1 + WALL), 0.8 * radius

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Ties: from now on a place of a wire is kept at a fixed point, or two wires at each other, up to a
--- slack, and until they are pulled harder than the tie bears.
+--- Ties: keep a place of a wire at a fixed point, or at a place of another wire, up to a slack, until the
+-- pull exceeds the tie's strength.
 --
 --     local tie = scene:tie(wire, { s = 0.3, to = { 0.3, 0, 0.05 }, strength = 80 })
 --     local pair = scene:tie(wire, { s = 0.5, to = { other, s = 0.5 } })
@@ -19,7 +19,7 @@ local vec = require "softworld.vec"
 
 local properties = {}
 local Tie = fixing.class("tie", properties, { "other", "strength" })
-local STIFFNESS = 1e5 -- of a nylon tie round a few millimetres [N/m]
+local STIFFNESS = 1e5 -- default, of a nylon tie round a few millimetres [N/m]
 
 local new = rows.call("scene:tie", "wire, {...}", "keeps a place of a wire at a point or at another wire", {
   gives = "a tie", example = "scene:tie(wire, { s = 0.5, to = { 0, 0, 0.1 }, strength = 80 })",
@@ -66,7 +66,7 @@ local function place(what, wire, s, whose)
   return wire:position(math.min(s, wire.length))
 end
 
--- to = { wire, s = }: the wire, s and where that is.
+-- Reads to = { wire, s = }: returns the wire, s and its position.
 local function other_wire(scene, what, to)
   other_end:read(to, what .. ": to", what .. ": to.")
   local other = fixing.wire(scene, what, "to[1]", to[1])
@@ -117,23 +117,23 @@ local function reading(self)
   return self.object:read(self.wire)
 end
 
---- Pull of the tie [N]; 0 while it is slack, and once it is broken.
+--- Returns the pull of the tie [N]; 0 while it is slack and after it broke.
 function Tie:tension() return reading(self).tension end
 
---- How far the tied places are apart [m].
+--- Returns the distance of the tied places [m].
 function Tie:distance() return reading(self).distance end
 
---- Force on the wire that was tied (not on the other one) [N].
+--- Returns the force on the wire that was tied (not on the other one) [N].
 function Tie:force()
   if self.other then return self.object:force(1) end
   local r = reading(self)
   return { r.force_x, r.force_y, r.force_z }
 end
 
---- Cut it.
+--- Cuts the tie.
 function Tie:release() self.object:release() end
 
---- Its pull between two times; see help "peaks".
+--- Returns the pull between two times; see help "peaks".
 function Tie:over(t1, t2, options)
   fixing.check(self)
   options = options == nil and {} or over:read(options)
@@ -143,10 +143,10 @@ function Tie:over(t1, t2, options)
     width = window.of(self.scene, options.window, "tie:over", 2), forces_only = true })
 end
 
---- Largest mean of its pull over the run's window so far [N].
+--- Largest mean of the pull over the run's window so far [N].
 function properties.peak_force(self) return self:over().peak_force end
 
---- Largest pull of a single step so far: what its strength is compared with [N].
+--- Largest pull of a single step so far, which is compared with the strength [N].
 function properties.raw_peak_force(self) return reading(self).peak end
 
 --- { time = [s], force = [N] } once it broke, or nil.
@@ -155,7 +155,7 @@ function properties.broken(self)
   return r.broken > 0 and { time = r.broken_time, force = r.broken_force } or nil
 end
 
---- Rows of a run's summary.
+--- Adds rows to a run's summary.
 function Tie:report(add)
   local broken = self.broken
   if broken then

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:advise: which model, edges and step a scene is likely to need, what it will cost, what to leave out;
--- without running it.
+--- scene:advise: predicts, without a run, which model, edges and step a scene needs, the cost, and what to
+-- leave out.
 -- @module softworld.model.advise
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
@@ -9,17 +9,17 @@ local rows = require "softworld.rows"
 
 local advise = {}
 
-local BOW = 1.25        -- droop of a cantilever with n edges is off by this over n^2 ("accuracy") [-]
-local FEWEST = 10       -- edges of a wire in one bow [-]
-local ROUND = 3         -- edges along the smallest radius that a wire is bent round [-]
-local SWING = 40        -- steps of a first period, for 1 % [-]
-local COST = 3e-6       -- of a node in a step, with its iterations ("speed", case=scale) [s]
-local POSE = 10       -- iterations of a pose, over those of a step [-]
-local FRAMES = 30       -- stored [1/s]
-local BYTES = { node = 2500, frame = 28 } -- of a node while computing, and in a frame [B]
-local PERIODS = 10      -- that slow motion lasts [-]
-local USUAL_DT = 0.01   -- [s]
-local USUAL_TIME = 10   -- of a process whose end is not known [s]
+local BOW = 1.25        -- relative error of a cantilever's droop with n edges: this over n^2 ("accuracy") [-]
+local FEWEST = 10       -- least edges of a wire in one bow [-]
+local ROUND = 3         -- edges per smallest radius that a wire is bent round [-]
+local SWING = 40        -- steps per first period, for 1 % [-]
+local COST = 3e-6       -- time per node and step, with its iterations ("speed", case=scale) [s]
+local POSE = 10       -- iterations of a pose over those of a step [-]
+local FRAMES = 30       -- stored frames [1/s]
+local BYTES = { node = 2500, frame = 28 } -- per node while computing, and in a frame [B]
+local PERIODS = 10      -- least duration of slow motion, in first periods [-]
+local USUAL_DT = 0.01   -- largest step [s]
+local USUAL_TIME = 10   -- duration if none is given [s]
 
 local take = rows.call("scene:advise", "{...}", "which model and mesh it is likely to need; nothing is run", {
   gives = "{ motion =, twist =, contact =, segments = { name = n }, dt =, time =, memory =, spare = }; "
@@ -41,7 +41,7 @@ local function rubs(data)
   return names
 end
 
---- What is there but does nothing: a list of { wire = or nil, text = }.
+--- Returns what the scene has without effect: a list of { wire = or nil, text = }.
 function advise.spare(scene)
   local data, list = build.data(scene), {}
   local rough, pads = #rubs(data) > 0, #data.grippers > 0
@@ -84,7 +84,7 @@ local function motion_of(scene, duration, a)
     duration / longest, number.text(longest, "s"), PERIODS)
 end
 
--- Radius of the sharpest round side near a wire [m], and whose.
+-- Returns the smallest radius of a round obstacle [m], and the obstacle's name.
 local function sharpest(data)
   local least, name = math.huge, nil
   for _, o in ipairs(data.obstacles) do

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What was chosen and why: run.model, run:why().
+--- Tells what was chosen and why: run.model, run:why().
 -- @module softworld.model.answer
 local number = require "softworld.output.number"
 local rows = require "softworld.rows"
 
 local answer = {}
 
-local COARSE = 1 / 8 -- of what was asked for: levels that stop there tell no more of their error [-]
+local COARSE = 1 / 8 -- least error over the tolerance: levels that stop there show no smaller one [-]
 
 rows.calls{
   { "run:why", "", "which model was chosen and why, of a run with model = 'auto'; print it", "run.model",
@@ -21,7 +21,7 @@ local function quantity_line(q)
     number.text(q.discretisation, q.unit), number.text(q.model_error, q.unit), q:asked())
 end
 
---- The reasons as lines of text.
+--- Returns the reasons as lines of text.
 function Model:__tostring()
   local words, lines = {}, {}
   for _, c in ipairs(self.choices) do words[#words + 1] = ("%s %s"):format(c.name, c.rung) end
@@ -52,7 +52,7 @@ local function choice_of(state)
     why = state.why or state.doubt or "there is no dearer one", error = state.change }
 end
 
--- Why bars are too long where nothing else tells.
+-- Returns why bars are too long if nothing else explains it.
 local function together(model)
   if model.spread then return "the tolerance is below what the cable's spread makes worth computing" end
   for _, q in ipairs(model.quantities) do
@@ -64,7 +64,7 @@ local function together(model)
   end
 end
 
--- Bars with what rungs leave out.
+-- Adds what the rungs leave out to the bars.
 local function widen(context, result, model)
   model.quantities = result:error_bars()
   local met = #model.short == 0 and not model.blind
@@ -83,14 +83,14 @@ local function widen(context, result, model)
   result.met = met
 end
 
--- What the levels of the run took, those that choosing had left too [s].
+-- Returns the time of the run's levels, including those taken over from choosing [s].
 local function cost_of(result)
   local sum = 0
   for _, level in ipairs(result.levels or {}) do sum = sum + level.cpu end
   return sum
 end
 
---- Give the result its model.
+--- Adds the model to the result.
 function answer.add(context, result)
   local run_cost = cost_of(result)
   local model = setmetatable({ choices = {}, short = {}, unchecked = {}, probes = context.probe_count,

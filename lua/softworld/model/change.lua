@@ -1,21 +1,21 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- By how much the next rung of a choice changes the quantities, on coarse levels of edges and steps and, as
--- far as these tell, on the finest.
+--- By how much the next rung of a choice changes the quantities: on coarse levels of edges and steps, and
+-- estimated from them for the finest level.
 -- @module softworld.model.change
 local quantity = require "softworld.quantity"
 
 local change = {}
 
-change.MODEL = 0.875 -- of a tolerance: what rungs may leave out [-]
+change.MODEL = 0.875 -- share of a tolerance that the rungs may leave out [-]
 
-local SAFETY = 1.5 -- of what is known of finer levels [-]
-local ELSEWHERE = 1 / 4 -- of a value: how far coarse edges may be off for a change on them to count [-]
-local NONE = 0 / 0 -- the value of a check's row that a computation has not
+local SAFETY = 1.5 -- on estimates for finer levels [-]
+local ELSEWHERE = 1 / 4 -- error of a coarse value, over the value, up to which a comparison counts [-]
+local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
 local function is_finite(v) return v ~= nil and quantity.size(v) < math.huge end
 
--- By how much the change itself changed from the level before: edges and steps are the same for both rungs,
--- and so are most of their errors. nil: there is no level before.
+-- Returns by how much the change between the rungs differs from that on the level before. Both rungs have the
+-- same edges and steps, and so mostly the same errors. nil: there is no level before.
 local function moved(levels, name)
   local now, before = levels, levels.before
   local a, b = now.here.values[name], now.above.values[name]
@@ -25,9 +25,9 @@ local function moved(levels, name)
   return quantity.distance(quantity.minus(a, c), quantity.minus(b, d))
 end
 
--- What a change of d here may be on the finest level: times the choice's safety. Or, if that is less, over
--- the share of it that the level shows: 1.5 times as much; by two levels, with 1.5 times what it moved by.
--- levels: { here =, above = } of the rungs, also before.
+-- Returns a bound for a change d on the finest level: d times the choice's safety. Another estimate holds if
+-- it is less: SAFETY * d, or with a level before, d plus SAFETY times what it moved by; both over the share
+-- of the change that this level shows. levels: { here =, above = } of the rungs, also before.
 local function bound(state, levels, name, d)
   local choice = state.choice
   local most, move = choice.safety * d, moved(levels, name)
@@ -36,23 +36,24 @@ local function bound(state, levels, name, d)
   return math.min(most, (move and d + SAFETY * move or SAFETY * d) / shown)
 end
 
--- The same of a rung whose next one has edges of its own, which change it too.
+-- Same for a rung whose next rung has its own edges, which also change the values.
 local function own_bound(state, levels, name, d)
   local before, now = levels.before.above.values[name], levels.above.values[name]
   return state.choice.safety * (d + (quantity.alike(before, now) and quantity.distance(before, now) or 0))
 end
 
---- A quantity's value on level k, for what a share of it is: by a finer level where one was computed. Coarse
--- poses may end in another place, where a force is a small part of what it comes to be.
+--- Returns a quantity's value on level k, for shares of it: that of a finer level if one was computed. Coarse
+-- poses may end in another place, where a force is a small part of its later value.
 function change.known(context, name, k, value)
   local finest = context.finest
   local finer = finest and finest.k > k and finest.values[name] or nil
   return is_finite(finer) and quantity.alike(finer, value) and finer or value
 end
 
---- By how much quantities change between two results, with what is allowed: the worst share, its quantity,
--- all; seen: what that quantity changes by here, over what is allowed. levels: { here =, above = } of the
--- rungs, also before; left(context, name, state): what other choices leave out of a quantity.
+--- Returns by how much quantities change between two rungs, compared with what is allowed: the worst share
+-- and its quantity; all changes; seen: the change of that quantity on this level over the allowed one.
+-- levels: { here =, above = } of the rungs, also before; left(context, name, state): what other choices leave
+-- out of a quantity.
 function change.between(context, state, levels, left)
   local c = { worst = -1, all = {} }
   local own = state.choice.rungs[state.rung].own and levels.before
@@ -69,9 +70,9 @@ function change.between(context, state, levels, left)
   return c
 end
 
---- Was the choice compared on edges so coarse that the wire was somewhere else there? By the values of the
--- finest run, the rung's own were off by a quarter and by more than the tolerance. On such edges both rungs
--- may agree on a shape that fine edges do not have: a pushed trunk buckles to the other side.
+--- Returns true if a choice was compared on edges so coarse that the wire was somewhere else there: the rung's
+-- values were off those of the finest run by a quarter, and by more than the tolerance. On such edges both
+-- rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
 function change.is_elsewhere(context, state, values)
   local there = state.by == "compared" and state.compared
   for _, q in ipairs(there and context.job.quantities or {}) do
@@ -84,7 +85,7 @@ function change.is_elsewhere(context, state, values)
   return false
 end
 
---- The same where edges and steps hide so many times as much of it.
+--- Returns c with the changes multiplied by `times`, which edges and steps may hide.
 function change.hidden(c, times)
   local more = { worst = times * c.worst, quantity = c.quantity, allowed = c.allowed, seen = c.seen,
     all = {} }

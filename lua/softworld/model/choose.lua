@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:run{ tolerance = { quantity = value }, model = "auto" }: no more model than the quantities need.
+--- scene:run{ tolerance = { quantity = value }, model = "auto" }: the cheapest model that suffices for the
+-- quantities.
 --
--- Every choice begins at its cheapest rung. Where a free check tells that it suffices, it stays. Otherwise
--- the next rung is computed too, on coarse edges and steps, and what the quantities change by decides: a rung
--- stays where the change is a small part of what was asked for. Then edges and steps are refined for the
--- rungs chosen, and what the finest run tells must still bear out the free checks.
+-- Every choice starts at its cheapest rung. If a free check shows that the rung suffices, it stays. Otherwise
+-- the next rung is computed too, on coarse edges and steps; the rung stays if the quantities change by no
+-- more than a part of the tolerance. Then edges and steps are refined for the chosen rungs, and the finest
+-- run must still confirm the free checks.
 -- @module softworld.model.choose
 local answer = require "softworld.model.answer"
 local build = require "softworld.scene.build"
@@ -26,14 +27,14 @@ local trust = require "softworld.run.trust"
 
 local choose = {}
 
-local LEAST = 1 - change.MODEL -- of a tolerance: what edges and steps may always take [-]
-local HOPELESS = 50 -- a bar over what is asked: no other rung will mend that [-]
-local NONE = 0 / 0 -- the value of a check's row that a computation has not
-local LONGEST = 300 -- that a level is expected to take [s]
-local OWN = 4      -- of what the next rung changes: by how much it shortens a bar at most [-]
-local SLACK = 2    -- of the limits of free checks, when the finest run is asked whether they hold [-]
+local LEAST = 1 - change.MODEL -- share of a tolerance that edges and steps always get [-]
+local HOPELESS = 50 -- bar over tolerance that no other rung can mend [-]
+local NONE = 0 / 0 -- value of a check's row that a computation lacks
+local LONGEST = 300 -- longest expected time of a level [s]
+local OWN = 4      -- a bar shortens by at most this times what the next rung changes [-]
+local SLACK = 2    -- on the limits of free checks, when the finest run must confirm them [-]
 
--- Do the values of k levels already have the bars that are asked for?
+-- True if the values of k levels already have short enough bars.
 local function suffices(job, k, known)
   if k < decide.levels then return false end
   for _, q in ipairs(job.quantities) do
@@ -44,7 +45,7 @@ local function suffices(job, k, known)
   return true
 end
 
--- Is level k one that nobody waits for? Two levels tell a bar.
+-- True if level k would take too long. Never below level 3: a bar needs two levels.
 local function is_dear(context, k)
   if k < 3 then return false end
   local time = probe.expected(context, decide.rungs(context), k, context.job.levels)
@@ -54,7 +55,7 @@ local function is_dear(context, k)
   return true
 end
 
--- Does a rung of the run turn out to cost more than the next one, before the bars are short enough?
+-- True if a rung of the run turns out to cost more than the next rung, before the bars are short enough.
 local function is_wasteful(context, k)
   if not context.run_of[k] then return false end
   local state, why = decide.wasteful(context, k, context.run_of[k])
@@ -62,21 +63,21 @@ local function is_wasteful(context, k)
   return state ~= nil
 end
 
--- The choice whose next rung may compute what does not go with this one; nil: there is none.
+-- Returns the choice whose next rung may succeed where this one fails, or nil.
 local function may_replace(context)
   for _, state in ipairs(context.states) do
     if state.choice.instead and state.by ~= "given" and state.rung < state.last then return state end
   end
 end
 
--- Has the last level failed, by a rung that another one may replace? Finer ones mostly fail too, and slowly.
+-- True if the last level failed by a rung that can be replaced. Finer levels mostly fail too, and slowly.
 local function has_failed(context)
   local levels = context.job.levels
   local last = levels[#levels]
   return last and not last.ok and may_replace(context) ~= nil
 end
 
--- No finer levels than can be waited for, as far as it is known; and as it turns out, from level to level.
+-- Limits the levels to those that do not take too long, by what is known before and after each level.
 local function affordable(context)
   local job = context.job
   job.most, context.dear = context.most, nil
@@ -91,7 +92,7 @@ local function affordable(context)
   end
 end
 
--- The steps of levels, each with a guard of what free checks stand on.
+-- Returns the steps of levels, each with a guard that watches what the free checks rely on.
 local function guarded(context, steps)
   local base = probe.known(context, decide.rungs(context), 1)
   local share = base and base.values and decide.tightest(context, base.values)
@@ -104,23 +105,23 @@ local function guarded(context, steps)
   end
 end
 
--- Begin the levels of the run with those that choosing had already: nothing is computed twice. Gives what is
--- kept of the last of them where it suffices.
+-- Starts the levels of the run with those computed while choosing, so that nothing is computed twice. Returns
+-- the kept run of the last of them if it suffices.
 local function take_known(context)
   local job, kept = context.job, nil
   job.levels, job.contact, job.finest, job.begun = {}, nil, nil, 0
   for name in pairs(job.values) do job.values[name] = {} end
-  local astray = 0 -- levels that tell nothing of finer ones
+  local astray = 0 -- last level that says nothing about finer ones
   for k = 1, decide.levels do
     local known = probe.known(context, decide.rungs(context), k)
     if not known or not known.ok then break end
     astray = known.astray and k or astray
     for name, values in pairs(job.values) do
-      values[k - astray] = known.values[name] or NONE -- of an astray one, 0: that is none
+      values[k - astray] = known.values[name] or NONE -- index 0 for an astray one: unused
       if known.astray then job.values[name] = {} end
     end
     job.moves = known.moves
-    if suffices(job, k, known) then -- the scene is to end there
+    if suffices(job, k, known) then -- the scene must end in its state
       kept = probe.as_it_ended(context, decide.rungs(context), k)
       break
     end
@@ -132,7 +133,7 @@ local function take_known(context)
   return kept
 end
 
--- The finest run of the rungs chosen.
+-- Computes the finest run of the chosen rungs.
 local function refined(context)
   local job, steps = context.job, nil
   for _, q in ipairs(job.quantities) do
@@ -164,8 +165,8 @@ local function refined(context)
   return result
 end
 
--- A free check that the finest run does not bear out is no reason any more: its choice is compared.
--- time: when that was seen [s].
+-- Drops a free check that the finest run contradicts: its choice is decided again, by comparing.
+-- time: when this was seen [s].
 local function given_up(context, state, time)
   local was, why = state.choice.rungs[state.rung].as, state.known
   state.checked, state.by, state.known = true, nil, nil
@@ -182,11 +183,11 @@ local function given_up(context, state, time)
     text = ("%s: %s given up; %s"):format(state.choice.name, was, state.why) }
 end
 
--- May what the finest run tells speak against the free check of a choice?
+-- True if the finest run can contradict the free check of a choice.
 local function is_checked(state) return state.by == "free" and not state.went_on end
 
--- What the finest run tells of choices whose free checks are to be borne out, or which may fall short. Where
--- that does not depend on the tolerance, only what its guard has not seen.
+-- Returns what the finest run tells of choices with a free check to confirm, or with a `short`. For facts
+-- that do not depend on the tolerance, only from frames that the guard has not seen.
 local function last_facts(context, result)
   local seen, unseen = {}, {}
   for _, state in ipairs(context.states) do
@@ -202,8 +203,8 @@ local function last_facts(context, result)
   return found
 end
 
--- Compares a choice on finer edges while those it was compared on show another state than the finest run, by
--- its values. True when another rung comes of it.
+-- Compares a choice on finer edges as long as the edges it was compared on show another state than the finest
+-- run. Returns true if another rung is chosen.
 local function compared_finer(context, state, values)
   local rung, as = state.rung, state.choice.rungs[state.rung].as
   while change.is_elsewhere(context, state, values) and state.compared.k < decide.levels do
@@ -220,7 +221,7 @@ local function compared_finer(context, state, values)
   return false
 end
 
--- Look at what the finest run tells; true when it is to be computed again.
+-- Checks the finest run; true if it must be computed again.
 local function broken(context, result)
   local values = {}
   for name, q in pairs(result.quantities) do values[name] = q.value end
@@ -238,18 +239,19 @@ local function broken(context, result)
   return again
 end
 
--- May the next rung of a choice make the bar of a quantity short enough? over: by how much it is too long
--- with what the rungs leave out. That is taken away, and a bar, being so many changes from level to level,
--- shortens by no more than some times what the rung changes. But friction makes bars of fine poses.
+-- True if the next rung of a choice may shorten the bar of a quantity enough. over: excess of the bar, with
+-- what the rungs leave out. The next rung removes what this one leaves out, and it shortens a bar, which is
+-- made of changes between levels, by at most OWN times its own change. Rough choices may always mend:
+-- friction makes the bars of fine poses long.
 local function may_mend(state, q, over)
   if state.by == "free" then return state.choice.name == "motion" and not q.met end
   local moved = state.by == "compared" and state.change[q.name] or 0
   return moved > 0 and (state.choice.rough and not q.met or over <= OWN * moved)
 end
 
--- Where a bar stays too long the first choice whose next rung may mend that goes up. True when one does.
+-- If a bar stays too long, raises the first choice whose next rung may mend it. True if one is raised.
 local function shorter(context, result)
-  if context.dear then return false end -- the bars are those of a mesh that is not to be finer
+  if context.dear then return false end -- the mesh cannot be finer
   for _, state in ipairs(context.states) do
     if state.choice.steady and state.by == "failed" then return false end -- not met in any case
   end
@@ -271,7 +273,7 @@ local function shorter(context, result)
   return false
 end
 
--- The finest run; nil where its guard ended it.
+-- Computes the finest run; nil if its guard ended it.
 local function watched(context)
   local fine, result = pcall(refined, context)
   if fine then return result end
@@ -280,7 +282,7 @@ local function watched(context)
   given_up(context, found.state, found.time)
 end
 
--- A fine run that failed by a rung which coarse ones could be computed with: its choice goes up.
+-- If a fine run failed by a rung that coarse runs could be computed with, raises its choice.
 local function goes_on_above(context, result)
   if not result.refused then return false end
   local state = may_replace(context)
@@ -291,7 +293,7 @@ local function goes_on_above(context, result)
   return true
 end
 
--- A rung that costs more than the next one is given up.
+-- Gives up a rung that costs more than the next one.
 local function spares(context)
   local found = context.wasteful
   if not found then return false end
@@ -338,7 +340,7 @@ local function begin(context)
   end
 end
 
---- Is a model to be chosen? Raises where it cannot be.
+--- True if a model is to be chosen. Raises an error if that is impossible.
 function choose.wanted(scene, args)
   if type(args) ~= "table" then return false end
   local word = args.model
@@ -358,7 +360,7 @@ function choose.wanted(scene, args)
   return true
 end
 
---- The run, with run.model and run:why().
+--- Computes the run, with run.model and run:why().
 function choose.run(scene, given, check, run_once)
   local args = {}
   for key, value in pairs(given) do args[key] = value end
@@ -386,7 +388,7 @@ function choose.run(scene, given, check, run_once)
   end
   if job.close then job.close() end
   if not fine then error(result, 0) end
-  if given.frames == false then scene:clear_frames() end -- they were for the choices
+  if given.frames == false then scene:clear_frames() end -- they were only for the choices
   return answer.add(context, result)
 end
 

@@ -18,7 +18,7 @@ function contact.apply(context, rung)
   if rung == 2 then record.quietly(context.scene.wire_contact, context.scene, {}) end
 end
 
--- Room between the swept boxes of wires a and b [m]; negative: they meet.
+-- Returns the room between the swept boxes of wires a and b [m]; negative: they overlap.
 local function room(a, b)
   local most = -math.huge
   for k = 1, 3 do
@@ -27,8 +27,8 @@ local function room(a, b)
   return most
 end
 
--- Room between the axes of two wires, or of one and itself, less their width [m]: by the frames, where their
--- boxes meet, where it is less than most. sort: "boxes" or "axes", for which it was.
+-- Returns the room between the surfaces of two wires, or of one and itself [m], and how it was found: by
+-- "boxes", or by the "axes" in the frames if the boxes overlap. Room above `most` is not searched.
 local function room_between(context, boxes, i, j, most)
   local wide = context.data.wires[i].object.radius + context.data.wires[j].object.radius
   local between = i < j and room(boxes[i], boxes[j]) - boxes[i].step - boxes[j].step - wide or -1
@@ -37,7 +37,7 @@ local function room_between(context, boxes, i, j, most)
 end
 
 function contact.look(context)
-  if context.data.touching then return {} end -- that they come near tells nothing any more
+  if context.data.touching then return {} end -- with touches the distance tells nothing
   local boxes, turning = facts.swept()
   local f = { room = math.huge, turning = turning, frames = #boxes > 0 }
   for i = 1, #boxes do
@@ -62,12 +62,12 @@ function contact.free(_, rung, f)
     room_is, f.turning, math.pi)
 end
 
---- Why wires may meet from here on, of what was seen of a run on the way.
+--- Returns why wires may meet from here on, by what the run showed so far.
 function contact.broken(f)
   return f.frames and f.room <= 0 and "wires came as near to each other as they move between frames" or nil
 end
 
---- They touch each other from here on.
+--- Lets wires touch each other from here on.
 function contact.onward(context) record.quietly(context.scene.wire_contact, context.scene, {}) end
 
 return contact

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Deciding the choices of a model, each by what coarse computations tell: from its cheapest rung up to one
--- that leaves out no more than a part of what is asked for.
+--- Decides the choices of a model by coarse computations, each from its cheapest rung up to the first that
+-- leaves out no more than a part of the tolerance.
 -- @module softworld.model.decide
 local change = require "softworld.model.change"
 local number = require "softworld.output.number"
@@ -11,21 +11,21 @@ local estimate = require "softworld.run.estimate"
 local decide = {}
 
 local MODEL = change.MODEL
-local DOUBT = 2 -- a change that is not smaller than what is allowed by this is looked at on a finer mesh [-]
-local MOMENT = 1e5 -- iterations of nodes that nobody counts: some 70 ms [-]
-local LONG = 1     -- expected of a mesh on the second level, from which it is asked whether it helps [s]
-local FAR = 100    -- a change over what is allowed that coarse edges do not feign [-]
-local HOPE = 4     -- by how much a change may shrink from level to level [-]
-local FEIGNED = 16 -- the same that coarse edges do only where poses jump to another place [-]
-local HIDDEN = 4   -- of a change that coarse edges and steps blur: they may hide so many times as much [-]
-local HIDES = 2 / 3 -- of what is allowed: what that may come to; more leaves edges and steps too little [-]
-local SEEN = 0.1   -- of a swing: what steps must show for that [-]
-local GROWTH = 2   -- iterations of the next rung over those of the level before, at least [-]
-local NONE = 0 / 0 -- the value of a check's row that a computation has not
+local DOUBT = 2 -- changes above the allowed one over this are compared on a finer mesh too [-]
+local MOMENT = 1e5 -- iterations times nodes that cost nothing worth saving: about 70 ms [-]
+local LONG = 1     -- expected time of a mesh on the second level above which in_vain is asked [s]
+local FAR = 100    -- change over the allowed one that cannot come from coarse edges [-]
+local HOPE = 4     -- a change shrinks at most by this factor from level to level [-]
+local FEIGNED = 16 -- change over the allowed one that coarse edges cause only if poses jump elsewhere [-]
+local HIDDEN = 4   -- coarse edges and steps that blur a change may hide this many times as much [-]
+local HIDES = 2 / 3 -- largest change with hidden part over the allowed one; the rest is for edges, steps [-]
+local SEEN = 0.1   -- least share of a swing that steps must show to accept a blurred change [-]
+local GROWTH = 2   -- least iterations of a run over those of the level before [-]
+local NONE = 0 / 0 -- value of a check's row that a computation lacks
 
-decide.levels = 3 -- coarse ones on which rungs are compared [-]
+decide.levels = 3 -- coarse levels on which rungs are compared [-]
 
---- The rungs chosen, by the names of the choices.
+--- Returns the chosen rungs by the names of the choices.
 function decide.rungs(context)
   local rungs = {}
   for _, state in ipairs(context.states) do rungs[state.choice.name] = state.rung end
@@ -39,8 +39,8 @@ local function with(rungs, name, rung)
   return copy
 end
 
--- Iterations that the next rung of a choice needs on level k at least, by what was computed of it on the way,
--- or now on the coarsest level; nil: it cannot be.
+-- Returns the least iterations that the next rung of a choice needs on level k, from known computations, or
+-- from one on the coarsest level; nil: it cannot be computed.
 local function iterations_above(context, state, k)
   local up = with(decide.rungs(context), state.choice.name, state.rung + 1)
   for j = k, 2, -1 do
@@ -51,8 +51,8 @@ local function iterations_above(context, state, k)
   return above.ok and GROWTH ^ (k - 1) * above.iterations or nil
 end
 
---- The choice whose rung costs more than the next one, as a run of the rungs chosen tells by what it needed
--- on level k, and why; nil: there is none. The scene may then be as another run left it.
+--- Returns the choice whose rung costs more than the next one, judged by a run on level k, and why; nil:
+-- there is none. This may compute another run and leave the scene in its final state.
 function decide.wasteful(context, k, run)
   for _, state in ipairs(context.states) do
     local open = state.by ~= "given" and not state.went_on and state.rung < state.last and state.choice.toils
@@ -62,7 +62,7 @@ function decide.wasteful(context, k, run)
   end
 end
 
---- The tightest tolerance over its value [-].
+--- Returns the smallest tolerance over the value of its quantity [-].
 function decide.tightest(context, values)
   local share = 1
   for _, q in ipairs(context.job.quantities) do
@@ -73,7 +73,7 @@ function decide.tightest(context, values)
   return share
 end
 
---- What the rungs chosen leave out of a quantity, by comparing, in its unit; but one choice.
+--- Returns what the chosen rungs, except those of choice `but`, leave out of a quantity, in its unit.
 function decide.left_out(context, name, but)
   local sum = 0
   for _, state in ipairs(context.states) do
@@ -82,7 +82,7 @@ function decide.left_out(context, name, but)
   return sum
 end
 
--- The same, of what may still be chosen otherwise: no other choice makes up for a rung that failed.
+-- Same without failed choices: no other choice can make up for a failed rung.
 local function left_by_others(context, name, but)
   local sum = decide.left_out(context, name, but)
   for _, state in ipairs(context.states) do
@@ -91,29 +91,29 @@ local function left_by_others(context, name, but)
   return sum
 end
 
--- Would a level more of the next rung be all that its run needs? Then comparing there saves nothing, and the
--- comparison ends where it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
+-- True if the next rung's run would need only one more level. Comparing there saves nothing, so the
+-- comparison ends if it takes more than a moment. above: the next rung on level k - 1, before: on k - 2.
 local function saves_nothing(context, above, before, k)
   local growth = above.work / math.max(1, before.work)
   if k < decide.levels or growth * above.work < MOMENT then return false end
   for _, q in ipairs(context.job.quantities) do
     local value = above.values[q.name] or NONE
     local bar, rate = estimate.bar(q, { before.values[q.name] or NONE, value }, above.contact)
-    local enough = bar / rate <= quantity.asked(q, value) -- of numbers that are not known: not
+    local enough = bar / rate <= quantity.asked(q, value) -- false for NaN
     if not enough then return false end
   end
   return true
 end
 
--- Did poses jump? On coarse edges chance tells to where, and any change may come of that.
+-- True if poses jumped. On coarse edges chance decides where to, which may cause any change.
 local function jumps(result) return (result.facts.motion.jumps or 0) > 0 end
 
--- Does the level tell too little of the next rung to stay, or to go? Or the change, with what may be hidden,
--- if it is still small then.
+-- True if the level tells too little of the next rung to decide. Else false; and the change together with
+-- what may be hidden, if that is still small enough.
 local function is_blurred(context, state, now, c)
   local choice = state.choice
   if now.k > 1 then return false end
-  if choice.rungs[state.rung].own then return true end -- how far the next rung itself is off
+  if choice.rungs[state.rung].own then return true end -- the next rung's own error is unknown
   if c.worst > 1 then return c.worst <= FAR or jumps(now.here) or jumps(now.above) end
   local above, share = now.above.facts[choice.name], decide.tightest(context, now.above.values)
   if not choice.blurred or not choice.blurred(now.here.facts[choice.name], above, share) then return false end
@@ -122,9 +122,9 @@ local function is_blurred(context, state, now, c)
   return true
 end
 
--- Poses that jumped on the level before to where they do not go on this one: what they tell there is no level
--- of what they come to be. last: by how much the rungs differed there. By half of that at least one of them
--- has moved since.
+-- Marks results of the level before whose poses jumped to a place where they do not go on this level: such
+-- results say nothing about finer levels. A result is marked if it jumped and has moved since by at least
+-- half of the distance between the rungs. last: the change there.
 local function mark_astray(now, last)
   local name, before = last.quantity.name, now.before
   local function distance(one, other)
@@ -138,8 +138,8 @@ local function mark_astray(now, last)
   end
 end
 
--- The same on the coarsest level, and on finer ones as long as a change that is too large becomes smaller: a
--- cheap rung must not pay for coarse steps. Nothing is computed twice.
+-- Compares a rung with the next on the coarsest level, and on finer levels while a too large change becomes
+-- smaller: coarse steps must not rule out a cheap rung. Returns the change, and why the next rung failed.
 local function compare(context, state, rungs, above)
   local rung, levels = state.choice.rungs[state.rung], state.choice.levels or decide.levels
   local c, before
@@ -174,7 +174,7 @@ local function begin_anew(state)
   state.rung, state.by, state.raised, state.why, state.checked, state.rose = 1, nil, nil, nil, nil, nil
 end
 
---- One rung up. The choices after it begin anew: they were made with the rung that is given up.
+--- Raises a choice by one rung. The choices after it start again, as they were decided with the old rung.
 function decide.raise(context, state, why)
   state.rung, state.by, state.raised, state.why, state.rose = state.rung + 1, "raised", why, why, nil
   local after = false
@@ -184,14 +184,14 @@ function decide.raise(context, state, why)
   end
 end
 
--- Settled, and why: by the reason for which it went up, if it did, and the one for which it stays.
+-- Settles a choice with the reason why it was raised, if it was, and why it stays. Returns true.
 local function stay(state, by, why)
   state.by = by
   state.why = state.raised and why and state.raised .. "; " .. why or state.raised or why
   return true
 end
 
--- The choice whose next rung computes what does not go with this one, and why.
+-- Returns the choice whose next rung can compute what this one cannot, and why.
 local function mends(context, result)
   local share = result.values and decide.tightest(context, result.values) or 1
   for _, state in ipairs(context.states) do
@@ -201,7 +201,7 @@ local function mends(context, result)
   end
 end
 
--- What a share of each value is, in its unit.
+-- Returns a share of each value, in its unit.
 local function of_values(context, values, share)
   local all = {}
   for _, q in ipairs(context.job.quantities) do
@@ -211,21 +211,21 @@ local function of_values(context, values, share)
   return all
 end
 
--- Settled for want of the next rung; what is left out counts as far as it is known.
+-- Settles a choice because the next rung is not available; what it leaves out counts as far as it is known.
 local function unknown(context, state, f, here, why)
   local left = state.choice.left and state.choice.left(state.rung, f)
   state.doubt, state.change = why, left and of_values(context, here.values, left)
   return stay(state, "failed", why)
 end
 
--- What was found with a rung that is given up tells nothing.
+-- Starts the other choices again: what was found with the old rung says nothing.
 local function others_anew(context, state)
   for _, other in ipairs(context.states) do
     if other ~= state and other.by ~= "given" then begin_anew(other) end
   end
 end
 
--- Where wires cannot be made what a rung wants, the one below has to do; true when there is one.
+-- If wires cannot be made as a rung wants, takes the rung below; false if there is none.
 local function bar_rung(context, failed)
   for _, state in ipairs(context.states) do
     if state.choice.steady and state.rung > 1 then
@@ -238,7 +238,8 @@ local function bar_rung(context, failed)
   return false
 end
 
--- Would a mesh be computed for bars that no level makes short enough? Lines on two levels tell; nil: not so.
+-- Returns a text if no level would make a bar short enough, so that a costly mesh is in vain; else nil. Two
+-- levels of the present rung show it.
 local function in_vain(context, rungs, up)
   local time, job = probe.expected(context, up, 2), context.job -- two levels make a bar
   if not time or time < LONG then return nil end
@@ -254,7 +255,7 @@ local function in_vain(context, rungs, up)
   end
 end
 
--- Does the next rung give another answer? True when the choice is settled.
+-- Checks whether the next rung gives another answer. True when the choice is settled.
 local function climb(context, state, rungs, here)
   local choice, rung = state.choice, state.rung
   local name, f = choice.name, here.facts[choice.name]
@@ -292,7 +293,7 @@ local function climb(context, state, rungs, here)
   return false
 end
 
---- One look at a choice; true when it is settled.
+--- Takes one step in deciding a choice; true when it is settled.
 function decide.look(context, state)
   local choice, rungs = state.choice, decide.rungs(context)
   local name, rung = choice.name, state.rung
@@ -332,7 +333,7 @@ function decide.look(context, state)
   return climb(context, state, rungs, here)
 end
 
--- What the others leave out counts in what one may, as far as it is known.
+-- Decides all choices in turn. What one may leave out is reduced by what the others are known to leave out.
 local function decide_all(context)
   for _, state in ipairs(context.states) do
     if state.by ~= "given" then
@@ -342,7 +343,7 @@ local function decide_all(context)
   end
 end
 
--- Do the choices together leave out more than they may, each of them being allowed?
+-- True if the choices together leave out more than allowed, although each one is within its limit.
 local function is_overdrawn(context)
   local here = probe.of(context, decide.rungs(context), 1)
   for _, q in ipairs(here.ok and context.job.quantities or {}) do
@@ -353,8 +354,8 @@ local function is_overdrawn(context)
   return false
 end
 
--- Would the rung below do after all, beside the rungs that the others have come to? True where it does: what
--- the others leave out was found with the rung above, and what that changes comes to it.
+-- Goes back to the rung below if it suffices with the present rungs of the others; true if it does. What the
+-- others leave out was found with the rung above, and the change between the two rungs is added to it.
 local function may_fall(context, state)
   local now = decide.rungs(context)
   local below = with(now, state.choice.name, state.rung - 1)
@@ -374,9 +375,8 @@ local function may_fall(context, state)
   return false
 end
 
---- Decide all choices until nothing changes: what is chosen later may undo what was free before, or make do
--- with a rung that did not suffice before. Returns what was computed of them on the coarsest level; nil: that
--- failed.
+--- Decides all choices until nothing changes: a later choice may undo a free one, or make a rung suffice that
+-- did not before. Returns the computation of the chosen rungs on the coarsest level; nil: it failed.
 function decide.settle(context)
   for _ = 1, 3 do
     local before = decide.rungs(context)

@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a computation tells to the choices of a model: whether obstacles rub, how near wires come to each
--- other, how they speed up.
+--- Reads from a computation what the choices of a model need: whether obstacles rub, how near wires come to
+-- each other, how they accelerate.
 -- @module softworld.model.facts
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
 
 local facts = {}
 
---- A share as text.
+--- Returns a share as text.
 function facts.percent(share) return ("%.2g %%"):format(100 * share) end
 
---- Names of obstacles with friction that pressed on something in the run.
+--- Returns the names of obstacles with friction that pressed on something in the run.
 function facts.rubbing(scene, start)
   local names = {}
   for _, o in ipairs(build.data(scene).obstacles) do
@@ -27,9 +27,9 @@ function facts.rubbing(scene, start)
   return names
 end
 
-local kept -- of the run that is looked at: its scene, start [s] and numbers of frames, what wires swept
+local kept -- the run being read: scene, start [s], numbers of frames, and what wires swept
 
---- f(...) while the frames of a run are looked at.
+--- Calls f(...) with the frames of a run available to the functions below.
 function facts.reading(scene, start, f, ...)
   kept = { scene = scene, start = start, numbers = {} }
   for i, t in ipairs(core.frame_times(scene)) do
@@ -41,8 +41,8 @@ function facts.reading(scene, start, f, ...)
   return result, more
 end
 
---- Call look(forces, spacing, number) for the frames in which something presses on wire w, in order: forces
--- at its nodes [N], distance of the first two [m], number of the frame.
+--- Calls look(forces, spacing, number) for each frame in which something presses on wire w, in order: forces
+-- at its nodes [N], distance of the first two nodes [m], number of the frame.
 function facts.touched(w, look)
   for _, number in ipairs(kept.numbers) do
     local forces, spacing = core.frame_contact(kept.scene, number, w)
@@ -50,15 +50,15 @@ function facts.touched(w, look)
   end
 end
 
---- What presses on line w in those frames, rows of five: see core.frames_press.
+--- Returns what presses on line w in these frames, rows of five: see core.frames_press.
 function facts.press(w, place, but)
   return core.frames_press(kept.scene, w, kept.start, place, but)
 end
 
---- Swept boxes of the wires { x1, y1, z1, x2, y2, z2, step = how far points move between frames } [m]; the
--- largest angle by which one turns along its length [rad]; the largest acceleration of what moves along the
--- frames, by second differences, and by those of every second frame [m/s2], nil where there are less than
--- three, or five.
+--- Returns the swept boxes of the wires { x1, y1, z1, x2, y2, z2, step = how far points move between frames }
+-- [m]; the largest angle by which a wire turns along its length [rad]; the largest acceleration in the frames
+-- by second differences, and the same with every second frame [m/s2]; these are nil with fewer than three and
+-- five frames.
 function facts.swept()
   if not kept.boxes then
     kept.boxes, kept.turning = {}, 0
@@ -72,14 +72,14 @@ function facts.swept()
   return kept.boxes, kept.turning, kept.acceleration, kept.slower
 end
 
---- How near the axes of wires v and w come, or one to itself beyond half a turn [m]: less what moves between
--- frames, and not where they are joined. What is no more than enough is not searched for better, nor what is
--- more than most.
+--- Returns the least distance of the axes of wires v and w, or of one wire to itself beyond half a turn [m],
+-- reduced by the motion between frames. Joined places do not count. The search ends at a distance of `enough`
+-- or less, and skips distances above `most`.
 function facts.apart(v, w, enough, most)
   return core.frames_apart(kept.scene, v, w, kept.start, enough, most)
 end
 
---- Does wire w stay in a plane, with all that pushes and turns it?
+--- True if wire w stays in a plane, with everything that pushes and turns it.
 function facts.flat(w) return core.frames_flat(kept.scene, w, kept.start) end
 
 return facts

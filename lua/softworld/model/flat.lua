@@ -1,23 +1,23 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How a section gives way between two faces that press on it: of a solid wire as a cylinder, of a hollow
--- one as a ring, of a cable as its insulation alone.
+--- Flattening of a section between two faces that press on it: a solid wire as a cylinder, a hollow one as a
+-- ring, a cable as its insulation alone.
 -- @module softworld.model.flat
 local material = require "softworld.wire.material"
 
 local flat = {}
 
-local POISSON = 0.4 -- of what wires are made of, where EI and GJ do not say [-]
-local SOLID = 1e-6  -- EI is that of a solid wire of its EA within this share [-]
-local HOLLOW = 0.4  -- inner radius over the outer one from which a ring's theory holds [-]
-local SHEAR = 1.2   -- of a ring's rectangular section: largest shear over mean [-]
+local POISSON = 0.4 -- Poisson's ratio where EI and GJ do not tell it [-]
+local SOLID = 1e-6  -- relative difference up to which EI counts as that of a solid wire with this EA [-]
+local HOLLOW = 0.4  -- inner over outer radius from which ring theory holds [-]
+local SHEAR = 1.2   -- shear factor of a ring's rectangular section [-]
 local THIN = math.pi / 4 - 2 / math.pi -- approach of a thin ring, over F R^3/EI [-]
-local FULL = 0.1    -- flattening for which springs are chosen, where it is more or not known [-]
+local FULL = 0.1    -- largest flattening for which springs are chosen, also used if it is not known [-]
 
 flat.thin = THIN
 
---- What is pressed: { radius [m], E [Pa], of = of what that is the modulus, nu [-] }, of a tube also inner
--- and wall [m], of a cable cable = true. By E, or by EA and EI: of one material they tell the inner radius.
--- known = false: EA and EI are not those of one material, and E is the most that there may be.
+--- Returns the body that is pressed: { radius [m], E [Pa], of = owner of that modulus, nu [-] }; for a tube
+-- also inner and wall [m]; for a cable cable = true. The wire gives E, or EA and EI; if these belong to one
+-- material they also give the inner radius. known = false: they do not, and E is the largest possible value.
 function flat.body(wire)
   local entry, r = wire:cable(), wire.radius
   local beam = wire:get()
@@ -42,8 +42,8 @@ function flat.body(wire)
   return body
 end
 
---- Approach of opposite line loads on a ring, over their size per length [1/Pa]: Roark's Formulas for
--- Stress and Strain (Young, Budynas), table 9.2, case 1, which counts stretch and shear of the wall, in plane
+--- Returns the approach of opposite line loads on a ring over the load per length [1/Pa]: Roark's Formulas
+-- for Stress and Strain (Young, Budynas), table 9.2, case 1, with stretch and shear of the wall, in plane
 -- strain.
 function flat.ring(body)
   local mean, wall = (body.radius + body.inner) / 2, body.wall
@@ -53,17 +53,17 @@ function flat.ring(body)
   return (math.pi * k1 / 4 - 2 * k2 ^ 2 / math.pi) * 12 * (1 - body.nu ^ 2) * (mean / wall) ^ 3 / body.E
 end
 
---- By how much two faces that press with q [N/m] come nearer, over the width. Of a solid cylinder: Johnson,
+--- Returns the approach of two faces that press with q [N/m], over the width. Solid cylinder: Johnson,
 -- Contact Mechanics, 1985, section 5.6.
 function flat.share(body, q)
   if q <= 0 then return 0 end
   if body.inner then return q * flat.ring(body) / (2 * body.radius) end
   local r, soft = body.radius, (1 - body.nu ^ 2) / (math.pi * body.E)
-  local half = (4 * q * r * soft) ^ 0.5 -- of the strip that touches [m]
+  local half = (4 * q * r * soft) ^ 0.5 -- half width of the contact strip [m]
   return 2 * q * soft * math.max(1, 2 * math.log(4 * r / half) - 1) / (2 * r)
 end
 
---- Line force over approach [Pa] at a flattening, or at a tenth where it is more: by halving.
+--- Returns the line force over the approach [Pa] at a flattening of at most FULL, by bisection.
 function flat.stiffness(body, share)
   share = math.min(share, FULL)
   local low, high = 0, body.E * body.radius
@@ -74,10 +74,10 @@ function flat.stiffness(body, share)
   return high / (2 * body.radius * share)
 end
 
---- Bending stiffness of a thin wall round the middle of the wire's own, with which a tube has that ring's
--- approach [N m].
+--- Returns the bending stiffness of a thin wall at the radius `middle` that gives a tube the ring's approach
+-- [N m].
 function flat.wall_bending(body)
-  local middle = ((body.radius ^ 2 + body.inner ^ 2) / 2) ^ 0.5 -- has the tube's EI with its EA
+  local middle = ((body.radius ^ 2 + body.inner ^ 2) / 2) ^ 0.5 -- with the tube's EA it has the tube's EI
   return THIN * middle ^ 3 / flat.ring(body)
 end
 

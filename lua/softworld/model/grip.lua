@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The choice of grip: the wire one with the gripper, held by the friction of pads, or squeezed first. It is
--- of grasps with approach = "auto", and of those that give a force and no approach.
+--- The choice of grip: the wire rigidly held by the gripper, held by the friction of pads, or squeezed first.
+-- It applies to grasps with approach = "auto", and to those that give a force and no approach.
 -- @module softworld.model.grip
 local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
 local section = require "softworld.model.section"
 
-local HELD = 0.5 -- of what pads hold: below this nothing slips, however force and moment add up [-]
+local HELD = 0.5 -- largest load over what pads hold: below, force and moment together cause no slip [-]
 
 local grip = { name = "grip", rungs = {
   { name = "imposed", as = "an imposed grip", leaves = "slip, and the wire's turning between the pads" },
@@ -17,14 +17,14 @@ function grip.apply(context, rung)
   context.data.auto = { approach = grip.rungs[rung].name, asked = {} }
 end
 
--- Friction of both fingers together [-].
+-- Returns the friction of both fingers together [-].
 local function friction(gripper)
   local mu = gripper.pads.friction
   if type(mu) == "table" then return mu[1] + mu[2] end
   return 2 * mu
 end
 
--- Of one grasp: load over what its pads hold, and the flattening; nil where no force was told.
+-- Returns the load of one grasp over what its pads hold, and the flattening; nil if no force was given.
 local function of_grasp(asked, start)
   local gripper, wire = asked.gripper, asked.wire
   if not asked.force then return nil end
@@ -67,7 +67,7 @@ function grip.free(_, rung, f, share)
     facts.percent(f.flat), facts.percent(share))
 end
 
---- Why the rung does not suffice any more, of what was seen of a run on the way.
+--- Returns why the rung no longer suffices, by what the run showed so far, or nil.
 function grip.broken(f, share, rung)
   if rung == 1 and f.load > HELD then
     return ("the pads of '%s' bore %s of what their friction holds (limit %s)"):format(f.gripper,

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Watching a run while it goes on: does what the free checks stand on still hold? Where it does not, the
--- run goes back to a snapshot from before that moment, and on from there with the next rung of the choice.
+--- Watches a run while it is computed and checks whether the facts behind the free checks still hold. If not,
+-- the run goes back to a snapshot before that moment and continues with the next rung of the choice.
 --
--- A snapshot brings back the scene, but no Lua function that has gone on since: it is taken anew when a
--- process has. Where there is no way back, or the rung cannot be changed on the way, the run ends there and
--- is computed again from its start.
+-- A snapshot restores the scene, but no Lua function that has run since. Therefore a new snapshot is taken
+-- when a process has gone on. If going back is impossible, or the rung cannot be changed during a run, the
+-- run ends and is computed again from its start.
 -- @module softworld.model.guard
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -15,18 +15,18 @@ local process = require "softworld.run.process"
 local guard = {}
 guard.__index = guard
 
-local LOOKS = 20 -- at a run of known duration, one each [-]
-local FRAMES = 4 -- new ones between two looks at least [-]
-local BEFORE = 2 -- frames from before a look that it sees too [-]
+local LOOKS = 20 -- looks at a run of known duration, at most [-]
+local FRAMES = 4 -- least new frames between two looks [-]
+local BEFORE = 2 -- frames before a look that the next look sees again [-]
 
--- What a guard raises to end a run: { state =, time = [s] }.
+-- The error a guard raises to end a run: { state =, time = [s] }.
 local Broken = { __name = "model given up" }
 
---- What a guard raised, or nil: it is another error.
+--- Returns the error if a guard raised it, else nil.
 function guard.found(raised) return getmetatable(raised) == Broken and raised or nil end
 
---- A guard of a run of a context; share: the tightest tolerance over its value, times the slack of the
--- checks. nil: no choice stands on a check that can be looked at on the way.
+--- Returns a guard for a run; share: the smallest tolerance over its value, times the slack of the checks.
+-- nil: no choice relies on a check that can be looked at during the run.
 function guard.new(context, share)
   local open, switches = {}, false
   for _, state in ipairs(context.states) do
@@ -40,7 +40,7 @@ function guard.new(context, share)
     switches = switches }, guard)
 end
 
--- Keep the state as it is, to go back to where a choice can.
+-- Takes a snapshot to go back to, if a choice can continue from one.
 local function keep(self, total)
   if self.snapshot then self.snapshot:close() end
   self.snapshot = self.switches and self.scene:snapshot() or nil
@@ -48,7 +48,7 @@ local function keep(self, total)
   self.jumps, self.time = total.jumps, self.scene.time
 end
 
---- Processes have gone on, or not. Of those that do at each step there is no state at each.
+--- Called after each step. Takes a new snapshot if a process has gone on, at most once per frame.
 function guard:stepped(total)
   if #self.open == 0 then return end
   self.start = self.start or self.scene.time
@@ -62,7 +62,7 @@ function guard:stepped(total)
   end
 end
 
---- The run is over, or given up.
+--- Called when the run is over or given up.
 function guard:close()
   if self.snapshot then self.snapshot:close() end
   self.snapshot = nil
@@ -76,7 +76,7 @@ local function is_due(self, total)
   return not soon and self.scene:frame_count() - self.frames >= FRAMES
 end
 
--- The first choice whose check does not hold, and why.
+-- Returns the number of the first choice whose check does not hold, and why.
 local function broken(self, total)
   local run = { start = self.start, time = self.scene.time, jumps = total.jumps - self.jumps,
     steps = total.steps, events = {} }
@@ -87,14 +87,14 @@ local function broken(self, total)
   end
 end
 
--- Back to the snapshot, where processes are as they were.
+-- Goes back to the snapshot; processes are still in the state of that moment.
 local function back(self, total)
   build.back(self.scene, self.snapshot, true)
   total.jumps = self.jumps
   if total.jumps == 0 then total.last_jump = nil end
 end
 
--- The next rung from the snapshot on; returns why that is not possible, or nil.
+-- Continues with the next rung from the snapshot. Returns why that is not possible, or nil.
 local function go_on(self, state, options, total)
   if not state.choice.onward then return ("no run goes on with another %s"):format(state.choice.name) end
   if not process.is_at(self.scene, self.mark) then return "a process has gone on since" end
@@ -120,13 +120,14 @@ local function switch(self, i, why, options, total)
   self.from = self.scene.time
 end
 
--- Time of a frame, or of the first [s].
+-- Returns the time of frame i, or of the first frame if i is below 1 [s].
 local function time_of(scene, i)
   local frame = scene:frame(math.max(1, i))
   return frame and frame.t or scene.time
 end
 
---- Between two steps: look, and go back if need be. options: of the run, which the next rung may change.
+--- Called between two steps: looks at the run and goes back if needed. options: of the run; the next rung may
+-- change them.
 function guard:look(options, total)
   if not is_due(self, total) then return end
   self.context.watching = true

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a pressed wire is remodelled to, on each level of edges and steps, and what that will cost.
+--- Chooses the mesh that replaces a pressed wire on each level of edges and steps, and estimates its cost.
 -- @module softworld.model.mesh
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -12,24 +12,24 @@ local mesh = {}
 
 mesh.springs, mesh.elements = 2, 3 -- rungs
 
-local MARGIN = 6       -- a mesh reaches so many radii beyond where it is pressed [-]
-local MOST = 0.6       -- of a wire's length: from there all of it becomes the mesh [-]
-local COST = 1.2e-7    -- of an iteration, over slices and squared particles of one [s]
-local DENSE = 150      -- particles of a slice from which the cost grows faster [-]
-local ITERATIONS = 300 -- of a run whose rods do not get through it [-]
-local BESIDE = 6       -- slices more, beside clamps [-]
+local MARGIN = 6       -- length of a mesh beyond the pressed place, in radii [-]
+local MOST = 0.6       -- share of a wire's length above which the whole wire becomes the mesh [-]
+local COST = 1.2e-7    -- time of an iteration over slices and squared particles of a slice [s]
+local DENSE = 150      -- particles of a slice above which the cost grows faster [-]
+local ITERATIONS = 300 -- assumed for a run whose rods failed [-]
+local BESIDE = 6       -- extra slices, beside clamps [-]
 local SPRINGS = 0.35   -- spacing of a solid wire's springs [radii]
-local ACROSS = 16      -- no more small cubes than this are across [-]
-local OUTERMOST = 0.9 -- of the radius: where particles of a wall may lie [-]
-local VOXELS = 2       -- across a wall, on the coarsest level [-]
+local ACROSS = 16      -- most cubes across a section [-]
+local OUTERMOST = 0.9 -- largest radius of the particles of a wall, over the wire's radius [-]
+local VOXELS = 2       -- cubes across a wall on the coarsest level [-]
 
--- By levels: particles round a slice, layers of them, spacing of slices [radii].
+-- Per level: particles round a slice, layers of them (grains only), spacing of slices [radii].
 local rings = { { 8, 0.5 }, { 12, 0.35 }, { 16, 0.25 }, { 24, 0.18 }, { 32, 0.13 } }
 local grains = { { 12, 2, 1 }, { 24, 4, 0.7 }, { 32, 5, 0.5 }, { 48, 6, 0.35 }, { 64, 8, 0.25 } }
 
 local function of_level(list, k) return list[math.min(k, #list)] end
 
--- Words of wire:remodel, particles of a slice, and spacing [m].
+-- Returns the arguments of wire:remodel, particles of a slice, and spacing [m].
 local function solid(body, rung, k, share)
   if rung == mesh.springs then
     local K = body.known and flat.stiffness(body, share) or nil
@@ -59,7 +59,7 @@ local function plan(body, rung, k, share)
   return (body.inner and hollow or solid)(body, rung, k, share)
 end
 
---- Where a wire pressed from s1 to s2 becomes a mesh: { from, to } [m]; nil: all of it.
+--- Returns where a wire pressed from s1 to s2 becomes a mesh: { from, to } [m]; nil: everywhere.
 function mesh.region(wire, s1, s2)
   local margin = MARGIN * wire.radius
   local from, to = math.max(0, s1 - margin), math.min(wire.length, s2 + margin)
@@ -67,8 +67,8 @@ function mesh.region(wire, s1, s2)
   return { from, to }
 end
 
---- Expected time of a run on level k of a wire that becomes a mesh [s]. iterations: of the first level of a
--- run before, nil where there was none. Infinite: there is no such mesh.
+--- Returns the expected time of a run on level k with a wire that becomes a mesh [s]. iterations: of the
+-- first level of an earlier run, or nil. Infinite: there is no such mesh.
 function mesh.time(w, rung, k, iterations)
   local args, particles, spacing = plan(w.body, rung, k, w.share)
   if (args.across or 0) > ACROSS then return math.huge end
@@ -78,13 +78,14 @@ function mesh.time(w, rung, k, iterations)
     * (1 + (particles / DENSE) ^ 2)
 end
 
--- Without the script's line, which asked for something else.
+-- Returns the message without the script's line, which asked for something else.
 local function plain(message) return (tostring(message):gsub("^[^\n]-:%d+: ", "")) end
 
--- Beside a region lines carry no twist, and a clamp may be too near.
+-- True if the region must be left out: lines beside a region carry no twist, and a clamp may be too near.
 local function takes_all(reason) return tostring(reason):find("leave region out", 1, true) end
 
--- Why the wall of a tube has no mesh, or nil: its middle, where it has EI and EA of the tube, is too far out.
+-- Returns why a tube's wall cannot be meshed, or nil: the radius with the tube's EI and EA may be too far
+-- out.
 local function too_thin(w)
   local r, inner = w.body.radius, w.body.inner
   local middle = inner and ((r ^ 2 + inner ^ 2) / 2) ^ 0.5 or 0
@@ -94,7 +95,7 @@ local function too_thin(w)
     number.text(middle, "m"), number.text(OUTERMOST * r, "m"))
 end
 
---- Make it that mesh; w = { object, body, share, region }. Returns why it cannot be, or nil.
+--- Makes the mesh; w = { object, body, share, region }. Returns why it cannot be made, or nil.
 function mesh.make(w, rung, k, whole)
   if rung == mesh.elements and w.body.cable then
     return ("no two materials have EA and EI of '%s', whose strands slide"):format(w.object.name)
@@ -117,7 +118,7 @@ function mesh.make(w, rung, k, whole)
   core.data(w.object).line = was
 end
 
---- A wire that a run has left as a mesh is a line again, for one that chooses anew.
+--- Turns wires that an earlier run left as a mesh back into lines, for a run that chooses again.
 function mesh.undo(scene)
   for _, w in ipairs(build.data(scene).wires) do
     local kept = core.exists(w.object) and core.data(w.object)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The choice of motion: a row of poses in equilibrium, or dynamics.
+--- The choice of motion: a sequence of equilibrium poses, or dynamics.
 -- @module softworld.model.motion
 local build = require "softworld.scene.build"
 local core = require "softworld.core"
@@ -7,22 +7,22 @@ local facts = require "softworld.model.facts"
 local number = require "softworld.output.number"
 local trust = require "softworld.run.trust"
 
-local POSES = 4       -- steps between two poses, of those of a dynamic run [-]
-local PERIODS = 10    -- of the first swing: a motion that lasts longer is slow [-]
-local INERTIA = 0.1   -- of the tolerance: how much of the weight inertia may be [-]
-local SAFETY = 3     -- coarse steps do not see all that swings [-]
-local SMALL = 0.1    -- acceleration over weight of what hardly swings [-]
-local TINY = 1e-9    -- of a time, or of 1 s: frames no further apart are one [-]
-local COSTLY = 2     -- iterations of poses over those of steps, on the level where poses mostly end [-]
-local ENDS = 3       -- that level [-]
-local MANY = 30      -- iterations of a pose, of those which steps need some five each [-]
-local usual_dt = 0.01 -- of a run that is told none [s]
+local POSES = 4       -- time between two poses over the step of a dynamic run [-]
+local PERIODS = 10    -- motions of at least this many first periods are slow [-]
+local INERTIA = 0.1   -- largest inertia over weight, over the tolerance, that poses may leave out [-]
+local SAFETY = 3     -- on changes: coarse steps do not show all of a swing [-]
+local SMALL = 0.1    -- acceleration over weight below which wires hardly swing [-]
+local TINY = 1e-9    -- over the time, or 1 s: frames this near count as one [-]
+local COSTLY = 2     -- iterations of poses over those of dynamics, on level ENDS, that are no saving [-]
+local ENDS = 3       -- level on which poses mostly end [-]
+local MANY = 30      -- iterations per pose above which costs are compared; a step needs about five [-]
+local usual_dt = 0.01 -- step of a run if none is given [s]
 
 local motion = { name = "motion", safety = SAFETY, instead = true, rough = true, by_state = true, rungs = {
   { name = "poses", as = "poses", leaves = "inertia: what swings, falls, strikes or jumps" },
   { name = "dynamic", as = "dynamics", leaves = "nothing" } } }
 
--- Largest speed of the wires [m/s].
+-- Returns the largest speed component of the wires [m/s].
 local function speed(scene)
   local most = 0
   for _, w in ipairs(build.data(scene).wires) do
@@ -50,14 +50,14 @@ function motion.apply(context, rung, changes)
   end
 end
 
--- First period of wire w about where it rests [s]; nil where it rests nowhere, or is joined to others and
--- not taken alone.
+-- Returns the first period of wire w about its rest position [s]; nil if it has none, or if it is joined to
+-- others and `alone` is not set.
 local function period_of(w, alone)
   local fine, list = pcall(w.object.frequencies, w.object, { modes = 1, alone = alone })
   return fine and list[1] and list.unstable == 0 and 1 / list[1] or nil
 end
 
--- The longest first period of all wires [s]; nil where one of them has none.
+-- Returns the longest first period of all wires [s]; nil if one of them has none.
 local function period(scene)
   local longest
   for _, w in ipairs(build.data(scene).wires) do
@@ -68,17 +68,17 @@ local function period(scene)
   return longest
 end
 
--- The longest first period of those wires that have one while what they are joined to stays where it is [s]:
--- no more than that of all together, which nothing holds there (Rayleigh). 0: none has one.
+-- Returns the longest first period of single wires with everything they are joined to held fixed [s]. It is a
+-- lower bound on the period of all together, which is not held there (Rayleigh). 0: no wire has one.
 local function period_alone(scene)
   local longest = 0
   for _, w in ipairs(build.data(scene).wires) do longest = math.max(longest, period_of(w, true) or 0) end
   return longest
 end
 
--- A wire that lay on a table and is lifted swings more slowly than it did: the longest period also counts of
--- where the first poses end. Where the scene does not rest as it begins, that tells how it swings, not
--- whether motion is slow.
+-- Takes the longest period at the end of the first poses into account: a wire that is lifted off a table
+-- swings more slowly than it did there. If the scene is not at rest at its start, this tells how it swings,
+-- but not whether the motion is slow.
 local function look_at_end(context)
   if context.period_of_end or speed(context.scene) > 0 then return end
   context.period_of_end = period(context.scene) or 0
@@ -88,7 +88,7 @@ local function look_at_end(context)
   if context.period then context.period = math.max(context.period, context.period_of_end) end
 end
 
--- First period of swings [s], where one is known; of wires that are joined less than that.
+-- Returns the first period of swings [s], if known; for joined wires a lower bound.
 local function swing(context)
   local ends = context.period_of_end or 0
   local alone = context.alone or 0
@@ -105,8 +105,8 @@ function motion.look(context, run)
     dt = run.steps > 0 and (run.time - run.start) / run.steps or math.huge }
 end
 
---- The first period, of the scene at rest as it begins, on the coarsest edges: what all modes of fine ones
--- take grows with their cube [s]. look_at_end may find a longer one.
+--- Finds the first period of the scene at rest at its start [s]. It takes the coarsest edges, because the
+-- cost of all modes grows with the cube of their number. look_at_end may find a longer period.
 function motion.begin(context)
   local job, scene = context.job, context.scene
   if not job.rests then return end
@@ -117,8 +117,8 @@ function motion.begin(context)
   job.restore()
 end
 
--- What the damping of tr-bdf2 leaves of a swing after a step of so much of its phase [rad]: the size of its
--- stability function (Bank et al., IEEE Trans. CAD 4, 1985).
+-- Returns the share of a swing that the damping of tr-bdf2 leaves after a step of this phase [rad]: the
+-- magnitude of its stability function (Bank et al., IEEE Trans. CAD 4, 1985).
 local function kept(phase)
   local g = 2 - 2 ^ 0.5
   local up = (2 * (2 - g)) ^ 2 + ((1 + (1 - g) ^ 2) * phase) ^ 2
@@ -126,22 +126,23 @@ local function kept(phase)
   return (up / down) ^ 0.5
 end
 
---- The share of a swing that the steps of a computation of dynamics show: what is left of it after half of
--- the first period, at the step next to its peak. All where it hardly speeds up.
+--- Returns the share of a swing that the steps of a dynamic computation show: what is left of it after half
+-- of the first period, at the step next to its peak. 1 if the wires hardly accelerate.
 function motion.shows(f)
   if f.acceleration and f.acceleration <= SMALL * f.weight then return 1 end
   local steps = f.swing and f.swing / f.dt or 0
   return steps > 2 and kept(2 * math.pi / steps) ^ (steps / 2) * math.cos(math.pi / steps) or 0
 end
 
---- What the coarsest steps damp away: what rings after a jump, or where inertia counts.
+--- True if the coarsest steps damp something away: ringing after a jump, or motion in which inertia counts.
 function motion.blurred(poses, dynamics, share)
   local fast = dynamics.weight > 0 and (dynamics.acceleration or 0) > share * dynamics.weight
   return fast or poses.jumps > 0
 end
 
--- Acceleration in the frames of the finest run over that in those of the coarsest, four times as far apart:
--- of what moves smoothly it is the same in frames twice as far apart, of a sudden start or stop half [-].
+-- Returns the factor by which the acceleration grows from the coarsest run's frames to the finest run's,
+-- which are four times as dense [-]. Doubling the density leaves that of smooth motion unchanged and doubles
+-- that of a sudden start or stop. So the ratio measured against every second frame is squared.
 local function growth(f)
   return f.slower and f.slower > 0 and math.max(1, f.acceleration / f.slower) ^ 2 or 1
 end
@@ -159,7 +160,7 @@ function motion.free(_, rung, f, share)
     facts.percent(INERTIA * share))
 end
 
---- Why poses cannot go on being free, of what was seen of a run on the way; nil: nothing speaks against it.
+--- Returns why the free check of poses no longer holds, by what the run showed so far; nil: it holds.
 function motion.broken(f, share)
   if f.jumps > 0 then return "poses jumped from one equilibrium to another" end
   local inertia = f.weight > 0 and f.acceleration and f.acceleration / f.weight or 0
@@ -168,7 +169,7 @@ function motion.broken(f, share)
     facts.percent(INERTIA * share))
 end
 
---- Dynamics from here on: wires go on with the speed with which they came.
+--- Switches to dynamics from here on; wires keep the speed of the last poses.
 function motion.onward(context, options)
   local scene = context.scene
   options.quasistatic, options.dt = nil, options.dt / POSES
@@ -183,13 +184,13 @@ function motion.onward(context, options)
   end
 end
 
---- Does a run of poses need so many iterations for each that it may cost more than one of dynamics?
+--- True if poses need so many iterations each that they may cost more than dynamics.
 function motion.toils(rung, run) return rung == 1 and run.iterations > MANY * run.steps end
 
---- Poses that need more iterations than steps do are no saving. Finer ones are nearer to each other and need
--- fewer each, which steps do not: from level k on dynamics take twice as many on each, poses hardly more, and
--- dynamics need a level more, as they ring. in_doubt: it is not known whether poses suffice; then they are no
--- saving already where they need as many.
+--- Returns a sentence if poses cost no less than dynamics. On finer levels poses are nearer to each other and
+-- need fewer iterations each, unlike steps: from level to level dynamics take twice as many, poses hardly
+-- more, and dynamics need one level more because they ring. in_doubt: if it is not known whether poses
+-- suffice, they are no saving as soon as they need as many iterations.
 function motion.costly(rung, here, above, k, in_doubt)
   local least = (in_doubt and 1 or COSTLY) * 2 ^ math.max(0, ENDS - k)
   if rung == 1 and here.iterations >= least * above.iterations then

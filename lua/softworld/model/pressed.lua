@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Where wires are pressed in a run, and by how much.
+--- Finds where wires are pressed in a run, and how much.
 -- @module softworld.model.pressed
 local facts = require "softworld.model.facts"
 local flat = require "softworld.model.flat"
 
 local pressed = {}
 
-local PLACE = 0.1     -- of the largest load of its time: from there a place is pressed [-]
-local FLATTENED = 0.1 -- no more flattening than this is needed to count [-]
+local PLACE = 0.1     -- least load of a pressed place over the largest load of its time [-]
+local FLATTENED = 0.1 -- flattening that always counts [-]
 local OVAL, RING = 1.5, 1.1 -- flattening over ovalisation: a solid section widens less than a ring [-]
 
--- Where pads are whose grip is chosen by itself: middles and half lengths [m].
+-- Returns the places of pads whose grip is chosen automatically: middles and half lengths [m].
 local function pads_on(context, wire)
   local list = {}
   for _, asked in ipairs(context.data.auto and context.data.auto.asked or {}) do
@@ -23,10 +23,10 @@ local function pads_on(context, wire)
   return list
 end
 
---- What presses on a line, of the stored frames: the largest force per length of touches [N/m]; from where
--- to where it is pressed [m], whenever that flattens it by a tenth, or is a tenth of its largest; and the
--- largest by which it is pressed from both sides [N/m]. No line tells that force, as faces that leave it no
--- room push as hard as can be.
+--- Returns what presses on a line in the stored frames: the largest force per length of touches [N/m]; from
+-- where to where it is pressed [m], by at least PLACE of its largest load or of the load that flattens it by
+-- a tenth; and the largest load from both sides [N/m]. A line cannot tell the last one, because faces that
+-- leave it no room push arbitrarily hard.
 function pressed.line(context, wire, w, body)
   local rows = facts.press(w, PLACE, pads_on(context, wire))
   local most, squeeze, from, to = 0, 0, nil, nil
@@ -42,7 +42,7 @@ function pressed.line(context, wire, w, body)
   return most, from, to, squeeze
 end
 
---- The same of a wire that is a mesh in a region: of the lines beside it.
+--- Returns the largest force per length on the lines beside the mesh region of a wire [N/m].
 function pressed.beside(scene, w, region)
   local most = 0
   facts.touched(w, function(forces, _, number)
@@ -58,7 +58,7 @@ function pressed.beside(scene, w, region)
   return most
 end
 
---- By how much a mesh was flattened in the run, over its width.
+--- Returns by how much a mesh was flattened in the run, over its width.
 function pressed.mesh(wire, body)
   local fine, oval = pcall(wire.max_ovalisation, wire)
   return fine and oval and (body.inner and RING or OVAL) * oval or 0

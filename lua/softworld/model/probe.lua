@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- One computation on the way to a model: from the start of the run, of one rung of each choice, on a coarse
--- level of edges and steps.
+--- Computes one candidate while a model is chosen: from the start of the run, with one rung per choice, on a
+-- coarse level of edges and steps.
 -- @module softworld.model.probe
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -13,12 +13,12 @@ local trust = require "softworld.run.trust"
 
 local probe = {}
 
-local LONGEST = 60 -- that a computation on the way is expected to take [s]
-local USUAL = 0.04 -- between frames, where the script says nothing [s]
-local MOST_GROWTH = 2 -- of a level's time, over that by rule, from one to the next [-]
-local MOMENTS = 25 -- frames of a run at least, of a duration that is known [-]
+local LONGEST = 60 -- longest expected time of such a computation [s]
+local USUAL = 0.04 -- time between frames if the script gives none [s]
+local MOST_GROWTH = 2 -- largest factor by which a level's time grows faster than by rule [-]
+local MOMENTS = 25 -- least frames of a run of known duration [-]
 
--- Options of the run in place of those given.
+-- Returns the options of the run that the rungs change.
 local function changes_of(context, rungs)
   local changes = {}
   for _, choice in ipairs(registry.list) do
@@ -27,15 +27,15 @@ local function changes_of(context, rungs)
   return changes
 end
 
--- Stiffer or softer wires, of cables whose stiffness is known between bounds.
+-- Makes wires stiffer or softer: cables whose stiffness is known only between bounds.
 local function stiffen(factors)
   for wire, factor in pairs(factors or {}) do
     core.redraw(wire, wire:get().spin_inertia ~= nil, 1, factor, 1)
   end
 end
 
--- Options of runs whose frames choices look at: of each step, or so many that nothing passes between them.
--- As the script says in the run that it keeps.
+-- Sets the frames of a run that choices look at: one per step, or enough that nothing passes unseen between
+-- them. The final run keeps the script's frames if it gives any.
 local function with_frames(context, options, each_step, last)
   local args = context.args
   local told = args.frames ~= false and args.frame or nil
@@ -47,8 +47,8 @@ local function with_frames(context, options, each_step, last)
   return options
 end
 
---- Set the scene, as it begins, for rungs; returns the steps of the levels of its run. last: the run is the
--- script's, not one on the way.
+--- Prepares the scene at its start for rungs. Returns the steps of the levels of its run. last: this is the
+-- script's run, not a computation while choosing.
 function probe.arrange(context, rungs, factors, last)
   local changes = changes_of(context, rungs)
   local each_step = changes.each_frame
@@ -68,7 +68,7 @@ local function look(context, run, asked)
   return found
 end
 
--- Of a scene that diverged not all can be read: what its frames tell, of each choice by itself.
+-- Reads what a diverged run tells, each choice separately: not everything can be read.
 local function look_at_failed(context, run)
   local found = {}
   for _, choice in ipairs(registry.list) do
@@ -79,25 +79,25 @@ local function look_at_failed(context, run)
   return found
 end
 
---- What a run tells to the choices, by their names; asked: a set of names, or nil for all; from: in frames
--- from that time on [s], or nil for all.
+--- Returns what a run tells to the choices, by their names; asked: a set of names, or nil for all; from: in
+-- frames from this time on [s], or nil for all.
 function probe.facts(context, run, asked, from)
   return facts.reading(context.scene, from or run.start, look, context, run, asked)
 end
 
--- What a run that failed tells, if anything.
+-- Returns what a failed run tells, if anything.
 local function facts_of_failed(context, run)
   return facts.reading(context.scene, run.start, look_at_failed, context, run)
 end
 
---- The name of a computation: of rungs on level k, and a label.
+--- Returns the key of a computation: of rungs on level k, and a label.
 function probe.key(rungs, k, label)
   local words = { k, label or "" }
   for _, choice in ipairs(registry.list) do words[#words + 1] = rungs[choice.name] end
   return table.concat(words, " ")
 end
 
--- By what rungs are made of alone.
+-- Returns the expected time from the rungs' own rules alone, or nil.
 local function rule(context, rungs, k)
   local sum
   for _, choice in ipairs(registry.list) do
@@ -107,16 +107,17 @@ local function rule(context, rungs, k)
   return sum
 end
 
--- What a run of rungs on level k took, on the way or by the levels of the job [s]; nil: there was none.
+-- Returns the time that a run of rungs took on level k, while choosing or in the job's levels [s]; nil: not
+-- run.
 local function taken(context, rungs, k, levels)
   local known = context.probes[probe.key(rungs, k)]
   local level = levels and levels[k] or known and known.level
   return level and level.ok and level.cpu > 0 and level.cpu or nil
 end
 
---- Expected time of a run of rungs on level k, where one of them may cost much [s]; else nil. By what the
--- level before took, if it was computed (levels: of the job), and if that grew faster than by the rule, as
--- iterations may, so it may again.
+--- Returns the expected time of a run of rungs on level k [s], or nil if no rung costs much. It scales the
+-- time of the finest earlier level (levels: of the job). If that one grew faster than by rule, as iterations
+-- may, the same growth is assumed again.
 function probe.expected(context, rungs, k, levels)
   local time = rule(context, rungs, k)
   if not time or time == math.huge then return time end
@@ -173,19 +174,19 @@ local function compute(context, rungs, k, factors)
   return result
 end
 
---- What was computed of rungs on level k; nil: nothing.
+--- Returns what was computed of rungs on level k, or nil.
 function probe.known(context, rungs, k) return context.probes[probe.key(rungs, k)] end
 
---- The run of rungs on level k and the level, where the scene is still as it ended, with the frames that the
--- run to be kept would have; else nil.
+--- Returns the run of rungs on level k and its level, if the scene is still in its final state and its frames
+-- are those that the kept run would have; else nil.
 function probe.as_it_ended(context, rungs, k)
   local last, args = context.last, context.args
   local own_frames = args.frames ~= false and (args.frame or args.frames ~= nil)
   return last and not own_frames and last.key == probe.key(rungs, k) and last or nil
 end
 
---- The values and facts of rungs (by the choices' names) on level k; of what was computed before the same.
--- A computation that raises counts as one that failed.
+--- Returns the values and facts of rungs (by the choices' names) on level k; each is computed only once.
+-- A computation that raises an error counts as failed.
 function probe.of(context, rungs, k, factors, label)
   local key = probe.key(rungs, k, label)
   local known = context.probes[key]

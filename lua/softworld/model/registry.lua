@@ -1,45 +1,44 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a run with model = "auto" chooses, each by itself: one file per choice, one line here.
+--- The choices of a run with model = "auto": one file per choice, one line here.
 --
 -- A choice: { name =, rungs = { { name =, as = in a sentence, leaves = what it leaves out }, ... } from
--- cheap to dear, and functions of the context { scene =, data =, args =, job =, ... }:
---   safety: of the change that the next rung makes, where it is another than usual
---   levels: coarse ones on which its rungs are compared, where it is another number than usual
---   steady: bars do not become shorter with the next rung, and the other choices stay as they are with it.
---     A rung with own = true: what the next one's own edges change counts too
---   instead: where the fine run fails, it is computed by the next rung
---   rough: fine levels of a rung may tell less than those of the next one, where coarse ones are alike
---   by_state: a comparison on coarse edges counts only if the wire is near its fine state on them
---   by_itself: what broken tells of a run so far does not depend on the share
---   begin(context): reads the scene as it begins, if need be
---   given(context): where the script has decided: a sentence, and the rung
+-- cheap to dear. A rung with own = true: changes by the next rung's own edges count too. Further fields:
+--   safety: factor on the change that the next rung makes, if not the default
+--   levels: number of coarse levels on which its rungs are compared, if not the default
+--   steady: the next rung does not shorten bars, and it leaves the other choices as they are
+--   instead: if the fine run fails, the next rung computes it
+--   rough: fine levels of a rung may tell less than those of the next rung, even if coarse ones agree
+--   by_state: a comparison on coarse edges counts only if the wire is near its fine state there
+--   by_itself: what `broken` tells of a run so far does not depend on the share
+-- and functions of the context { scene =, data =, args =, job =, ... }:
+--   begin(context): reads the scene at its start, if needed
+--   given(context): if the script has decided: a sentence, and the rung
 --   apply(context, rung, changes, rungs): sets the scene, or options of its run, before a computation;
 --     changes.shape(k) makes other models of wires on level k. rungs: of all choices, by their names
---   expected(context, rung, k): time of a run on level k, where it may cost much [s]
---   shows(facts): the share of what the next rung adds that its computation shows [-], where not all
---   blurred(facts, above, share): the coarsest level tells too little of the next rung, whose facts are
---     above, to stay
---   look(context, run): what a computation tells about the choice, read at its end; or while it is watched
---     (context.watching), where only what would speak against a free check matters
---   idle(facts): there was nothing to choose
---   free(context, rung, facts, share): a sentence with number and threshold where the rung is known to
---     suffice without another computation, and where it counts what share of a value is left out; else
---     nil, and perhaps why not. share: the tightest of the tolerances over its value
---   broken(facts, share, rung): a sentence where what a run told so far speaks against what the free check of
---     the rung said; onward(context, options): the next rung from here on, in the run that goes on with
---     options; raises where that is not possible. Without it the run begins again
---   left(rung, facts): what share of a value it leaves out by a rule, where the next rung is not known
---   skip(context, rung, facts, share): a sentence where the next rung is not tried, as it would tell nothing
---   mends(context, rung, result): a sentence where a computation failed by this rung, or tells nothing
---   toils(rung, run): may the rung cost more than the next one, by what a run of it needed? Then costly is
---     asked
---   costly(rung, here, above, k, in_doubt): a sentence where the rung costs no less than the next one, which
+--   expected(context, rung, k): time of a run on level k, if it may be long [s]
+--   shows(facts): share of the next rung's effect that its computation shows [-], if not all
+--   blurred(facts, above, share): true if the coarsest level tells too little of the next rung, whose facts
+--     are `above`, for the rung to stay
+--   look(context, run): returns facts about the choice at the end of a computation; while a run is watched
+--     (context.watching) only facts that can contradict a free check matter
+--   idle(facts): true if there was nothing to choose
+--   free(context, rung, facts, share): if the rung is known to suffice without another computation: a
+--     sentence with number and threshold, and the share of a value that it leaves out, if that counts. Else
+--     nil, and perhaps why not. share: the smallest of the tolerances over its value
+--   broken(facts, share, rung): a sentence if the run so far contradicts the rung's free check
+--   onward(context, options): switches to the next rung from here on, in the run that goes on with options;
+--     raises an error if that is impossible. Without this function the run starts again
+--   left(rung, facts): share of a value left out according to a rule, if the next rung is not known
+--   skip(context, rung, facts, share): a sentence if the next rung is not tried, as it would tell nothing
+--   mends(context, rung, result): a sentence if a computation failed because of this rung, or tells nothing
+--   toils(rung, run): true if, judged by a run, the rung may cost more than the next; then costly is asked
+--   costly(rung, here, above, k, in_doubt): a sentence if the rung costs no less than the next one, which
 --     is in doubt or not; here and above: computations by both on level k, with iterations =
---   short(context, facts, share, state): a sentence where the rung leaves out too much all the same
+--   short(context, facts, share, state): a sentence if the rung leaves out too much all the same
 -- @module softworld.model.registry
 local registry = {}
 
-local SAFETY = 1.5 -- of a change from one rung to the next, on coarse edges and steps [-]
+local SAFETY = 1.5 -- default for safety [-]
 
 local files = { "motion", "twist", "contact", "grip", "section" }
 

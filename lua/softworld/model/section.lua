@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The choice of section: round whatever presses on it; or a mesh where it is pressed, of springs that are as
--- stiff against two plates as the wire, or of elements.
+--- The choice of section: round under any load; or, where it is pressed, a mesh of springs with the wire's
+-- stiffness between two plates, or a mesh of elements.
 -- @module softworld.model.section
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
@@ -9,21 +9,21 @@ local mesh = require "softworld.model.mesh"
 local number = require "softworld.output.number"
 local pressed = require "softworld.model.pressed"
 
-local CRUSHED = 0.2 -- flattening that no line describes, whatever it is asked for [-]
-local SQUEEZED = 0.1 -- of the tolerance: flattening from both sides that may be left out [-]
-local LEFT = 0.75   -- of the tolerance: what springs may leave out [-]
-local WALL = 1.7    -- of flattening times wall over radius: what springs leave out of a tube's force [-]
+local CRUSHED = 0.2 -- flattening above which no line is valid, whatever the tolerance [-]
+local SQUEEZED = 0.1 -- flattening from both sides that may be left out, over the tolerance [-]
+local LEFT = 0.75   -- largest error of springs over the tolerance [-]
+local WALL = 1.7    -- error of springs in a tube's force, over flattening times wall over radius [-]
 
--- steady: bars do not become shorter with the next rung, and the other choices stay with it. own: what the
--- next rung's own edges leave out counts too.
+-- steady: the next rung does not shorten bars, and it leaves the other choices as they are. own: changes by
+-- the next rung's own edges count too.
 local section = { name = "section", steady = true, levels = 2, rungs = {
   { name = "round", as = "round sections", leaves = "flattening of the section" },
   { name = "springs", as = "a mesh of springs", own = true,
     leaves = "how the section's stiffness changes as it flattens; twist beside the mesh" },
   { name = "elements", as = "a mesh of elements", leaves = "twist beside the mesh" } } }
 
---- By how much two faces that press on a wire with q [N/m] come nearer, over its width; and of what the
--- modulus is. nil: not known.
+--- Returns the approach of two faces that press on a wire with q [N/m], over its width, and whose modulus was
+-- taken. nil: not known.
 function section.flattening(wire, q)
   local body = flat.body(wire)
   if not body.known then return nil end
@@ -34,7 +34,7 @@ local function is_line(wire) return wire.model == "rod" or wire.model == "string
 
 -- --- setting the scene --------------------------------------------------------------------
 
--- What is known of the wires pressed in runs with round sections; fixed once one is a mesh.
+-- Notes the load on a wire in runs with round sections; the notes are fixed once a wire is a mesh.
 local function note(context, w, body, q, from, to)
   if context.pressed_fixed or not from then return end
   local list = context.pressed
@@ -43,7 +43,8 @@ local function note(context, w, body, q, from, to)
   known.q, known.from, known.to = math.max(known.q, q), math.min(known.from, from), math.max(known.to, to)
 end
 
--- The wires that become meshes, in their order: those flattened by more than a limit, or most.
+-- Returns the wires that become meshes, in order: those flattened by more than the limit, or the most
+-- flattened.
 local function meshed(context)
   if context.pressed_fixed then return context.pressed_fixed end
   local list, most = {}, 0
@@ -64,7 +65,7 @@ end
 
 function section.begin(context) context.pressed = {} end
 
---- Will the wire be a mesh?
+--- True if the wire will be a mesh.
 function section.takes(context, rung, wire)
   for _, p in ipairs(rung and rung > 1 and meshed(context) or {}) do
     if p.object == wire then return true end
@@ -82,7 +83,7 @@ function section.apply(context, rung, changes, rungs)
   end
 end
 
---- Expected time of a run on level k [s]; nil: as usual.
+--- Returns the expected time of a run on level k [s]; nil: as usual.
 function section.expected(context, rung, k)
   if rung == 1 then return nil end
   local sum = 0
@@ -109,7 +110,7 @@ local function look_at_line(context, worst, w, i)
   end
 end
 
--- What the run told of walls that went through each other, which springs do not feel; nil: nothing.
+-- Returns the run's event about walls that passed through each other, which springs do not feel, or nil.
 local function passed(p, run)
   for _, e in ipairs(run.events) do
     if e.kind == "walls" and e.object == p.name then return e.text end
@@ -142,7 +143,7 @@ end
 
 -- --- deciding -----------------------------------------------------------------------------
 
---- What springs leave out of a thick wall's force; nil: not known, of a solid wire.
+--- Returns the error of springs in a thick wall's force; nil: not known, for a solid wire.
 function section.left(rung, f)
   return rung == 2 and f.flat and f.wall < math.huge and WALL * f.flat * f.wall or nil
 end
@@ -166,7 +167,7 @@ function section.free(context, rung, f, share)
     f.wire, number.text(f.q, "N/m"), facts.percent(f.share), f.of, facts.percent(share))
 end
 
---- Why the rung does not suffice any more, of what was seen of a run on the way.
+--- Returns why the rung no longer suffices, by what the run showed so far, or nil.
 function section.broken(f, share, rung)
   local left = section.left(rung, f)
   if rung == 1 and f.unknown then
@@ -180,13 +181,13 @@ function section.broken(f, share, rung)
   end
 end
 
---- The next rung is not tried where nobody knows how stiff what is pressed is.
+--- Skips the next rung if the stiffness of the pressed wire is not known.
 function section.skip(_, rung, f, share)
   if rung > 1 or not f.unknown or f.share > share then return nil end
   return ("how stiff the section of '%s' is, is not known: give E"):format(f.unknown)
 end
 
---- Lines between faces that leave them no room are not computed, or not rightly.
+--- Raises the rung for lines between faces that leave them no room: these fail, or their forces are wrong.
 function section.mends(_, rung, result, tightest)
   local f = result.facts and result.facts.section
   if rung > 1 then return nil end

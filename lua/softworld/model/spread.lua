@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What is not known of the cables themselves: how far the quantities move where EI has its bounds of the
--- catalogue. A model better than that is wasted.
+--- Uncertainty of the cables themselves: how far the quantities move if EI takes its bounds of the catalogue.
+-- A more accurate model is wasted.
 -- @module softworld.model.spread
 local number = require "softworld.output.number"
 local probe = require "softworld.model.probe"
@@ -9,9 +9,9 @@ local quantity = require "softworld.quantity"
 local spread = {}
 spread.__index = spread
 
-local FINE = 0.3 -- of the spread: bars need not be shorter [-]
+local FINE = 0.3 -- shortest useful bar, over the spread [-]
 
---- Wires of the catalogue, with the factors of EI.
+--- Finds the wires of the catalogue, with the factors of EI.
 function spread.new(context)
   local self = setmetatable({ context = context, low = {}, high = {}, names = {}, changes = {} }, spread)
   for _, w in ipairs(context.data.wires) do
@@ -26,7 +26,7 @@ function spread.new(context)
   return self
 end
 
---- Compute both bounds with the rungs chosen; base: the result between them.
+--- Computes both bounds with the chosen rungs; base: the result between them.
 function spread:look(rungs, base)
   if #self.names == 0 then return end
   for _, word in ipairs { "low", "high" } do
@@ -43,18 +43,18 @@ function spread:look(rungs, base)
   end
 end
 
---- Bars of a quantity need not be below this, in its unit.
+--- Returns the shortest useful bar of a quantity, in its unit.
 function spread:floor(q)
   local d = self.changes[q.name] or 0
   return d > q.tolerance and d < math.huge and FINE * d or 0
 end
 
---- What it does to the quantities that it moves by more than was asked for, as a sentence; nil: to none.
+--- Returns a sentence about the quantities that the spread moves by more than the tolerance; nil: none.
 function spread:text()
   local parts = {}
   for _, q in ipairs(self.context.job.quantities) do
     local d = self.changes[q.name] or 0
-    if d > (q.tolerance or math.huge) then -- nil: of a value that is not known
+    if d > (q.tolerance or math.huge) then -- nil: the value is not known
       parts[#parts + 1] = ("%s by %s"):format(q.name, number.text(d, q.unit))
     end
   end

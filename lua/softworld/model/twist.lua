@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The choice of twist: in equilibrium between what holds the wires, or driven by friction too.
+--- The choice of twist: in equilibrium between the wires' holds, or driven by friction too.
 -- @module softworld.model.twist
 local core = require "softworld.core"
 local facts = require "softworld.model.facts"
@@ -9,7 +9,7 @@ local twist = { name = "twist", rungs = {
   { name = "held", as = "no rolling", leaves = "rolling, and twist by friction: it acts on the axis" },
   { name = "rolling", as = "rolling", leaves = "nothing" } } }
 
--- Can it be made one that rolls?
+-- True if the wire can be made to roll.
 local function may_roll(wire) return wire.model == "rod" and not wire:get().spin_inertia end
 
 function twist.given(context)
@@ -24,7 +24,7 @@ end
 function twist.apply(context, rung, _, rungs)
   if rung ~= 2 then return end
   for _, w in ipairs(context.data.wires) do
-    local mesh = section.takes(context, rungs.section, w.object) -- rolls by itself
+    local mesh = section.takes(context, rungs.section, w.object) -- meshes roll by themselves
     if may_roll(w.object) and not mesh then core.redraw(w.object, true) end
   end
 end
@@ -51,14 +51,14 @@ function twist.free(_, rung, f)
   end
 end
 
---- Why wires cannot go on without rolling, of what was seen of a run on the way.
+--- Returns why wires must roll from here on, by what the run showed so far, or nil.
 function twist.broken(f)
   if f.rods == 0 or f.flat then return nil end -- meshes roll by themselves
   if #f.rubs > 0 then return ("'%s' rubs"):format(f.rubs[1]) end
   return f.met and "wires touch each other" or nil
 end
 
---- They roll from here on; raises where they are twisted, which they would lose.
+--- Lets wires roll from here on; raises an error for twisted wires, which would lose their twist.
 function twist.onward(context)
   for _, w in ipairs(context.data.wires) do
     if may_roll(w.object) then core.redraw(w.object, true) end

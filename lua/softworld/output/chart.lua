@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Charts through gnuplot: SVG, PNG or PDF files, or characters for the terminal.
 -- Without a path each function returns the drawing as text. Sizes are in px
--- ({900, 480} unless told), in inches for .pdf, in characters without a path.
--- Names are drawn as they are, whatever the characters in them.
+-- (default {900, 480}), in inches for .pdf, in characters without a path.
+-- Names are drawn as they are, whatever characters they contain.
 -- @module softworld.output.chart
 
 local checks = require "softworld.checks"
@@ -16,9 +16,9 @@ local sink = require "softworld.output.sink"
 local chart = {}
 
 local quote, size_of, finite = gnuplot.quote, gnuplot.size_of, gnuplot.finite
-local most_points = 4000 -- in one curve; more are thinned, keeping the peaks
+local most_points = 4000 -- in one curve; more are thinned, and peaks are kept
 
--- The lowest and the highest sample of each stretch, in their order.
+-- Returns the lowest and the highest sample of each stretch, in the order of time.
 local function thinned(time, values)
   local rows, stretch = {}, math.max(1, math.ceil(2 * #time / most_points))
   local function put(i) rows[#rows + 1] = gnuplot.number(time[i]) .. " " .. gnuplot.number(values[i]) end
@@ -34,9 +34,9 @@ local function thinned(time, values)
   return rows
 end
 
-local many = 8 -- curves of one unit; beyond that components of vectors are drawn only when named
+local many = 8 -- curves of one unit; with more, components of vectors are drawn only if named
 
--- Of vectors the components, where the vector's length is there too.
+-- True for a component of a vector whose length is among the columns.
 local function is_component(column, lengths)
   local vector = column.name:match "^(.*)_[xyz]$"
   return vector and lengths[vector]
@@ -80,9 +80,9 @@ local function has_values(column)
   return false
 end
 
-local steep = 100 -- radii of bends above so many times the smallest are as good as straight
+local steep = 100 -- bend radii above this multiple of the smallest count as straight [-]
 
--- Radii of bends that matter: those of almost straight wire would leave no room for them.
+-- Returns bend radii without those of almost straight wire, which would leave no room for the others.
 local function tight(all)
   local least, values = math.huge, {}
   for _, x in ipairs(all) do if x > 0 then least = math.min(least, x) end end
@@ -92,7 +92,7 @@ end
 
 local function is_bend(name) return name:find "%.bend_radius$" ~= nil end
 
--- One panel for each unit, in the order of first use; radii of bends have one of their own.
+-- Returns one panel per unit, in the order of first use; bend radii have a panel of their own.
 local function panels_of(columns)
   local panels, by_unit = {}, {}
   for _, column in ipairs(columns) do
@@ -118,7 +118,7 @@ local function curve(script, time, column, k, title)
     quote(colours[(k - 1) % #colours + 1]), (k - 1) // #colours % 5 + 1, title)
 end
 
--- 1, 2 or 5 times a power of ten, so that about five fit into the span.
+-- Returns 1, 2 or 5 times a power of ten, so that about five steps fit into the span.
 local function nice_step(span)
   local power = 10.0 ^ math.floor(math.log(span / 5, 10))
   local lead = span / 5 / power
@@ -149,8 +149,8 @@ end
 local quantities = { N = "force", ["N m"] = "moment", J = "energy", m = "length", ["m/s"] = "speed",
   Pa = "pressure", K = "temperature", Hz = "frequency" }
 
--- A single curve is named on its axis, several in the key; characters have no
--- room beside the axis, so that there the key tells all.
+-- Draws a panel. A single curve is named on its axis, several in the key. Drawings of characters have
+-- no room beside the axis, so the key names every curve there.
 local function panel_plot(script, time, panel, text)
   local curves, single = {}, #panel == 1
   for k, column in ipairs(panel) do
@@ -172,7 +172,7 @@ local function time_range(time)
   return low, high
 end
 
--- Room for the longest name in a key, at the right of all panels alike [px].
+-- Returns the room for the longest name in a key, at the right of all panels alike [px].
 local function key_room(panels)
   local longest = 0
   for _, panel in ipairs(panels) do
@@ -185,7 +185,7 @@ end
 
 local key_line = 20 -- height of a name in a key [px]
 
--- How large a chart must be for its panels and their keys [px].
+-- Returns the size that a chart needs for its panels and their keys [px].
 local function natural_size(panels)
   local most = 0
   for _, panel in ipairs(panels) do most = math.max(most, #panel) end
@@ -194,7 +194,7 @@ local function natural_size(panels)
   return math.max(900, 116 + key_room(panels) + 480), math.ceil(height)
 end
 
--- Panels of one width and height, with room for the title and their keys.
+-- Starts a stack of panels of equal width and height, with room for the title and their keys.
 local function stack(script, panels, title, size, path)
   local dot = sink.extension(path) == "pdf" and 1 / 96 or 1
   local wide, high = dot / size[1], dot / size[2]
@@ -204,10 +204,10 @@ local function stack(script, panels, title, size, path)
   script.add "set format x ''\nset key at graph 1.02,graph 1 left top vertical"
 end
 
---- Time series: one panel for each unit, a common time axis.
+--- Draws time series: one panel per unit, a common time axis.
 -- @tparam table options `run` (or `series`, see series.of); `columns`, names
 -- of the series wanted (default all); `energy = true` draws the energies of
--- the run's frames instead; `mean` draws running means over that time [s]
+-- the run's frames instead; `mean` draws running means over this time [s]
 -- instead of the samples, and the title says so; `title` (default the run's name); `path`; `size`
 -- @treturn string the path, or the drawing
 function chart.series(options)
@@ -241,7 +241,7 @@ end
 -- @function chart.front
 chart.front = front.draw
 
---- The points that no other beats.
+--- The points of the Pareto front.
 -- @function chart.pareto
 chart.pareto = front.pareto
 

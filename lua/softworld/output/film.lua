@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A run as a film: pictures of softworld.output.picture, which ffmpeg makes into a .webm or .gif file.
+--- Writes a run as a film: ffmpeg turns pictures of softworld.output.picture into a .webm or .gif file.
 -- @module softworld.output.film
 local core = require "softworld.core"
 local looks = require "softworld.output.looks"
@@ -11,9 +11,9 @@ local solid = require "softworld.output.solid"
 
 local film = {}
 
-local most = 100000 -- pictures of a film
+local most = 100000 -- most pictures of a film
 
--- What ffmpeg makes of the pictures: of .gif in one pass, with colours chosen for it.
+-- ffmpeg options per kind of file; a .gif gets its own palette in one pass.
 local codecs = {
   webm = "-c:v libvpx-vp9 -b:v 0 -crf 31 -deadline realtime -cpu-used 7 -row-mt 1 -pix_fmt yuv420p -f webm",
   gif = "-filter_complex '[0:v]split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer'"
@@ -21,7 +21,7 @@ local codecs = {
 }
 local rates, widths = { webm = 30, gif = 15 }, { webm = 1280, gif = 720 }
 
--- The number of the frame of each picture.
+-- Returns the number of the frame of each picture.
 local function numbers_of(run, o, rate)
   local frames, list = run.frames, {}
   local first, last = frames[1].t, frames[#frames].t
@@ -39,13 +39,13 @@ local function numbers_of(run, o, rate)
   return list
 end
 
--- Sides of films are even numbers.
+-- Makes the sides even numbers, as films require.
 local function even(layout)
   layout.width, layout.height = layout.width + layout.width % 2, layout.height + layout.height % 2
   return layout
 end
 
--- In time of the film.
+-- Returns a progress bar in the film's time.
 local function bar_of(run, o, total)
   local host = package.loaded["softworld.host"]
   local wanted = o.progress
@@ -56,7 +56,7 @@ local function bar_of(run, o, total)
     width = host and host.columns or nil }
 end
 
--- Draw all pictures and write them to a pipe.
+-- Draws all pictures and writes them to a pipe.
 local function feed(pipe, run, o, rate, layout, look, numbers)
   local bar <close> = bar_of(run, o, #numbers / rate)
   local bytes, last
@@ -66,7 +66,7 @@ local function feed(pipe, run, o, rate, layout, look, numbers)
       picture.fill(paper, layout, run, { run.frames[k] }, look, { looks.caption(run, run.frames[k], 1, o) })
       bytes, last = paper.canvas:rgb(), k
     end
-    if not pipe:write(bytes) then return end -- ffmpeg has gone: it says why
+    if not pipe:write(bytes) then return end -- ffmpeg has ended: its output says why
     bar:update(i / rate, i)
   end
   bar:finish()
@@ -78,7 +78,7 @@ local function complaint(text)
 end
 
 local function command(kind, layout, rate, output, log)
-  -- of its own group of signals: on Ctrl-C it is this program that ends it
+  -- in its own process group, so that on Ctrl-C this program ends it
   return ("exec setsid ffmpeg -hide_banner -loglevel error -nostdin -y -f rawvideo -pix_fmt rgb24 "
     .. "-s %dx%d -r %g -i - -an %s %s >%s 2>&1"):format(layout.width, layout.height, rate, codecs[kind],
     sink.quote("file:" .. output), sink.quote(log))
@@ -97,7 +97,7 @@ local function make(run, o, kind, rate, layout, look, numbers)
   sink.fail("cannot write %s: ffmpeg failed: %s", o.path, complaint(said))
 end
 
---- Write a run as a film.
+--- Writes a run as a film.
 -- @tparam table run as picture.write
 -- @tparam table o path ending in .webm or .gif, speed, rate, width, height, and what picture.plan takes
 -- @treturn table path, width, height [px], frames

@@ -24,7 +24,7 @@ local function check_points(points)
   end
 end
 
---- The points that no other beats in both x and y, by rising x.
+--- Returns the points that no other point beats in both x and y, by rising x.
 -- Failed points take no part.
 -- @tparam table points see front.draw
 -- @treturn table
@@ -77,7 +77,7 @@ local function rows_of(points, y)
   return rows
 end
 
---- Shapes of points, one a series.
+--- Shapes of points, one per series.
 front.point_types = { 7, 5, 9, 11, 13, 6, 4, 8, 10, 12 }
 
 local function group_plots(script, groups, top, size)
@@ -107,7 +107,7 @@ local function point_labels(script, points, top)
   end
 end
 
---- An axis of less than two decades has few powers of ten: name 1, 2 and 5 of each.
+--- Labels 1, 2 and 5 of each power of ten on an axis of less than two decades, which has few powers of ten.
 function front.narrow_tics(script, axis, low, high)
   if high / low >= 100 then return end
   local tics = {}
@@ -123,8 +123,8 @@ function front.narrow_tics(script, axis, low, high)
   script.add("set m%stics default\nset %stics (%s)", axis, axis, table.concat(tics, ", "))
 end
 
---- A log-log chart of cost against error, or the like.
--- The Pareto front is marked by a line; failures stand as crosses at the top edge.
+--- Draws a log-log chart of cost against error, or similar quantities.
+-- A line marks the Pareto front; failures are crosses at the top edge.
 -- @tparam table options `points = { { x=, y=, series=name, failed=bool, label= }, ... }`
 -- with positive x and y (y is not needed for a failure); `xlabel`, `ylabel`,
 -- `title`; `path`; `size`
@@ -149,7 +149,7 @@ function front.draw(options)
   if options.title then script.add("set title %s noenhanced", quote(options.title)) end
   if options.path then point_labels(script, points, top) end
   local plots, best = {}, front.pareto(points)
-  local dot = options.path and sink.extension(options.path) == "svg" and 0.75 or 1.1 -- the same to the eye
+  local dot = options.path and sink.extension(options.path) == "svg" and 0.75 or 1.1 -- same to the eye
   if #best > 0 then
     plots[1] = script.data(rows_of(best))
       .. " using 1:2 with lines lw 5 lc rgb '#c8c8c8' title 'Pareto front'"

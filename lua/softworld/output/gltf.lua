@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A run as glTF 2.0 in one file (.glb): wires as surfaces that change their shape (morph targets, one for
--- each frame), obstacles and grippers as bodies that move. Positions in m; glTF's y is up.
+--- Writes a run as glTF 2.0 in one file (.glb): wires as surfaces that change their shape (morph targets, one
+-- for each frame), obstacles and grippers as moving bodies. Positions in m; glTF's y is up.
 -- @module softworld.output.gltf
 local core = require "softworld.core"
 local json = require "softworld.output.json"
@@ -14,13 +14,13 @@ local view = require "softworld.output.view"
 local gltf = {}
 
 local FLOAT, INTEGER = 5126, 5125
-local VERTICES, INDICES = 34962, 34963 -- what a part of the data is for
-local sides = 12                       -- of a tube
+local VERTICES, INDICES = 34962, 34963 -- targets of a buffer view
+local sides = 12                       -- points around a tube
 local rounds = 48                      -- points around a round obstacle
 
 -- --- data -------------------------------------------------------------------------------
 
--- Bytes, aligned to 4; gives the number of the part.
+-- Adds bytes, aligned to 4; returns the number of their buffer view.
 local function add_bytes(file, bytes, target)
   local pad = -#bytes % 4
   file.parts[#file.parts + 1] = bytes .. ("\0"):rep(pad)
@@ -34,10 +34,10 @@ local function add_accessor(file, accessor)
   return #file.accessors - 1
 end
 
--- As 32-bit floats, as which bounds are told too.
+-- Returns x as a 32-bit float; bounds must be those of the stored values.
 local function rounded(x) return (("<f"):unpack(("<f"):pack(x))) end
 
--- Flat values in groups of `width`, with bounds.
+-- Adds flat values in groups of `width`, with bounds.
 local function add_values(file, values, width, kind, target)
   local low, high = {}, {}
   for i, x in ipairs(values) do
@@ -80,7 +80,8 @@ local function add_node(file, node)
   return #file.nodes - 1
 end
 
--- Triangles with corners of their own for each face that is not smooth: readers shade such as flat.
+-- Adds the triangles of a shape. Faces that are not smooth get corners of their own, which readers shade
+-- flat.
 local function add_shape(file, shape, colour)
   local key = table.concat(colour, " ")
   file.shapes[shape] = file.shapes[shape] or {}
@@ -96,7 +97,7 @@ end
 
 -- --- wires -------------------------------------------------------------------------------------
 
--- The skin's data of frame k: of corners, or of their normals.
+-- Adds the skin's data of frame k: its corners, or their normals.
 local function add_skin_part(file, skin, k, normals)
   local size = 12 * skin.corners
   local first = (skin.normals and 2 or 1) * size * (k - 1) + (normals and size or 0)
@@ -114,7 +115,7 @@ local function attributes(file, skin, k)
     NORMAL = skin.normals and add_skin_part(file, skin, k, true) or nil }
 end
 
--- Weights that make each target the whole at its time, and blend from one to the next.
+-- Adds weights that give each target the weight 1 at its time and blend linearly between them.
 local function add_weights(file, node, count)
   local values = {}
   for k = 1, count do
@@ -131,8 +132,8 @@ local function add_channel(file, node, path, values, width, kind)
     interpolation = path == "scale" and "STEP" or "LINEAR" }
 end
 
--- Of what comes later, or is taken away: it has no size in frames without it. lists: of each frame its
--- points.
+-- Gives a node the size 0 in frames where its object does not exist yet or any more. lists: its points in
+-- each frame.
 local function hide(file, node, lists)
   local sizes, hides = {}, false
   for k, points in ipairs(lists) do
@@ -144,7 +145,7 @@ local function hide(file, node, lists)
   if hides then add_channel(file, node, "scale", sizes, 3, "VEC3") end
 end
 
--- corners: triangles of an object of particles; nil: those of the skin.
+-- corners: triangles of an object of particles; nil: the skin's own.
 local function add_wire(file, run, shown, lists, colour, corners)
   local slot = shown.slot
   local skin = core.skin(run.scene, slot, file.numbers, sides, file.thickness, true)
@@ -152,7 +153,7 @@ local function add_wire(file, run, shown, lists, colour, corners)
   local primitive = { attributes = attributes(file, skin, 1), material = material(file, colour, 0.45) }
   if skin.count > 0 then primitive.indices = add_corners(file, skin.triangles)
   elseif corners and #corners > 0 then primitive.indices = add_corners(file, sink.packed("I4", corners))
-  else primitive.mode = 0 end -- points
+  else primitive.mode = 0 end -- as points
   local mesh, count = { name = shown.name, primitives = { primitive } }, #file.numbers
   if count > 1 then
     primitive.targets, mesh.weights = {}, {}
@@ -168,7 +169,7 @@ local function add_wire(file, run, shown, lists, colour, corners)
   end
 end
 
--- Points of number i of a kind in each frame.
+-- Returns the points of number i of a kind in each frame.
 local function points_of(run, kind, i)
   local lists = {}
   for k, frame in ipairs(run.frames) do lists[k] = (frame[kind] or {})[i] or {} end
@@ -180,7 +181,7 @@ end
 -- glTF has quaternions as x, y, z, w.
 local function turned(q) return { q[2], q[3], q[4], q[1] } end
 
--- poses: of each frame, false where it is not there; it then has no size.
+-- poses: one per frame, false where the body is not there; its size is 0 then.
 local function add_motion(file, node, poses)
   local places, turns, sizes, moves, hides = {}, {}, {}, false, false
   local known
@@ -189,7 +190,7 @@ local function add_motion(file, node, poses)
   for k, pose in ipairs(poses) do
     local p, q = solid.pose(pose or before or known)
     if before and not solid.same_pose(before, pose or before) then moves = true end
-    local last = #turns -- the shorter way round
+    local last = #turns -- q or -q, for the shorter rotation
     if last > 0 and q[2] * turns[last - 3] + q[3] * turns[last - 2] + q[4] * turns[last - 1]
       + q[1] * turns[last] < 0 then
       q = { -q[1], -q[2], -q[3], -q[4] }
@@ -224,7 +225,7 @@ local function add_obstacle(file, run, i, o)
   local poses = poses_of(run, function(frame) return (frame.obstacles or {})[i] end)
   if not poses then return end
   local mesh
-  if solid.flat(o) then -- a piece of it, in its own axes
+  if solid.flat(o) then -- a piece of the plane, in its own axes
     local piece = solid.plane_piece({ normal = o.normal }, nil, { 0, 0, 0 }, 1.5 * solid.bounds(run).size)
     mesh = add_mesh(file, { primitives = { {
       attributes = json.object { POSITION = add_values(file, piece.vertices, 3, "VEC3", VERTICES) },
@@ -264,7 +265,7 @@ end
 
 -- --- the file -----------------------------------------------------------------------------------------
 
--- The rotation that brings up to y.
+-- Returns the rotation that brings up to y.
 local function upright(run)
   local up = view.up(run)
   local axis, c = vec.cross(up, { 0, 1, 0 }), up[2]
@@ -299,7 +300,7 @@ local function write_chunks(file, text, write)
   for _, part in ipairs(file.parts) do write(part) end
 end
 
---- Write a run.
+--- Writes a run.
 -- @tparam table run as softworld.run.files makes it for exchange: scene, slots and colours of wires,
 -- particles
 -- @tparam string path ending in .glb

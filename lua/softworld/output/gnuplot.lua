@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Gnuplot in a separate process, fed by a temporary script with its data.
+--- Runs gnuplot in a separate process, from a temporary script that contains the data.
 -- @module softworld.output.gnuplot
 
 local letters = require "softworld.output.letters"
@@ -7,10 +7,10 @@ local sink = require "softworld.output.sink"
 
 local gnuplot = {}
 
---- Colours that stay apart with the common colour blindnesses (Okabe and Ito).
+--- Colours that stay distinct with the common colour blindnesses (Okabe and Ito).
 gnuplot.colours = { "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000" }
 
---- A text as a gnuplot string: nothing in it has a meaning.
+--- Returns a text as a gnuplot string without special meaning.
 -- @tparam string text
 -- @treturn string in quotes, on one line
 function gnuplot.quote(text)
@@ -20,7 +20,7 @@ function gnuplot.quote(text)
   return '"' .. text:gsub('["\\`]', function(c) return ("\\%03o"):format(c:byte()) end) .. '"'
 end
 
---- Width and height of a drawing; see softworld.output.chart.
+--- Returns width and height of a drawing; see softworld.output.chart.
 function gnuplot.size_of(options, width, height)
   if options.size then return options.size end
   if not options.path then return { 79, 24 } end
@@ -28,12 +28,12 @@ function gnuplot.size_of(options, width, height)
   return { width, height }
 end
 
---- Is there a number, and a finite one?
+--- True for a finite number.
 function gnuplot.finite(x)
   return x ~= nil and x == x and x ~= math.huge and x ~= -math.huge
 end
 
---- A number for gnuplot; one that is not finite leaves a gap.
+--- Returns a number for gnuplot; nil and numbers that are not finite leave a gap.
 -- @tparam ?number x
 -- @treturn string
 function gnuplot.number(x)
@@ -48,7 +48,7 @@ local terminals = {
   dumb = "dumb enhanced size %g,%g noattributes",
 }
 
--- Style common to all charts; the grid lies behind and is light.
+-- Style of all charts: the grid is light and lies behind.
 local style = [[
 set encoding utf8
 set format "%g"
@@ -59,7 +59,7 @@ set key noenhanced above left horizontal Left reverse samplen 1.8 textcolor rgb 
 set bmargin
 ]]
 
--- Boxes of characters read better without a grid.
+-- Style of drawings of characters, which read better without a grid.
 local dumb_style = [[
 set encoding utf8
 set format "%g"
@@ -77,8 +77,8 @@ local function complaint(text, script)
   return table.concat(kept, " ", math.max(1, #kept - 1))
 end
 
---- A new script: a table with add(format, ...), which appends a line, and
--- data(rows), which appends a data block and gives its name.
+--- Returns a new script: a table with add(format, ...), which appends a line, and
+-- data(rows), which appends a data block and returns its name.
 -- @treturn table
 function gnuplot.script()
   local script = { lines = {}, blocks = 0 }
@@ -96,8 +96,8 @@ function gnuplot.script()
   return script
 end
 
--- gnuplot writes to its standard output, for it takes no name of a file with a line end in it. The
--- id puts its mark on names within an SVG, so that several fit one page.
+-- Runs gnuplot. It writes to its standard output, because it accepts no file name with a line end in it. The
+-- id is part of the names within an SVG, so that several SVGs fit one page.
 local function run(kind, size, script, output, id)
   local name = sink.scratch()
   local ok, failure = pcall(function()
@@ -119,7 +119,7 @@ local function run(kind, size, script, output, id)
   error(failure, 0)
 end
 
---- Draw a script into a file, or as characters.
+--- Draws a script into a file, or as characters.
 -- @tparam table script from gnuplot.script
 -- @tparam ?string path ending in .svg, .png or .pdf; nil for characters
 -- @tparam {width,height} size [px], inches for .pdf, characters without a path

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A small JSON writer whose numbers read back to the same bits.
+--- A small JSON writer; its numbers read back to the same bits.
 -- @module softworld.output.json
 
 local letters = require "softworld.output.letters"
@@ -7,9 +7,9 @@ local sink = require "softworld.output.sink"
 
 local json = {}
 
-local marker = {} -- metatable of tables that are objects even when empty
+local marker = {} -- metatable of tables that are written as objects even if empty
 
---- Mark a table as an object, so that an empty one is written {} and not [].
+--- Marks a table as an object, so that an empty one is written {} and not [].
 -- @tparam table value
 -- @treturn table the same table
 function json.object(value)
@@ -22,7 +22,7 @@ local function escape(char)
   return short[char] or string.format("\\u%04x", char:byte())
 end
 
---- A string in JSON quotes.
+--- Returns a string in JSON quotes.
 -- @tparam string text UTF-8, or else taken as Latin-1
 -- @treturn string
 function json.string(text)
@@ -86,7 +86,7 @@ function encode(value, write, path)
   end
 end
 
---- Write a value piece by piece.
+--- Writes a value piece by piece.
 -- Sequences become arrays, other tables objects with sorted keys; an empty
 -- table is an array unless marked by json.object. NaN and infinities have no
 -- form in JSON and become null.
@@ -96,7 +96,7 @@ function json.write(value, write)
   encode(value, write, {})
 end
 
---- A value as JSON text; see json.write.
+--- Returns a value as JSON text; see json.write.
 -- @param value nil, boolean, number, string or table
 -- @treturn string
 function json.encode(value)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A small JSON reader for messages that others send: strict, of limited depth, without surprises. Objects
--- and arrays become tables, null becomes nil.
+--- A small, strict JSON reader of limited depth, for messages from others. Objects and arrays become tables,
+-- null becomes nil.
 -- @module softworld.output.jsonread
 local jsonread = {}
 
@@ -15,7 +15,7 @@ local function code_of(text, at)
   return hex and tonumber(hex, 16) or fail "a wrong \\u"
 end
 
--- One escape at the backslash `at`: its text, and where it ends.
+-- Reads one escape at the backslash `at`. Returns its text and the position after it.
 local function escape(text, at)
   local kind = text:sub(at + 1, at + 1)
   if escapes[kind] then return escapes[kind], at + 2 end
@@ -104,7 +104,7 @@ function read(text, at, depth)
   return value, space(text, at)
 end
 
---- The value of a text; raises a text without a place, "JSON: ...".
+--- Returns the value of a text; raises a text without a place, "JSON: ...".
 function jsonread.decode(text)
   if not utf8.len(text) then fail "no UTF-8" end
   local value, at = read(text, 1, 0)

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Names and texts of scripts as files want them: scripts may be written in Latin-1.
+--- Converts names and texts of scripts, which may be written in Latin-1, for files.
 -- @module softworld.output.letters
 local letters = {}
 
---- Bytes that are not UTF-8 are taken as Latin-1: a text that any reader accepts.
+--- Returns a text as UTF-8. A text that is not UTF-8 is read as Latin-1.
 -- @tparam string text
 -- @treturn string UTF-8
 function letters.utf8(text)
@@ -13,7 +13,7 @@ end
 
 local entities = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
 
---- A text within XML or HTML, on one line: XML 1.0 has no control characters.
+--- Returns a text for XML or HTML, on one line; control characters, which XML 1.0 forbids, become spaces.
 -- @tparam string text
 -- @treturn string
 function letters.xml(text)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What pictures of a run have in common, whoever draws them: which frames, from where, how thick thin
--- wires are drawn, and the words below.
+--- What all drawers of a run's pictures share: which frames, from where, how thick thin wires are drawn, and
+-- the words below.
 -- @module softworld.output.looks
 local number = require "softworld.output.number"
 local povscene = require "softworld.output.povscene"
@@ -9,12 +9,12 @@ local view = require "softworld.output.view"
 
 local looks = {}
 
-local gap = 10            -- [px]
-local least_pixels = 3.2  -- a thinner wire is drawn thicker, and the picture says so
-local least_grip = 10     -- [px] a smaller gripper is drawn larger, and the picture says so
+local gap = 10            -- between pictures [px]
+local least_pixels = 3.2  -- thinner wires are drawn thicker, and the picture says so [px]
+local least_grip = 10     -- smaller grippers are drawn larger, and the picture says so [px]
 
--- The frame nearest to each time, or count frames evenly spread, first and last included; of a run
--- that failed the last ones.
+-- Returns the frame nearest to each time, or count frames evenly spread, first and last included; for a run
+-- that failed, the last count frames.
 function looks.frames(run, count, times)
   local total, list = #run.frames, {}
   for k, t in ipairs(times or {}) do
@@ -31,7 +31,7 @@ function looks.frames(run, count, times)
   return list
 end
 
--- Points that the drawn grippers reach, for the camera to hold.
+-- Returns points that the drawn grippers reach; the camera must show them.
 local function grip_points(run, smallest)
   local points = {}
   for _, frame in ipairs(run.frames) do
@@ -57,7 +57,7 @@ end
 function looks.of(run, width, height, options)
   local setting = type(options.camera) == "table" and options.camera or nil
   local look = { size = solid.bounds(run).size, smallest_grip = 0 }
-  for _ = 1, 2 do -- the second time with grippers of the size that will be drawn
+  for _ = 1, 2 do -- the second pass knows the drawn size of grippers
     look.camera = view.camera(run, width / height, setting, grip_points(run, look.smallest_grip))
     look.per_metre = view.scale(look.camera, width)
     look.smallest_grip = least_grip / look.per_metre
@@ -73,9 +73,9 @@ local function has_plane(run)
   return false
 end
 
-local foot_letter = 7.6 -- width of a letter of the foot [px]
+local foot_letter = 7.6 -- width of a letter in the line below the pictures [px]
 
--- What stands below the pictures, on a sheet of this width [px].
+-- Returns the line below the pictures, for a sheet of this width [px].
 function looks.foot(run, look, width)
   local notes = {}
   if has_plane(run) and look.technique ~= "wireframe" then

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A table of numbers as a map of coloured cells, each with its number.
+--- Draws a table of numbers as a map of coloured cells, each with its number.
 -- Reached as chart.map.
 -- @module softworld.output.map
 
@@ -10,7 +10,7 @@ local sink = require "softworld.output.sink"
 
 local map = {}
 
--- From dark blue to yellow, evenly brighter, for every kind of colour vision.
+-- Dark blue to yellow with evenly rising brightness, readable with every colour vision.
 local stops = {
   { 0, 34, 78 }, { 60, 77, 110 }, { 124, 123, 120 }, { 188, 175, 111 }, { 254, 232, 56 },
 }
@@ -40,7 +40,7 @@ local function check(options)
   end
 end
 
--- A function from a value to its share 0..1 of the colours; logarithmic if
+-- Returns a function that maps a value to 0..1 on the colours; logarithmic if
 -- the values are positive and span more than a factor of 20.
 local function scale_of(options)
   local low, high = math.huge, -math.huge
@@ -61,7 +61,7 @@ local function cell_text(x)
   return number.digits(x + 0.0, 3)
 end
 
--- Names of tics are formats to gnuplot, unlike all other texts.
+-- Returns the names of tics. Unlike other texts, gnuplot reads them as formats.
 local function tics(names)
   local list = {}
   for i, name in ipairs(names) do
@@ -109,7 +109,7 @@ local function as_text(options)
   return table.concat(lines, "\n") .. "\n"
 end
 
---- Draw a map: rows downwards, columns to the right, colour and number in
+--- Draws a map: rows downwards, columns to the right, colour and number in
 -- each cell; a missing or not finite value is a grey cell with a dash.
 -- @tparam table options `rows`, `columns` (names); `values[row][column]`;
 -- `title`, `xlabel`, `ylabel`; `path` (.svg .png .pdf, nil for a text table); `size`

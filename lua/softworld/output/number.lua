@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Numbers for people: four significant digits and a handy unit prefix.
+--- Formats numbers for people: four significant digits and a suitable unit prefix.
 -- @module softworld.output.number
 
 local number = {}
@@ -8,14 +8,14 @@ local prefixes = {
   [-12] = "p", [-9] = "n", [-6] = "u", [-3] = "m", [0] = "", [3] = "k", [6] = "M", [9] = "G",
 }
 
--- Units whose first symbol takes a prefix, and how far up it may go.
+-- Units whose first symbol takes a prefix, and the largest exponent of the prefix.
 local scalable = {
   N = 9, ["N m"] = 9, ["N s"] = 9, J = 9, W = 9, Pa = 9, Hz = 9, ["N/m"] = 9,
   m = 0, s = 0, ["m/s"] = 0, ["m/s2"] = 0, ["rad/s"] = 3, V = 9, A = 9,
 }
 
---- A number with a given count of significant digits, without an exponent
--- between 1e-4 and 1e6; trailing zeros are kept, since they are known digits.
+--- Returns a number with a given count of significant digits, without an exponent
+-- between 1e-4 and 1e6. Trailing zeros stay, because they are known digits.
 -- @tparam number x
 -- @tparam[opt=4] integer digits
 -- @treturn string
@@ -40,7 +40,7 @@ local function power_of(x, highest)
   return math.tointeger(math.max(-12, math.min(highest, power)))
 end
 
---- A number and its unit, scaled to a handy prefix where the unit allows one.
+--- Returns a number and its unit, scaled to a suitable prefix if the unit allows one.
 -- @tparam number x in the unit
 -- @tparam ?string unit SI, such as "N" or "N m"; others are left alone
 -- @treturn string digits
@@ -53,7 +53,7 @@ function number.engineering(x, unit)
   return number.digits(x / 10.0 ^ power), prefixes[power] .. unit
 end
 
---- The same as one text: `1.234 mN`.
+--- Returns both as one text: `1.234 mN`.
 -- @tparam number x in the unit
 -- @tparam ?string unit
 -- @treturn string
@@ -62,7 +62,7 @@ function number.text(x, unit)
   return scaled == "" and digits or digits .. " " .. scaled
 end
 
---- A duration in wall-clock time: 0.03 s, 12.4 s, 3 min 20 s, 2 h 05 min.
+--- Returns a duration in wall-clock time: 0.03 s, 12.4 s, 3 min 20 s, 2 h 05 min.
 -- @tparam number seconds [s]
 -- @treturn string
 function number.duration(seconds)
@@ -74,7 +74,7 @@ function number.duration(seconds)
   return string.format("%d h %02d min", whole // 3600, whole % 3600 // 60)
 end
 
---- How many columns a UTF-8 text takes in a terminal, wide scripts aside.
+--- Returns how many columns a UTF-8 text takes in a terminal; wide scripts are not considered.
 -- @tparam string text
 -- @treturn integer
 function number.columns(text)

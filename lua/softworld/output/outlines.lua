@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Outlines of sections of a wire, drawn over one another as seen along it.
+--- Draws outlines of a wire's sections over one another, as seen along the wire.
 -- @module softworld.output.outlines
 local gnuplot = require "softworld.output.gnuplot"
 local vec = require "softworld.vec"
 
 local outlines = {}
 
--- Points of an outline across the wire and upwards, closed, as lines of text [mm].
+-- Returns the points of an outline across the wire and upwards, closed, as lines of text [mm].
 local function flat(section)
   local up = vec.unit(vec.across({ 0, 0, 1 }, section.tangent))
     or vec.unit(vec.across({ 0, 1, 0 }, section.tangent))
@@ -18,7 +18,7 @@ local function flat(section)
   return lines
 end
 
---- Draw a list of { name, section } into a file (.svg, .png, .pdf).
+--- Draws a list of { name, section } into a file (.svg, .png, .pdf).
 function outlines.draw(path, list, title)
   local script, plots = gnuplot.script(), {}
   script.add [[

@@ -18,14 +18,14 @@ local picture = {}
 
 local gap, caption_height, foot_height = 10, 30, 26 -- [px]
 local most_dots = 25e6
-local smallest = 32                                 -- of a panel's sides [px]
+local smallest = 32                                 -- least side of a panel [px]
 local ink, soft = { 0.12, 0.13, 0.15 }, { 0.36, 0.38, 0.42 }
 local nowhere, upright = { 0, 0, 0 }, { 1, 0, 0, 0 }
 local line_colour = { 0.25, 0.28, 0.33 }
 
 -- --- what is drawn ----------------------------------------------------------------------
 
--- Triangles of a shape; equal ones are made once.
+-- Returns the triangles of a shape; each shape is triangulated once.
 local function triangles(look, shape)
   local known = look.shapes[shape]
   if not known then
@@ -43,7 +43,7 @@ end
 local function add_floor(drawing, look, obstacle, pose)
   local n, p = solid.normal(obstacle, pose), solid.pose(pose)
   local down = vec.dot(n, vec.sub(look.bounds.centre, p))
-  local middle = vec.sub(look.bounds.centre, vec.scale(n, down)) -- of what is on it
+  local middle = vec.sub(look.bounds.centre, vec.scale(n, down)) -- below the centre of the scene
   local square = povscene.square(look.size)
   drawing:floor(middle, n, square, 0.62 * look.size, obstacle.color or povscene.colours.plane)
 end
@@ -68,9 +68,9 @@ local function add_obstacles(drawing, run, frame, look)
   end
 end
 
-local EDGE = 8e-4 -- radius of the edges of zones, of the size of what is seen [-]
+local EDGE = 8e-4 -- radius of drawn edges of zones, over the size of the scene [-]
 
--- Zones by their edges, for they are seen through; found once.
+-- Draws zones by their edges, because one must see through them. The edges are found once.
 local function add_zones(drawing, run, frame, look)
   for _, z in ipairs(run.zones or {}) do
     local pose, colour = solid.carried(z, frame), povscene.colours[z.temperature and "heat" or "zone"]
@@ -86,7 +86,7 @@ local function add_zones(drawing, run, frame, look)
   end
 end
 
--- Flat list of the ends of straight lines from point to point.
+-- Returns the flat list of the ends of straight lines from point to point.
 local function chain(points)
   local out = {}
   for i = 1, #points - 5, 3 do table.move(points, i, i + 5, #out + 1, out) end
@@ -100,7 +100,7 @@ local function doubled(colours)
   return out
 end
 
--- A wire that is a mesh of particles: its surface, or the particles on it.
+-- Draws a wire that is a mesh of particles: its surface, or the particles on it.
 local function add_surface(drawing, look, surface, line, radius, colours)
   local points = solid.thickened(surface, line, look.thickness)
   if look.technique == "particles" then
@@ -178,11 +178,11 @@ local function add_particles(drawing, run, frame, look)
     local p = run.particles and run.particles[i] or { edges = "" }
     local colours = povscene.colours.wires
     local colour = p.color or colours[(#run.wires + i - 1) % #colours + 1]
-    if #points > 0 then add_object(drawing, look, p, points, colour) end -- else it is gone
+    if #points > 0 then add_object(drawing, look, p, points, colour) end -- else not in this frame
   end
 end
 
---- A drawing of one frame.
+--- Returns a drawing of one frame.
 -- @tparam table run
 -- @tparam table frame one of run.frames
 -- @tparam table look of picture.look
@@ -196,7 +196,7 @@ function picture.drawing(run, frame, look)
   return drawing
 end
 
---- What is the same in all pictures of a run.
+--- Returns what all pictures of a run share.
 -- @tparam table run
 -- @tparam number width of a panel [px]
 -- @tparam number height [px]
@@ -221,12 +221,12 @@ end
 
 local bar_width, bar_height, letters = 170, 12, 14 -- [px]
 
--- Name, least value, colours, largest value; returns where it ends.
+-- Draws the name, least value, colours and largest value; returns where it ends.
 local function add_legend(paper, look, x, y)
   local s = look.scale
   x = x + paper:text(s.label, x, y, letters, ink) + 14
   x = x + paper:text(s.text(s.low), x, y, letters, soft) + 8
-  x = math.floor(x) -- or the colours' borders would show
+  x = math.floor(x) -- whole px, or gaps between the colours would show
   for k = 0, bar_width - 1 do
     paper:fill(x + k, y - bar_height + 1, 1, bar_height, s.at(s.low + k / (bar_width - 1) * (s.high - s.low)))
   end
@@ -234,7 +234,7 @@ local function add_legend(paper, look, x, y)
   return x + paper:text(s.text(s.high), x, y, letters, soft)
 end
 
--- As much of a text as has room.
+-- Returns the text, shortened to the room.
 local function fitted(text, size, room)
   if sheet.width(text, size) <= room then return text end
   if not utf8.len(text) then text = text:gsub("[\128-\255]", "?") end
@@ -253,7 +253,7 @@ local function add_foot(paper, layout, look, note)
   paper:text(note, layout.width - gap - sheet.width(note, letters - 1), y, letters - 1, soft)
 end
 
---- Put frames of a run on a sheet.
+--- Draws frames of a run on a sheet.
 -- @tparam table paper of softworld.output.sheet
 -- @tparam table layout columns, panel_width, panel_height, width, height [px]
 function picture.fill(paper, layout, run, frames, look, captions)
@@ -276,12 +276,12 @@ local function layout_of(columns, rows, panel_width, panel_height, caption)
     height = gap + rows * (panel_height + caption) + (rows - 1) * gap + foot_height }
 end
 
--- A lower panel where the view would leave it empty above and below.
+-- Returns the height of a panel, smaller where the view would leave it empty above and below.
 local function trimmed(look, width, height)
   return math.floor(math.max(0.3 * width, math.min(height, height * (look.camera.filled or 1) / 0.8)) + 0.5)
 end
 
---- Sizes and view for so many moments.
+--- Plans sizes and view for a number of moments.
 -- @treturn table layout, as picture.fill takes it
 -- @treturn table look
 function picture.plan(run, count, options)
@@ -321,7 +321,7 @@ local function check(run, options)
   return solid.finite_run(run)
 end
 
---- One moment, or several side by side, in a file.
+--- Writes one moment, or several side by side, to a file.
 -- @tparam table run as softworld.run.files makes it for pictures: `range(quantity)` gives least and largest
 -- @tparam table options path, technique, colour, range, camera, thickness, times or count, columns, width,
 -- height, caption, captions

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Charts of any curves through gnuplot: lines and points, error bars, logarithmic axes.
+--- Draws charts of any curves through gnuplot: lines and points, error bars, logarithmic axes.
 -- @module softworld.output.plot
 local chart = require "softworld.output.chart"
 local gnuplot = require "softworld.output.gnuplot"
@@ -11,7 +11,7 @@ local plot = {}
 local quote, parts = gnuplot.quote, chart.parts
 local finite = parts.finite
 
--- One panel for each unit, in the order of first use; one for all with a label of one's own.
+-- Returns one panel per unit, in the order of first use; only one panel if the user gives a label.
 local function panels_of(o)
   local panels, by_unit = {}, {}
   for _, c in ipairs(o.curves) do
@@ -25,7 +25,7 @@ local function panels_of(o)
   return panels
 end
 
--- Lowest and highest finite value of x or y with errors; above 0 on a logarithmic axis.
+-- Returns the lowest and highest finite value of x or y with errors; only above 0 on a logarithmic axis.
 local function range_of(curves, key, log)
   local low, high = math.huge, -math.huge
   for _, c in ipairs(curves) do
@@ -70,7 +70,7 @@ local function rows_of(c)
   return rows
 end
 
--- What gnuplot draws of one curve: a line, points, bars of errors.
+-- Adds the plots of one curve: a line, points, error bars.
 local function add_curve(script, plots, c, k, title)
   local block = script.data(rows_of(c))
   local colour = quote(gnuplot.colours[(k - 1) % #gnuplot.colours + 1])
@@ -110,7 +110,7 @@ local function x_axis(script, o, log)
   script.add("set xrange [%s:%s]", gnuplot.number(low - around), gnuplot.number(high + around))
 end
 
---- Draw curves.
+--- Draws curves.
 -- @tparam table o `curves`: { name, unit, x, y, error, style, of_run, what }; path, title, xlabel,
 -- ylabel, log, size, see softworld.run.plot
 -- @treturn string the path, or the drawing

@@ -22,7 +22,7 @@ local function complaint(text)
   return #lines > 0 and table.concat(lines, "; ", 1, math.min(#lines, 3)) or text:sub(-200)
 end
 
--- POV-Ray may be told to touch its working folder only, so it runs there.
+-- Runs POV-Ray in its working folder; it may be configured to touch no other.
 local function trace(folder, name, width, height, extra)
   local command = string.format(
     "cd -- %s && exec povray +I%s.pov +O%s.png +FN8 +W%d +H%d -D -GD -GR -GS -P +WT%d %s",
@@ -31,7 +31,7 @@ local function trace(folder, name, width, height, extra)
   if not ok then sink.fail("povray failed (exit code %d): %s", code, complaint(text)) end
 end
 
--- Characters that the internal font lacks become question marks.
+-- Returns a caption in which question marks replace characters that the internal font lacks.
 local function caption_text(text)
   return (text:gsub("[\194-\244][\128-\191]*", "?"):gsub("[^\32-\126]", "?"):gsub('[\\"]', "\\%0"))
 end
@@ -109,13 +109,13 @@ local function sheet_of(columns, rows, panel_width, panel_height)
   }
 end
 
--- A lower panel where the view would leave it empty above and below.
+-- Returns the height of a panel, smaller where the view would leave it empty above and below.
 local function trimmed(look, width, height)
   local used = look.camera.filled or 1
   return math.floor(math.max(0.32 * width, math.min(height, height * used / 0.8)) + 0.5)
 end
 
---- Several moments of a run in one picture, by default six in two rows.
+--- Draws several moments of a run in one picture, by default six in two rows.
 -- The camera is the same in all; captions give the time.
 -- @tparam table options `run`; `path` ending in .png; `count` (6) moments from
 -- the first to the last frame, or `times = { ... }` [s]; `captions` (words after
@@ -147,7 +147,7 @@ function povray.strip(options)
   return render(sheet, run, frames, look, options)
 end
 
---- One moment of a run.
+--- Draws one moment of a run.
 -- @tparam table options as for povray.strip, with `frame` (number of the
 -- frame, default the last), `size = {width, height}` [px] and `caption`
 -- @treturn table as povray.strip

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- One frame of a run as a POV-Ray 3.7 scene.
--- The camera's axes are given outright, which settles POV-Ray's left-handed
--- habit; colours are srgb. Wires are unions of spheres and cylinders; those that are meshes of
+--- Writes one frame of a run as a POV-Ray 3.7 scene.
+-- The camera's axes are given explicitly, because POV-Ray is left-handed by default;
+-- colours are srgb. Wires are unions of spheres and cylinders; wires that are meshes of
 -- particles are meshes of triangles with smooth normals.
 -- @module softworld.output.povscene
 
@@ -24,7 +24,7 @@ local function vector(v)
   return "<" .. numbers(v) .. ">"
 end
 
--- Orange, blue-green, ... : told apart with the common colour blindnesses.
+-- Orange, blue-green, ...: distinct with the common colour blindnesses.
 local wire_colours = {
   { 0.90, 0.33, 0.05 }, { 0.00, 0.62, 0.45 }, { 0.80, 0.47, 0.65 },
   { 0.94, 0.89, 0.26 }, { 0.00, 0.45, 0.70 },
@@ -33,12 +33,12 @@ local obstacle_colour = { 0.52, 0.69, 0.87 }
 local table_colour = { 0.82, 0.80, 0.765 }
 local jaw_colour, palm_colour = { 0.33, 0.37, 0.43 }, { 0.70, 0.73, 0.77 }
 
---- Colours, sRGB: of wires one after the other, obstacles, planes, jaws, palms and stems of grippers, zones
--- to be kept out of, and zones that have a temperature.
+--- Colours, sRGB: of wires in turn, obstacles, planes, jaws, palms and stems of grippers, zones to keep out
+-- of, and zones that have a temperature.
 povscene.colours = { wires = wire_colours, obstacle = obstacle_colour, plane = table_colour,
   jaw = jaw_colour, palm = palm_colour, zone = { 0.84, 0.24, 0.24 }, heat = { 0.90, 0.58, 0.10 } }
 
--- Finishes: how much of the light of all around, of the lamps, and which gloss.
+-- Finishes: response to ambient light and to the lamps, and gloss.
 local matt = "finish { ambient 0.13 diffuse 0.72 }"
 local satin = "finish { ambient 0.16 diffuse 0.75 specular 0.15 roughness 0.05 }"
 local glossy = "finish { ambient 0.16 diffuse 0.75 specular 0.45 roughness 0.02 }"
@@ -65,7 +65,7 @@ local function head(add, camera)
     vector { camera.up[1] * 2 * camera.ty, camera.up[2] * 2 * camera.ty, camera.up[3] * 2 * camera.ty }))
 end
 
--- A broad key light from behind the viewer's left shoulder and a weak one
+-- Adds a broad key light from behind the viewer's left shoulder and a weak one
 -- from the right that casts no shadow.
 local function lights(add, camera, up, size)
   local function place(right, rise, back)
@@ -82,7 +82,7 @@ local function lights(add, camera, up, size)
   add(format("light_source { %s srgb 0.5 shadowless }\n", place(1.6, 1.2, 1.4)))
 end
 
---- The side of the table's squares: 1, 2 or 5 times a power of ten.
+--- Returns the side of the table's squares: 1, 2 or 5 times a power of ten.
 -- @tparam number size of the scene [m]
 -- @treturn number [m]
 function povscene.square(size)
@@ -96,7 +96,7 @@ local function plane(add, obstacle, pose, camera, size)
   local n, p = solid.normal(obstacle, pose), solid.pose(pose)
   local height = 0
   for i = 1, 3 do height = height + n[i] * (camera.at[i] - p[i]) end
-  if height <= 0 then return end -- seen from behind it would hide everything
+  if height <= 0 then return end -- seen from below it would hide everything
   local v = solid.plane_piece(obstacle, pose, p, 0.5).vertices
   local u = { v[4] - v[1], v[5] - v[2], v[6] - v[3] }
   local w = { v[10] - v[1], v[11] - v[2], v[12] - v[3] }
@@ -125,16 +125,17 @@ local function write_list(add, name, items)
   add(format("%s { %d,\n%s }\n", name, #items, table.concat(items, ",\n")))
 end
 
--- The unit normal of a triangle, its corners as places in the flat list of vertices.
+-- Returns the unit normal of a triangle; its corners are places in the flat list of vertices.
 local function normal_of(v, a, b, c)
   local p, q = {}, {}
   for k = 1, 3 do p[k], q[k] = v[b + k] - v[a + k], v[c + k] - v[a + k] end
   return vec.unit(vec.cross(p, q)) or { 0, 0, 1 }
 end
 
-local FLAT = math.cos(math.rad(30)) -- faces that meet less flatly have an edge between them [-]
+local FLAT = math.cos(math.rad(30)) -- cosine of the largest angle between faces that are shaded as one [-]
 
--- Each corner of each triangle has the mean normal of the faces around it that lie as flatly.
+-- Gives each corner of each triangle the mean normal of those faces around it that meet the triangle
+-- smoothly.
 local function smooth(add, shape)
   local v, f, faces, around = shape.vertices, shape.indices, {}, {}
   for i = 1, #f, 3 do
@@ -177,7 +178,7 @@ local openers = {
   end,
 }
 
--- Any other shape as its triangles; those of round ones are smooth where faces meet flatly.
+-- Draws any other shape as triangles; round shapes are shaded smoothly.
 local function triangles(add, o)
   local shape = solid.triangles(o, 64)
   if o.vertices then mesh(add, shape) else smooth(add, shape) end
@@ -193,14 +194,14 @@ local function obstacle(add, o, pose, camera, size)
     matrix(pose)))
 end
 
--- Seen through, for wires are to be seen in it.
+-- Draws a zone transparent, so that wires in it are visible.
 local function zone(add, z, pose)
   triangles(add, z)
   add(format("no_shadow texture { pigment { %s transmit 0.75 } }\n%s }\n",
     colour(povscene.colours[z.temperature and "heat" or "zone"]), matrix(pose)))
 end
 
--- Neighbours closer than a tenth of the radius are left out of the union.
+-- Draws a wire; points nearer to the last one than a tenth of the radius are left out of the union.
 local function wire(add, points, radius, c)
   add "union {\n"
   local last
@@ -221,7 +222,7 @@ local function jaw(add, w, from, to)
   add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w / 2, from, -0.6 * w, w / 2, to, 2 * w))
 end
 
--- At each point the sum of the normals of the faces there.
+-- Returns at each point the sum of the normals of its faces.
 local function normals(points, quads)
   local out = {}
   for i = 1, #points do out[i] = 0 end
@@ -239,7 +240,7 @@ local function normals(points, quads)
   return out
 end
 
--- The ends have points of their own, so that their edges stay sharp.
+-- Draws a tube. The ends have points of their own, so that their edges stay sharp.
 local function tube(add, surface, line, factor, c)
   local points = solid.thickened(surface, line, factor)
   local quads, ends = solid.tube_faces(surface)
@@ -277,7 +278,7 @@ local function painted(c)
   return format("texture { pigment { %s } %s }", colour(c), satin)
 end
 
--- Two jaws at +-y of the grip's pose, wire along x, the palm and stem at +z.
+-- Draws a gripper: two jaws at +-y of the grip's pose, wire along x, palm and stem at +z.
 local function grip(add, pose, w, gap)
   local reach = gap + 0.45 * w
   add "union { union {\n"
@@ -299,7 +300,7 @@ local function grips(add, run, frame, look)
   end
 end
 
--- Things that stand still, or are moved by hand: w is half of the size, the wire lies along x.
+-- Drawers of holds that stand still or are moved by hand: w is half the size, the wire lies along x.
 local clamp_makers = {}
 
 --- Two plates on a block, one above the wire and one below.
@@ -309,7 +310,7 @@ function clamp_makers.clamp(add, w)
   add(format("box { <%.9g,%.9g,%.9g>, <%.9g,%.9g,%.9g> }\n", -w, 0.6 * w, -w, w, w, w))
 end
 
---- An axle across the wire with a ball.
+--- A ball on an axle across the wire.
 function clamp_makers.pin(add, w)
   add(format("sphere { 0, %.9g }\ncylinder { -y*%.9g, y*%.9g, %.9g }\n", 0.8 * w, 1.6 * w, 1.6 * w,
     0.3 * w))
@@ -333,7 +334,7 @@ local function clamps(add, run, frame, look)
   end
 end
 
---- The scene of one frame.
+--- Returns the scene of one frame.
 -- @tparam table run
 -- @tparam table frame one of run.frames
 -- @tparam table look `camera` (see view.camera), `size` of the scene [m],

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Progress of a run: a bar on a terminal, plain lines elsewhere.
+--- Shows the progress of a run: a bar on a terminal, plain lines elsewhere.
 --
 --    local bar <close> = progress.new{ total = 5.0 }   -- [s] simulated
 --    bar:update(t, steps)                              -- as often as you like
 --    bar:finish()
 --
--- Leaving the block by an error clears the bar through the close metamethod.
+-- If an error leaves the block, the close metamethod clears the bar.
 -- @module softworld.output.progress
 
 local checks = require "softworld.checks"
@@ -18,21 +18,21 @@ progress.__name = "softworld progress"
 
 local redraw_gap = 0.1 -- [s] between two drawings of the bar
 local line_gap = 3.0   -- [s] between two plain lines
-local width_gap = 2.0  -- [s] between two looks at the terminal's width
+local width_gap = 2.0  -- [s] between two queries of the terminal's width
 
--- Plain Lua has whole seconds of real time and fine processor time; together
--- they never run ahead of the clock on the wall in a single thread.
+-- A clock for plain Lua, which has whole seconds of real time and fine processor time. Together
+-- they never run ahead of real time in a single thread.
 local function fallback_clock()
   local wall, cpu = os.time(), os.clock()
   return function() return math.max(os.clock() - cpu, os.difftime(os.time(), wall) - 1) end
 end
 
---- Is stderr a terminal that lines can be drawn on?
+--- True if stderr is a terminal that can show a bar.
 function progress.is_terminal()
   return os.getenv("TERM") ~= "dumb" and os.execute("test -t 2") == true
 end
 
---- The terminal's columns.
+--- Returns the terminal's width [columns].
 function progress.terminal_width()
   local pipe = io.popen("stty size <&2 2>/dev/null", "r")
   local text = pipe and pipe:read("a") or ""
@@ -41,11 +41,11 @@ function progress.terminal_width()
   return columns and columns > 0 and columns or 80
 end
 
---- Start showing progress.
+--- Starts to show progress.
 -- @tparam[opt] table options
--- `after` real time before anything is shown, and nothing at all of what ends sooner [s];
+-- `after` real time before anything is shown; runs that end sooner show nothing [s];
 -- `total` simulated time to reach [s], nil if the processes decide;
--- `name` shown in front; `word` what steps are called; `quiet = true` shows nothing;
+-- `name` shown in front; `word` name of the steps; `quiet = true` shows nothing;
 -- `stream` (default io.stderr); `terminal` true or false (default: asked of
 -- the system for stderr, false for another stream);
 -- `width` columns or a function giving them; `clock` a function giving real time [s]
@@ -79,7 +79,7 @@ local function columns_of(self, now)
   return self.columns
 end
 
--- A share that is a percentage only when it is known to be true.
+-- Returns the share done, or nil if the total is unknown.
 local function share_of(self)
   return self.total and math.max(0, math.min(1, self.time / self.total))
 end
@@ -110,7 +110,7 @@ local function front(self)
   return label .. spin[self.turn]
 end
 
--- As many facts as fit; the bar takes the rest of the line, from 10 to 40 columns.
+-- Returns the line with as many facts as fit; the bar takes the rest, from 10 to 40 columns.
 local function bar_line(self, now, columns)
   local room = columns - 1
   local head, parts = front(self), facts(self, now)
@@ -140,7 +140,7 @@ local function say(self, now)
   self.stream:flush()
 end
 
---- Tell how far the run is. Cheap: draws at most ten times a second on a
+--- Updates how far the run is. Cheap: draws at most ten times a second on a
 -- terminal and prints at most one line every few seconds elsewhere.
 -- @tparam number time simulated so far [s]
 -- @tparam ?integer steps so far
@@ -155,7 +155,7 @@ function progress:update(time, steps)
   if self.terminal then draw(self, now) else say(self, now) end
 end
 
---- Remove the bar from the terminal, so that something else can be printed;
+--- Removes the bar from the terminal, so that something else can be printed;
 -- the next update draws it again.
 function progress:clear()
   if self.drawn then
@@ -175,21 +175,21 @@ local function last_line(self, format, ...)
   self.ended = true
 end
 
---- The run has ended well: clears the bar and prints one last line.
+--- Ends a successful run: clears the bar and prints one last line.
 function progress:finish()
   last_line(self, "t = %s, %d %s in %s", number.text(self.time, "s"), self.steps, self.word,
     number.duration(self.clock() - self.start))
 end
 
---- The run has ended badly: clears the bar and prints why.
+--- Ends a failed run: clears the bar and prints why.
 -- @tparam string reason
 function progress:fail(reason)
   last_line(self, "stopped at t = %s after %d %s: %s", number.text(self.time, "s"), self.steps, self.word,
     (tostring(reason):gsub("%c", " ")))
 end
 
---- Leaving the block: an error clears the bar without a word (the error
--- speaks for itself), an ordinary end finishes it.
+--- Leaves the block: an error clears the bar without a message (the error
+-- has its own), an ordinary end finishes the bar.
 function progress:__close(failure)
   if failure ~= nil then
     if not self.quiet then self:clear() end

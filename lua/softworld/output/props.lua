@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Grippers and clamps of pictures and exchanged scenes, as solids in the axes of their pose: the wire lies
+--- Grippers and clamps in pictures and exchanged scenes, as solids in the axes of their pose: the wire lies
 -- along x, jaws close along y, the stem goes up along z.
 -- @module softworld.output.props
 local povscene = require "softworld.output.povscene"
@@ -18,9 +18,9 @@ local function tube(length, radius, at, colour, rotation)
 end
 
 local half = math.sqrt(0.5)
-local along_x, along_y = { half, 0, half, 0 }, { half, half, 0, 0 } -- of what lies along z
+local along_x, along_y = { half, 0, half, 0 }, { half, half, 0, 0 } -- rotations of shapes that lie along z
 
---- A gripper: two jaws, palm and stem.
+--- Returns a gripper: two jaws, palm and stem.
 -- @tparam number w width of its jaws [m]
 -- @tparam number gap from the pose to each jaw [m]
 -- @treturn {table,...} `shape` (an obstacle's), `at` [m], `rotation`, `colour`
@@ -45,7 +45,7 @@ function makers.clamp(w)
     box({ 2 * w, 0.4 * w, 2 * w }, { 0, 0.8 * w, 0 }, colours.jaw) }
 end
 
--- An axle across the wire with a ball.
+-- A ball on an axle across the wire.
 function makers.pin(w)
   return { { shape = { shape = "sphere", radius = 0.8 * w }, at = { 0, 0, 0 }, colour = colours.jaw },
     tube(3.2 * w, 0.3 * w, { 0, 0, 0 }, colours.jaw, along_y) }
@@ -56,13 +56,13 @@ function makers.feed(w)
   return { tube(3.2 * w, w, { 0, 0, 0 }, colours.jaw, along_x) }
 end
 
---- Something that holds a wire and stands still, or is moved by hand.
+--- Returns a hold that stands still or is moved by hand.
 -- @tparam string kind clamp, pin, feed
 -- @tparam number w half of its size [m]
 -- @treturn {table,...} as props.grip
 function props.clamp(kind, w) return (makers[kind] or makers.clamp)(w) end
 
---- All of a frame: lists of such parts with `pose`.
+--- Returns all grippers and clamps of a frame: lists of such parts with `pose`.
 -- @tparam table run
 -- @tparam table frame one of run.frames
 -- @tparam table look `thickness` factor on the wires' radius, `smallest_grip` width [m]

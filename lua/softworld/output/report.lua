@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The player: one HTML file that shows runs moving, with charts and numbers; lua/softworld/page has its
--- sources. Frames go from the core into the page as bytes, see csrc/film/film.h.
+--- Writes the player: one HTML file that shows runs moving, with charts and numbers. Its sources are in
+-- lua/softworld/page. Frames go from the core into the page as bytes, see csrc/film/film.h.
 -- @module softworld.output.report
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -12,12 +12,12 @@ local solid = require "softworld.output.solid"
 
 local report = {}
 
-local most_rows = 3000    -- of series in a page
-local longest = 400000    -- of a script that is shown [B]
+local most_rows = 3000    -- most rows of a series in a page
+local longest = 400000    -- longest script that is shown [B]
 
 -- --- bytes ------------------------------------------------------------------------------
 
--- Bytes that the page has beside its data, by number from 0.
+-- Adds bytes to the page beside its data; returns their number, from 0.
 local function add_blob(page, bytes)
   page.blobs[#page.blobs + 1] = core.base64(bytes)
   return #page.blobs - 1
@@ -25,7 +25,7 @@ end
 
 -- --- series -----------------------------------------------------------------------------
 
--- Where a column has its least and its largest number in rows from .. to, in their order.
+-- Returns the least and the largest number of a column in rows from .. to, in the order of time.
 local function ends_of(values, from, to)
   local low, high
   for i = from, to do
@@ -40,7 +40,7 @@ local function ends_of(values, from, to)
   return values[low], values[high]
 end
 
--- Not more rows than a screen can show: two for each bucket, with what is least and largest in it.
+-- Returns a series of at most most_rows rows: two for each bucket, with its least and largest value.
 local function thinned(series)
   local count = #series.time
   if count <= most_rows then return series, 1 end
@@ -81,7 +81,7 @@ local function shape_of(page, entry)
     blob = add_blob(page, core.deflate(bytes)) }
 end
 
--- Equal shapes are put into the page once.
+-- Adds a shape to the page; equal shapes are added once.
 local function add_shape(page, entry)
   local key = {}
   for name, value in pairs(entry) do
@@ -154,7 +154,8 @@ local words = {
   thawed = function(g) return ("gripper '%s' holds the wire by its pads again"):format(g.name) end,
 }
 
--- Those of the run and of its grippers, in the order of time; a crash is told by the run as well.
+-- Returns the events of the run and of its grippers, in the order of time. A crash is in both lists; it is
+-- kept once.
 local function events_of(run)
   local list, told = {}, {}
   for _, e in ipairs(run.events) do
@@ -172,7 +173,7 @@ local function events_of(run)
   return list
 end
 
--- Without what it has of its time: film, events, numbers.
+-- Returns a run's description without what depends on time: film, events, numbers.
 local function outline_of(page, run)
   return json.object{ name = run.name, ok = run.ok, reason = run.reason, time = run.time,
     start = run.start, steps = run.steps, wall = run.wall, unmet = run.unmet, model = run.model,
@@ -190,7 +191,7 @@ local function add_run(page, run)
   page.data.runs[#page.data.runs + 1] = one
 end
 
--- The script that is running, or nil.
+-- Returns the running script, or nil.
 local function script()
   local path = type(rawget(_G, "arg")) == "table" and rawget(_G, "arg")[0]
   if type(path) ~= "string" or core.kind(path) ~= "file" then return nil end
@@ -214,14 +215,14 @@ local function write_page(page, write)
     write "</script>\n"
   end
   write '<script type="application/json" id="data">'
-  -- nothing within can end the script, or open a comment in it
+  -- escaped, so that no text can end the script element or open a comment in it
   write((json.encode(page.data):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e", ["&"] = "\\u0026" })))
   write "</script>"
   write(template:sub(data_to + 1))
 end
 
---- What a live page draws of a scene that runfiles describes: JSON of { run =, blobs = base64 }, a list of
--- which the run's shapes are numbers from 0.
+--- Returns what a live page draws of a scene that runfiles describes: JSON of { run =, blobs = base64 }. The
+-- run's shapes are numbers in the list of blobs, from 0.
 function report.outline(run)
   local page = { blobs = {}, shapes = {} }
   local one = outline_of(page, run)
@@ -229,7 +230,8 @@ function report.outline(run)
   return one, page.blobs
 end
 
---- A page without runs, which gets what it shows through a socket: HTML. data: what it is to know.
+--- Returns the HTML of a page without runs, which gets its content through a socket. data: further data for
+-- it.
 function report.live(title, data)
   local parts = {}
   write_page({ blobs = {}, data = json.object{ version = core.version, runs = {}, title = title,
@@ -237,7 +239,7 @@ function report.live(title, data)
   return table.concat(parts)
 end
 
---- Write runs into one page.
+--- Writes runs into one page.
 -- @tparam {table,...} runs as softworld.run.files describes them for it
 -- @tparam string path ending in .html
 -- @tparam[opt] table options title; check, of softworld.check.page

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Colours by quantity, as in the player: what frames tell of nodes, and scales of colours for them.
+--- Scales of colours for quantities at nodes, as in the player.
 -- @module softworld.output.scale
 local number = require "softworld.output.number"
 
 local scale = {}
 
---- Quantities by the name that frames give them: how they are called, their unit.
+--- Quantities by their name in frames: label and unit.
 scale.quantities = {
   tension = { label = "Tension", unit = "N" }, curvature = { label = "Curvature", unit = "1/m" },
   contact = { label = "Contact force", unit = "N" },
@@ -26,9 +26,10 @@ end
 
 local sequence = stops "3a5fcd 2196c8 21b59a 86c440 e6c229 f2871e dc3522"
 local around_zero = stops "2360c9 6f9bdc c3cfdd e0dcd6 e8c0a8 dd7d55 c9341c"
-local grey = { 0.54, 0.56, 0.60 } -- of what is no number
+local grey = { 0.54, 0.56, 0.60 } -- for NaN
 
---- A scale from the least to the largest value; of values on both sides of 0 that is in the middle.
+--- Returns a scale from the least to the largest value. If the values lie on both sides of 0 (the negative
+-- ones by more than 5 % of the largest), 0 is in the middle.
 -- @tparam string name of the quantity
 -- @tparam number low
 -- @tparam number high
@@ -57,7 +58,7 @@ function scale.new(name, low, high)
   return self
 end
 
---- Colours of nodes, flat, three numbers each.
+--- Returns the colours of nodes, flat, three numbers each.
 function scale.colours(self, values, times)
   local out, n = {}, 0
   for _, x in ipairs(values) do

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Time series of a run as CSV and JSON files.
--- Numbers are written with 17 significant digits and read back unchanged.
+--- Writes the time series of a run as CSV and JSON files.
+-- Numbers have 17 significant digits and read back unchanged.
 -- @module softworld.output.series
 
 local checks = require "softworld.checks"
@@ -9,7 +9,7 @@ local sink = require "softworld.output.sink"
 
 local series = {}
 
---- The series of a run, checked.
+--- Returns the series of a run after checks.
 -- @tparam table source a run (with a field series) or a series itself:
 -- `time = {...}` [s], `columns = { { name=, unit=, values = {...} }, ... }`
 -- @treturn table the series; raises if a column is not as long as the time
@@ -29,7 +29,7 @@ function series.of(source)
   return data
 end
 
---- The energies stored with the frames of a run, as a series.
+--- Returns the energies stored with the frames of a run, as a series.
 -- @tparam table run with `frames = { { t [s], energy = { kinetic, elastic, gravity } [J] } }`
 -- @treturn table see series.of; gravity is counted from its lowest value
 function series.energy(run)
@@ -46,7 +46,7 @@ function series.energy(run)
   return data
 end
 
--- The running mean of samples over width [s] of time, by trapezoids; a gap stays a gap.
+-- Returns the running mean of samples over width [s] of time, by trapezoids; a gap stays a gap.
 local function running_mean(time, values, width)
   local out, first, last, sum, span = {}, 1, 1, 0.0, 0.0
   local function piece(i) -- between samples i and i + 1
@@ -69,7 +69,7 @@ local function running_mean(time, values, width)
   return out
 end
 
---- The series with every column replaced by its running mean.
+--- Returns the series with every column replaced by its running mean.
 -- @tparam table data see series.of
 -- @tparam number width of the window [s]
 -- @treturn table a series
@@ -84,7 +84,7 @@ function series.mean(data, width)
   return smooth
 end
 
---- A name with its unit, as in column heads: `left.force [N]`.
+--- Returns a name with its unit, as in column heads: `left.force [N]`.
 -- @tparam string name
 -- @tparam ?string unit nothing is added without one
 -- @treturn string
@@ -100,7 +100,7 @@ local function cell(text)
   return text
 end
 
---- Write the series as CSV through a function.
+--- Writes the series as CSV through a function.
 -- First line: `t [s]`, then each name with its unit; then one line per time.
 -- @tparam table source see series.of
 -- @tparam function write called with strings
@@ -117,16 +117,16 @@ function series.write_csv(source, write)
   end
 end
 
---- Write the series as a CSV file.
+--- Writes the series as a CSV file.
 -- @tparam table source see series.of
 -- @tparam string path
 -- @treturn string the path
 function series.csv(source, path)
-  series.of(source) -- complain before a file is touched
+  series.of(source) -- raises an error before a file is touched
   return sink.write_file(path, function(write) series.write_csv(source, write) end)
 end
 
---- The series as a plain table in the shape of the JSON file.
+--- Returns the series as a plain table in the shape of the JSON file.
 -- @tparam table source see series.of
 -- @treturn table `name, ok, reason, quantities` of the run where known, `time` and
 -- `columns`, each with `name, unit, values`
@@ -144,7 +144,7 @@ function series.document(source)
   return json.object(document)
 end
 
---- Write the series as a JSON file; NaN becomes null.
+--- Writes the series as a JSON file; NaN becomes null.
 -- @tparam table source see series.of
 -- @tparam string path
 -- @treturn string the path
@@ -158,7 +158,7 @@ end
 
 local writers = { csv = series.csv, json = series.json }
 
---- Write the series in the format that the path's extension names.
+--- Writes the series in the format that the path's extension names.
 -- @tparam table source see series.of
 -- @tparam string path ending in .csv or .json
 -- @treturn string the path

@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Sheets that pictures are put on: dots for PNG and films, lines and areas for SVG. Both have
+--- Sheets that pictures are drawn on: dots for PNG and films, lines and areas for SVG. Both have
 --
 --    sheet:fill(x, y, width, height, colour)                      [px], from the upper left corner
---    sheet:text(text, x, y, size, colour)      y: of its line; gives how far it goes [px]
+--    sheet:text(text, x, y, size, colour)      y: of its line; returns where the text ends [px]
 --    sheet:show(drawing, camera, technique, x, y, width, height)
---    sheet:bytes()                             what a file of the kind holds
+--    sheet:bytes()                             content of a file of this kind
 -- @module softworld.output.sheet
 local core = require "softworld.core"
 local letters = require "softworld.output.letters"
 
 local sheet = {}
 
---- How long a text is [px].
+--- Returns the length of a text [px].
 function sheet.width(text, size) return core.text_width(text, size) end
 
 local Dots = {}
@@ -29,7 +29,7 @@ end
 
 function Dots:bytes() return self.canvas:png() end
 
---- Of dots.
+--- Returns a sheet of dots.
 function sheet.dots(width, height) return setmetatable({ canvas = core.canvas(width, height) }, Dots) end
 
 local Lines = {}
@@ -71,7 +71,7 @@ function Lines:bytes()
   return table.concat(self.parts) .. "</svg>\n"
 end
 
---- Of lines and areas.
+--- Returns a sheet of lines and areas.
 function sheet.lines(width, height)
   local self = setmetatable({ parts = {} }, Lines)
   add(self, ('<svg xmlns="http://www.w3.org/2000/svg" width="%s" height="%s" viewBox="0 0 %s %s" '

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Files, folders and numbers on their way out.
+--- Writes and reads files and folders, and formats numbers for files.
 -- A file is written beside its final place under a temporary name and then
 -- renamed, so that a reader never meets half a file and an interrupted run
 -- never spoils the previous one. Temporary files of processes that were killed
--- are removed by the next one that writes into the folder. Functions that fail
+-- are removed by the next process that writes into the folder. Functions that fail
 -- raise a plain string that names the path and the reason.
 -- @module softworld.output.sink
 local core = require "softworld.core"
@@ -12,21 +12,21 @@ local sink = {}
 
 local locks = {} -- of this process's temporary files, by path
 
---- Raise an error without position information.
+--- Raises an error without position information.
 -- @tparam string format as for string.format
 -- @param ... its arguments
 function sink.fail(format, ...)
   error(string.format(format, ...), 0)
 end
 
---- Quote a word for the POSIX shell.
+--- Quotes a word for the POSIX shell.
 -- @tparam string word
 -- @treturn string one shell word, whatever the characters in it
 function sink.quote(word)
   return "'" .. word:gsub("'", "'\\''") .. "'"
 end
 
---- A number as text that reads back to the same bits.
+--- Returns a number as text that reads back to the same bits.
 -- Integers are written as integers, floats with 17 significant digits,
 -- the rest as nan, inf or -inf, always with a decimal point.
 -- @tparam number x
@@ -41,7 +41,7 @@ function sink.number(x)
   return text
 end
 
---- The folder part of a path.
+--- Returns the folder part of a path.
 -- @tparam string path
 -- @treturn string "." for a bare name, never with a trailing slash except "/"
 function sink.folder(path)
@@ -50,7 +50,7 @@ function sink.folder(path)
   return folder == "" and "/" or folder
 end
 
---- The last part of a path.
+--- Returns the last part of a path.
 -- @tparam string path
 -- @treturn string
 function sink.base(path)
@@ -66,7 +66,7 @@ local function check_path(path, verb)
   if sink.base(path) == "" then sink.fail("cannot %s %s: it names a folder, not a file", verb, path) end
 end
 
---- The extension of a path in lower case, without the dot; "" if none.
+--- Returns the extension of a path in lower case, without the dot; "" if none.
 -- @tparam string path
 -- @treturn string
 function sink.extension(path)
@@ -74,11 +74,11 @@ function sink.extension(path)
   return (sink.base(path):match("^.+%.([^.]*)$") or ""):lower()
 end
 
---- A fresh, empty file in the same folder as the path, hidden; sink.commit or
--- sink.discard when it is done with. What killed processes left there is removed.
+--- Makes a fresh, empty, hidden file in the same folder as the path. End its use by sink.commit or
+-- sink.discard. Files that killed processes left there are removed.
 -- @tparam string path the final path
--- @tparam[opt] boolean folder a folder is wanted, not a file
--- @tparam[opt] boolean swept the folder has been looked through just now
+-- @tparam[opt] boolean folder make a folder, not a file
+-- @tparam[opt] boolean swept leftovers in the folder have just been removed
 -- @treturn string temporary path; raises if the folder cannot be written
 function sink.temporary(path, folder, swept)
   check_path(path)
@@ -92,7 +92,7 @@ function sink.temporary(path, folder, swept)
   return temporary
 end
 
---- A fresh, empty file for this process alone; sink.discard it.
+--- Makes a fresh, empty file for this process alone; end its use by sink.discard.
 -- @treturn string path
 function sink.scratch()
   local folder = os.getenv "TMPDIR"
@@ -105,7 +105,7 @@ local function let_go(temporary)
   locks[temporary] = nil
 end
 
---- Remove a temporary file.
+--- Removes a temporary file.
 -- @tparam string temporary
 function sink.discard(temporary)
   os.remove(temporary)
@@ -129,15 +129,15 @@ local function put_in_place(temporary, path, safe)
   return good, why
 end
 
---- Give a finished temporary file its final name.
--- The temporary file is removed if that fails.
+--- Gives a finished temporary file its final name.
+-- If that fails, the temporary file is removed.
 -- @tparam string temporary
 -- @tparam string path
--- @tparam[opt] boolean safe have it on the disk first: a computer that goes
--- down then leaves the old file or the new one, whole
+-- @tparam[opt] boolean safe flush the file to the disk first, so that a crash of the
+-- computer leaves either the old file or the new one, whole
 function sink.commit(temporary, path, safe)
   local ok, why = put_in_place(temporary, path, safe)
-  sink.discard(temporary) -- it has gone already if all went well
+  sink.discard(temporary) -- on success it does not exist any more
   if not ok then sink.fail("cannot write %s: %s", path, reason_of(why, temporary)) end
 end
 
@@ -152,7 +152,7 @@ local function fill(file, content)
   if type(content) == "function" then content(writer(file)) else writer(file)(content) end
 end
 
--- Fill an open file and close it: nil, or a message.
+-- Fills an open file and closes it. Returns nil, or a message.
 local function fill_and_close(file, content)
   local ok, failure = pcall(fill, file, content)
   local closed, close_why = file:close()
@@ -161,7 +161,7 @@ local function fill_and_close(file, content)
   return failure
 end
 
--- A device or a pipe (/dev/stdout) is written to; renaming would put a file in its place.
+-- Writes to a device or a pipe (/dev/stdout); renaming would put a file in its place.
 local function write_through(path, content)
   local file, why = io.open(path, "wb")
   if not file then sink.fail("cannot write %s: %s", path, reason_of(why, path)) end
@@ -171,10 +171,10 @@ local function write_through(path, content)
   return path
 end
 
---- Write a file whole or not at all.
+--- Writes a file whole or not at all.
 -- @tparam string path
 -- @tparam string|function content the text, or function(write) that calls
--- write(string, ...) as often as it likes; an error in it is passed on
+-- write(string, ...) any number of times; its errors are passed on
 -- @tparam[opt] table options `safe` as in sink.commit; `swept` as in sink.temporary
 -- @treturn string the path
 function sink.write_file(path, content, options)
@@ -200,9 +200,9 @@ function sink.write_file(path, content, options)
   return sink.fail("cannot write %s: %s", path, reason_of(failure.sink_reason, temporary))
 end
 
-local largest = 4e9 -- of a file that is read whole [B]
+local largest = 4e9 -- largest file that is read whole [B]
 
--- Why a file would not be read, or nil: reading pipes and devices may never end.
+-- Returns why a file cannot be read, or nil. Reading pipes and devices may never end.
 local function unreadable(path)
   local kind = core.kind(path)
   if kind == nil or kind == "file" then return nil end
@@ -210,7 +210,7 @@ local function unreadable(path)
   return ("it is a %s, not a file"):format(kind)
 end
 
---- Read a whole file.
+--- Reads a whole file.
 -- @tparam string path
 -- @treturn string
 function sink.read_file(path)
@@ -251,7 +251,7 @@ local function make_with_shell(path)
   if not ok then sink.fail("cannot make folder %s: %s", path, text:match(": ([^:\n]*)\n*$") or text) end
 end
 
---- Make a folder and those above it; one that exists is fine.
+--- Makes a folder and those above it; an existing folder is no error.
 -- Uses LuaFileSystem (Debian package lua-filesystem) if it is there, else mkdir.
 -- @tparam string path
 -- @treturn string the path
@@ -262,7 +262,7 @@ function sink.make_folder(path)
   return path
 end
 
---- Remove a folder made for temporary files, with the files in it.
+--- Removes a folder made for temporary files, with the files in it.
 -- @tparam string path
 -- @tparam {string,...} names of the files that may be in it
 function sink.remove_folder(path, names)
@@ -270,7 +270,7 @@ function sink.remove_folder(path, names)
   sink.discard(path)
 end
 
---- Run a command in the shell and catch everything it prints.
+--- Runs a command in the shell and catches everything it prints.
 -- @tparam string command with its words quoted
 -- @treturn boolean whether it ended with exit code 0
 -- @treturn string its output and error output together
@@ -284,7 +284,7 @@ function sink.run(command)
   return ok == true, text or "", code or 0
 end
 
---- Insist that a program is on the search path.
+--- Raises an error unless a program is on the search path.
 -- @tparam string program
 -- @tparam string package the Debian package that brings it
 -- @tparam string purpose what it is needed for
@@ -293,7 +293,7 @@ function sink.need(program, package, purpose)
   sink.fail("%s needs the program %s, which is not installed: apt-get install %s", purpose, program, package)
 end
 
---- Numbers as bytes, each by a format of string.pack.
+--- Returns numbers as bytes, each by a format of string.pack.
 function sink.packed(format, values)
   local parts = {}
   for i = 1, #values, 200 do

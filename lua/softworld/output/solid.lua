@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Obstacles as triangles, and poses, for the writers of scenes.
+--- Turns obstacles into triangles, and handles poses, for the writers of scenes.
 -- Lengths in m; triangles wind so that their normals point outwards.
 -- A solid is `{ vertices = flat {x,y,z,...}, indices = flat 0-based {i,j,k,...} }`.
 -- @module softworld.output.solid
@@ -11,7 +11,7 @@ local vec = require "softworld.vec"
 
 local solid = {}
 
---- Rotate a vector by a unit quaternion.
+--- Rotates a vector by a unit quaternion.
 -- @tparam {w,x,y,z} q
 -- @tparam number x
 -- @tparam number y
@@ -26,7 +26,7 @@ end
 local identity = { 1, 0, 0, 0 }
 local origin = { 0, 0, 0 }
 
---- The position and rotation of a pose; absent ones are the identity.
+--- Returns the position and rotation of a pose; missing ones are the identity.
 -- @tparam ?table pose `{ position = {x,y,z} [m], rotation = {w,x,y,z} }`
 -- @treturn table position
 -- @treturn table rotation, of unit length
@@ -38,7 +38,7 @@ function solid.pose(pose)
   return pose.position or origin, { q[1] / norm, q[2] / norm, q[3] / norm, q[4] / norm }
 end
 
---- Points moved from the body's axes to the world's.
+--- Moves points from the body's axes to the world's.
 -- @tparam table vertices flat
 -- @tparam ?table pose
 -- @treturn table flat, new
@@ -52,7 +52,8 @@ function solid.place(vertices, pose)
   return out
 end
 
---- Where a zone is in a frame: of its own, or with its obstacle, zone.on = { slot, position, rotation }.
+--- Returns the pose of a zone in a frame: its own, or relative to its obstacle, zone.on = { slot, position,
+-- rotation }.
 -- @treturn ?table pose; nil: its obstacle is not there
 function solid.carried(zone, frame)
   if not zone.on then return zone end
@@ -63,7 +64,7 @@ function solid.carried(zone, frame)
   return { position = { p[1] + x, p[2] + y, p[3] + z }, rotation = vec.multiply(q, zone.on.rotation) }
 end
 
-local FLAT = 0.999 -- cosine of the angle between two triangles up to which they are one face [-]
+local FLAT = 0.999 -- least cosine between the normals of two triangles of one flat face [-]
 
 local function normal_of(v, i, j, k)
   local function point(c) return { v[3 * c + 1], v[3 * c + 2], v[3 * c + 3] } end
@@ -71,7 +72,7 @@ local function normal_of(v, i, j, k)
   return vec.unit(vec.cross(vec.sub(point(j), a), vec.sub(point(k), a)))
 end
 
---- The edges of a solid of triangles, without those within a flat face.
+--- Returns the edges of a solid of triangles, without those within a flat face.
 -- @tparam table shape `vertices` flat [m], `indices` of corners from 0
 -- @treturn table flat list of their ends [m]
 function solid.edges(shape)
@@ -97,7 +98,7 @@ function solid.edges(shape)
   return out
 end
 
---- The direction a plane's normal has in the world, of unit length.
+--- Returns the direction of a plane's normal in the world, of unit length.
 -- @tparam table obstacle with `normal` (default z)
 -- @tparam ?table pose
 -- @treturn table {x,y,z}
@@ -108,20 +109,20 @@ function solid.normal(obstacle, pose)
   return { solid.rotate(q, n[1] / length, n[2] / length, n[3] / length) }
 end
 
--- The kinds of shape by name, read when the first one is asked for.
+-- The kinds of shape by name; filled when first read.
 local kinds = setmetatable({}, { __index = function(all, name)
   for _, kind in ipairs(core.registry().shapes) do rawset(all, kind.name, kind) end
   setmetatable(all, nil)
   return all[name]
 end })
 
---- Whether an obstacle is a half space, of which a piece is drawn.
+--- True if an obstacle is a half space; only a piece of it is drawn.
 function solid.flat(obstacle)
   local kind = kinds[obstacle.shape]
   return kind ~= nil and kind.flat
 end
 
--- The obstacle's shape by what its kind's rows name.
+-- Returns the obstacle's shape, made from the parameters that its kind's rows name.
 local function shape_of(obstacle, kind)
   local args = { shape = kind.name }
   for _, row in ipairs(kind.params) do args[row.name] = obstacle[row.name] end
@@ -130,7 +131,7 @@ local function shape_of(obstacle, kind)
   return shape
 end
 
---- Complain about an obstacle whose shape or measures are missing.
+--- Raises an error if an obstacle's shape or measures are missing.
 -- @tparam table obstacle
 function solid.check(obstacle)
   local kind = kinds[obstacle.shape]
@@ -140,7 +141,7 @@ function solid.check(obstacle)
   if not obstacle.vertices then shape_of(obstacle, kind):close() end
 end
 
---- A shape of the core as triangles.
+--- Returns a shape of the core as triangles.
 -- @tparam userdata shape
 -- @tparam ?integer around points around a round shape, a multiple of 4
 -- @treturn table solid
@@ -150,15 +151,15 @@ function solid.of_shape(shape, around)
   return { vertices = vertices, indices = indices }
 end
 
---- Let the entry of an obstacle keep the triangles of a shape that is made from a list or a file,
--- which would take long again.
+--- Stores the triangles of a shape made from a list or a file in the obstacle's entry, because making
+-- them again takes long.
 function solid.keep(entry, shape)
   if not kinds[entry.shape].listed then return end
   local own = solid.of_shape(shape)
   entry.vertices, entry.indices = own.vertices, own.indices
 end
 
---- An obstacle as triangles in its own axes.
+--- Returns an obstacle as triangles in its own axes.
 -- @tparam table obstacle any but a half space
 -- @tparam[opt=32] integer around points around a round shape, a multiple of 4
 -- @treturn table solid
@@ -171,7 +172,7 @@ function solid.triangles(obstacle, around)
   return own
 end
 
---- A square piece of a plane, in the world's axes.
+--- Returns a square piece of a plane, in the world's axes.
 -- @tparam table obstacle a half space
 -- @tparam ?table pose
 -- @tparam {x,y,z} centre a point near which the piece is wanted [m]
@@ -195,7 +196,7 @@ function solid.plane_piece(obstacle, pose, centre, half)
   return { vertices = vertices, indices = { 0, 1, 2, 0, 2, 3 } }
 end
 
---- Whether two poses are the same, number by number.
+--- True if two poses are equal number by number.
 -- @tparam ?table a
 -- @tparam ?table b
 -- @treturn boolean
@@ -219,7 +220,7 @@ local function widen(bounds, points)
   end
 end
 
--- Section by section at both ends, where its corners are in any view, and as a whole.
+-- Shows both end sections first, because the corners of the view are often there, then all points.
 local function see_surface(surface, see)
   local points, n = surface.points, 3 * surface.around
   see(table.move(points, 1, n, 1, {}))
@@ -227,12 +228,12 @@ local function see_surface(surface, see)
   see(table.move(points, #points - n + 1, #points, 1, {}))
 end
 
---- The smallest box along the axes around all wires, obstacles other than
+--- Returns the smallest box along the axes around all wires, obstacles other than
 -- planes, and grips of a run.
 -- @tparam table run
 -- @tparam[opt] function visit called with each flat list of points as well;
 -- an obstacle at rest is visited once
--- (run.seen: a table in which the box may be kept, for the run stays as it is)
+-- (run.seen: a table in which the box is kept, if the run does not change any more)
 -- @treturn table `{ low = {x,y,z}, high = {x,y,z}, centre = {x,y,z}, size = diagonal }` [m]
 function solid.bounds(run, visit)
   if run.seen and run.seen.bounds and not visit then return run.seen.bounds end
@@ -274,10 +275,10 @@ function solid.bounds(run, visit)
   return bounds
 end
 
---- The surface of a wire that is a mesh of particles, as quadrilaterals and two ends.
+--- Returns the surface of a wire that is a mesh of particles, as quadrilaterals and two ends.
 -- @tparam table surface `around` points for each section, `points` flat, of all sections [m]
 -- @treturn table flat list of corners from 0, four for each quadrilateral, outwards
--- @treturn table of the first and of the last section, the corners in their order outwards
+-- @treturn table corners of the first and of the last section, in outward order
 function solid.tube_faces(surface)
   local n, quads, ends = surface.around, {}, { {}, {} }
   local last = #surface.points // 3 - n
@@ -291,7 +292,7 @@ function solid.tube_faces(surface)
   return quads, ends
 end
 
---- Triangles that the edges of a surface enclose.
+--- Returns the triangles that the edges of a surface enclose.
 -- @tparam string edges pairs of numbers from 0, 32 bits each
 -- @treturn table flat list of corners from 0
 function solid.enclosed(edges)
@@ -320,7 +321,7 @@ local function all_finite(points)
   return true
 end
 
---- A surface's points, away from the middle line by a factor.
+--- Returns a surface's points with their distance from the centre line scaled by a factor.
 function solid.thickened(surface, line, factor)
   local points, n = surface.points, 3 * surface.around
   if factor == 1 then return points end
@@ -332,7 +333,7 @@ function solid.thickened(surface, line, factor)
   return out
 end
 
---- A run without the frames that cannot be drawn, as a run that diverged has.
+--- Returns a run without the frames that cannot be drawn, as diverged runs have.
 -- @tparam table run
 -- @treturn table the run itself, or a copy with fewer frames; raises if none is left
 function solid.finite_run(run)

@@ -49,9 +49,9 @@ local function widths_of(rows)
   return widths
 end
 
-local most_events = 12 -- lines
+local most_events = 12 -- lines of events
 
--- The first events, and the number of the others.
+-- Adds the first events, and the number of the others.
 local function add_events(lines, events)
   for i, e in ipairs(events) do
     if i > most_events and #events > most_events + 1 then
@@ -64,9 +64,9 @@ local function add_events(lines, events)
   end
 end
 
---- The summary as text.
+--- Returns the summary as text.
 -- First the state of the run, then one aligned row per entry: label, value
--- with four significant digits, unit, place and time; last what happened. A run
+-- with four significant digits, unit, place and time; last the events. A run
 -- that diverged gives its reason and no numbers.
 -- @tparam table run with `name, ok, reason, time [s], steps, wall [s], events, unmet, model` and
 -- `summary = { { label=, value= number or text, unit=, where=, when= [s] }, ... }`
@@ -91,7 +91,7 @@ function summary.text(run)
   return table.concat(lines, "\n") .. "\n"
 end
 
---- Print the summary.
+--- Prints the summary.
 -- @tparam table run see summary.text
 -- @param[opt=io.stdout] stream an open file
 function summary.print(run, stream)

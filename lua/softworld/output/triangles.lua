@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A moment of a run as triangles: Wavefront OBJ with objects by name, or binary STL. Lengths in m, z up as
--- in the scene.
+--- Writes a moment of a run as triangles: Wavefront OBJ with objects by name, or binary STL. Lengths in m, z
+-- up as in the scene.
 -- @module softworld.output.triangles
 local core = require "softworld.core"
 local props = require "softworld.output.props"
@@ -27,7 +27,7 @@ local function integers(bytes)
   return list
 end
 
--- visit(name, flat vertices, flat corners from 0) for each thing.
+-- Calls visit(name, flat vertices, flat corners from 0) for each object.
 local function each(run, frame, thickness, visit)
   local function skin(shown, corners)
     local made = core.skin(run.scene, shown.slot, { frame.number }, sides, thickness, false)
@@ -88,7 +88,7 @@ end
 
 local kinds = { obj = obj, stl = stl }
 
---- Write the frame of a run that is nearest to a time.
+--- Writes the frame of a run that is nearest to a time.
 -- @tparam table run as softworld.run.files makes it for exchange, of the wanted frame
 -- @tparam string path ending in .obj or .stl
 -- @tparam string kind "obj" or "stl"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Where to look from: a perspective camera that just holds a whole run.
+--- Chooses the view: a perspective camera that just holds a whole run.
 -- @module softworld.output.view
 
 local sink = require "softworld.output.sink"
@@ -25,7 +25,7 @@ local function combine(a, x, b, y, c, z)
   return out
 end
 
---- Up: against gravity, or z without gravity.
+--- Returns the upward direction: against gravity, or z without gravity.
 -- @tparam table run
 -- @treturn {x,y,z} of unit length
 function view.up(run)
@@ -34,8 +34,8 @@ function view.up(run)
   return unit({ -g[1], -g[2], -g[3] }, "gravity")
 end
 
--- The horizontal direction in which the points reach furthest, pointing to
--- the side of +x (or of +y where there is no x), by trial every 7.5 degrees.
+-- Returns the horizontal direction in which the points reach furthest, pointing to
+-- the side of +x (or of +y if there is no x), by trial every 7.5 degrees.
 local function longest(points, up)
   local seed = math.abs(up[1]) < 0.9 and { 1, 0, 0 } or { 0, 1, 0 }
   local e1 = unit(combine(1, seed, -dot(seed, up), up, 0, up))
@@ -54,7 +54,7 @@ local function longest(points, up)
   return dot(best, e1) < -1e-9 and combine(-1, best, 0, best, 0, best) or best
 end
 
--- Directions in which corners of things are looked for: along the axes and between them.
+-- Directions in which outermost points are searched: along the axes and between them.
 local outward = {}
 for x = -1, 1 do
   for y = -1, 1 do
@@ -64,11 +64,11 @@ for x = -1, 1 do
   end
 end
 
--- About 50 points of a list, and those furthest outwards.
+-- Adds about 50 points of a list, and its outermost points.
 local function sample(flat, points)
   local function put(i) points[#points + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
   for i = 1, #flat, 3 * math.max(1, #flat // 150) do put(i) end
-  if #flat <= 150 then return end -- that were all of them
+  if #flat <= 150 then return end -- all points are in
   for _, d in ipairs(outward) do
     local best, most = 1, -math.huge
     for i = 1, #flat, 3 do
@@ -79,8 +79,8 @@ local function sample(flat, points)
   end
 end
 
--- One point of each cell of a grid, 64 of them along the longest side, and those furthest along each axis:
--- wires pass the same places in many frames.
+-- Returns one point of each cell of a grid, 64 cells along the longest side, and the outermost points along
+-- each axis. Wires pass the same places in many frames.
 local function fewer(points)
   local low, high, all = { table.unpack(points[1]) }, { table.unpack(points[1]) }, {}
   local first, last = {}, {}
@@ -98,14 +98,14 @@ local function fewer(points)
   local kept = {}
   for _, p in pairs(all) do kept[#kept + 1] = p end
   for c = 1, 3 do table.move({ first[c], last[c] }, 1, 2, #kept + 1, kept) end
-  table.sort(kept, function(p, q) -- the same in each process
+  table.sort(kept, function(p, q) -- the same order in each process
     for c = 1, 3 do if p[c] ~= q[c] then return p[c] < q[c] end end
     return false
   end)
   return kept
 end
 
--- About 60 frames: a camera needs no more.
+-- Returns points of about 60 frames; a camera needs no more.
 local function points_of(run)
   local frames, points = {}, {}
   local total = #run.frames
@@ -120,7 +120,7 @@ local function points_of(run)
   return points
 end
 
--- run.seen: a table in which they may be kept, for the run stays as it is.
+-- Returns the points to show. run.seen: a table in which they are kept, if the run does not change any more.
 local function fit_points(run, extra)
   local seen = run.seen
   local points = seen and seen.points or points_of(run)
@@ -132,7 +132,7 @@ local function fit_points(run, extra)
   return extra and table.move(extra, 1, #extra, #points + 1, points) or points
 end
 
--- The nearest camera that sees every point within +-tx, +-ty (tangents of the
+-- Returns the nearest camera that sees every point within +-tx, +-ty (tangents of the
 -- half angles): each bound is linear in the camera's coordinates.
 local function fit(points, right, up, forward, tx, ty)
   local ax, bx, ay, by = -math.huge, math.huge, -math.huge, math.huge
@@ -145,7 +145,7 @@ local function fit(points, right, up, forward, tx, ty)
   return combine((ax + bx) / 2, right, (ay + by) / 2, up, z, forward)
 end
 
--- Shift the camera sideways until the scene is in its middle.
+-- Shifts the camera sideways until the scene is in the middle.
 local function centre(camera, points)
   for _ = 1, 6 do
     local low, high, depth = { 1, 1 }, { -1, -1 }, 0
@@ -167,7 +167,7 @@ local function mean(points)
   return combine(1 / #points, sum, 0, sum, 0, sum)
 end
 
--- Axes of the camera; looking straight up or down keeps the old right.
+-- Returns the axes of the camera; looking straight up or down keeps the old right.
 local function axes(forward, up, side)
   local right = cross(forward, up)
   if dot(right, right) < 1e-8 then right = side end
@@ -190,8 +190,8 @@ local function aim(camera, forward, up, side, points)
   camera.at = fit(points, camera.right, camera.up, camera.forward, camera.tx * margin, camera.ty * margin)
 end
 
--- Whether the points hardly reach across a direction, so that a view turned
--- or raised much would only distort them.
+-- True if the points have little extent across a direction. A view turned or
+-- raised much would only distort them.
 local function thin(points, side, up)
   local ahead = cross(up, side)
   local low, high, near, far = math.huge, -math.huge, math.huge, -math.huge
@@ -202,8 +202,8 @@ local function thin(points, side, up)
   return far - near < 0.2 * (high - low)
 end
 
--- Of the views across the longest side, turned and raised a little, the one
--- that brings the run nearest.
+-- Returns the direction, among views across the longest side turned and raised a little,
+-- that shows the run largest.
 local function best_direction(camera, options, up, side, points)
   local flat = thin(points, side, up)
   local turns = options.turn and { options.turn } or flat and { 12 } or { 15, 22, 29, 36, 43, 50 }
@@ -220,13 +220,13 @@ local function best_direction(camera, options, up, side, points)
   return best
 end
 
---- A camera for a run, the same for all its frames.
+--- Returns a camera for a run, the same for all its frames.
 -- @tparam table run
 -- @tparam number aspect width over height of the picture
 -- @tparam[opt] table options `from` and `to` (points [m]: a fixed camera), or
 -- `direction` (looking along it), or `turn` and `elevation` [deg] off the
 -- level view across the longest side; `angle` of the picture's width [deg]
--- @tparam[opt] {{x,y,z},...} extra points to hold as well [m]
+-- @tparam[opt] {{x,y,z},...} extra further points to show [m]
 -- @treturn table `at [m], forward, right, up` (unit vectors), `tx, ty`
 -- (tangents of the half angles), `middle` (mean of what is seen [m]), `filled`
 -- (the share of the picture's height that the run takes)
@@ -247,7 +247,7 @@ function view.camera(run, aspect, options, extra)
   return camera
 end
 
---- How many pixels a metre takes in the middle of the picture.
+--- Returns the number of pixels per metre in the middle of the picture.
 -- @tparam table camera
 -- @tparam number width of the picture [px]
 -- @treturn number [px/m]
@@ -256,12 +256,12 @@ function view.scale(camera, width)
   return width / (2 * camera.tx * math.max(away, 1e-9))
 end
 
---- Where a point falls in the picture.
+--- Returns where a point falls in the picture.
 -- @tparam table camera
 -- @tparam {x,y,z} point [m]
 -- @treturn number -1 left edge to 1 right edge
 -- @treturn number -1 lower edge to 1 upper edge
--- @treturn number how far it is ahead [m]
+-- @treturn number distance ahead of the camera [m]
 function view.project(camera, point)
   local d = combine(1, point, -1, camera.at, 0, point)
   local z = dot(d, camera.forward)

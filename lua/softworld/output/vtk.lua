@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A run as a ParaView series: `laying.pvd` and a folder `laying.vtk` of `.vtp` files.
--- Part 0 holds the wires as polylines with point data radius [m] and s (arc
--- length [m]), tension [N], bend_radius [m] and contact_force, that of obstacles and other wires across it at
--- each node [N]; its field data are all columns of the series at the frame's time. Part 1 holds
--- obstacles as triangles; part 2, where wires are meshes of particles, their surfaces, with point data
--- s [m] and contact_force, that of obstacles across the surface [N]. Cell data object counts wires or
--- obstacles from 0. Obstacles that rest share one file.
+--- Writes a run as a ParaView series: `laying.pvd` and a folder `laying.vtk` of `.vtp` files.
+-- Part 0 holds the wires as polylines with point data radius [m], s (arc length [m]), tension [N],
+-- bend_radius [m] and contact_force, the transverse force of obstacles and other wires at each node
+-- [N]; its field data are all columns of the series at the frame's time. Part 1 holds
+-- obstacles as triangles. Part 2 holds the surfaces of wires that are meshes of particles, with point
+-- data s [m] and contact_force, the force of obstacles across the surface [N]. Cell data object counts
+-- wires or obstacles from 0. Obstacles at rest share one file.
 -- @module softworld.output.vtk
 
 local json = require "softworld.output.json"
@@ -69,7 +69,7 @@ local function write_poly(write, data)
   write "</Piece>\n</PolyData>\n</VTKFile>\n"
 end
 
--- Arc length of the nodes: wire.s if given, else the chords of the first
+-- Returns the arc length of the nodes: wire.s if given, else the chords of the first
 -- frame, scaled to the wire's length.
 local function arc_lengths(wire, points)
   if wire.s and #wire.s == #points // 3 then return wire.s end
@@ -84,7 +84,7 @@ local function arc_lengths(wire, points)
   return s
 end
 
--- As large as VTK's readers take it for straight wire [m].
+-- Bend radius of straight wire; VTK's readers accept no infinity [m].
 local STRAIGHT = 1e9
 
 local function add_values(data, first, values, count)
@@ -109,7 +109,7 @@ local function add_wire(data, index, points, s, radius)
   data.object[#data.object + 1] = index - 1
 end
 
--- The series' values at a time, those of the sample nearest to it.
+-- Returns the series' values of the sample nearest to a time.
 local function fields_at(run, t)
   local series, fields = run.series, {}
   local times = series and series.time or {}
@@ -122,7 +122,7 @@ local function fields_at(run, t)
   local i = math.abs(times[low] - t) <= math.abs(times[high] - t) and low or high
   for c, column in ipairs(series.columns) do
     local value = column.values[i]
-    if value ~= value then value = 0.0 end -- nothing was held, say; VTK reads no nan
+    if value ~= value then value = 0.0 end -- for example nothing was held; VTK reads no nan
     fields[c] = { name = column.name, value = value == math.huge and STRAIGHT or value }
   end
   return fields
@@ -148,7 +148,7 @@ local function wires_data(run, frame, lengths)
     point_data = { { name = "radius", values = {} }, { name = "s", values = {} } },
   }
   for i, points in ipairs(frame.wires) do
-    if #points > 0 then add_points(data, run.wires[i], i, points, frame, lengths) end -- else it is gone
+    if #points > 0 then add_points(data, run.wires[i], i, points, frame, lengths) end -- else not there
   end
   data.fields = fields_at(run, frame.t)
   return data
@@ -173,7 +173,7 @@ local function add_surface(data, index, surface, s)
   for i = before + 1, #polys.offsets do data.object[i] = index - 1 end
 end
 
--- nil when no wire is a mesh.
+-- Returns nil if no wire is a mesh.
 local function surfaces_data(frame, lengths)
   local data
   for i, surface in ipairs(frame.surfaces or {}) do
@@ -206,7 +206,7 @@ end
 local function obstacles_data(run, frame, bounds)
   local data = { points = {}, polys = { connectivity = {}, offsets = {} }, object = {} }
   for i, obstacle in ipairs(run.obstacles) do
-    local pose = (frame.obstacles or {})[i] -- false: it is not there
+    local pose = (frame.obstacles or {})[i] -- false: not in this frame
     if pose ~= false and solid.flat(obstacle) then
       local piece = solid.plane_piece(obstacle, pose, bounds.centre, bounds.size)
       add_solid(data, i, piece.vertices, piece.indices)
@@ -261,11 +261,11 @@ local function write_frames(run, folder, folder_name, bounds)
   return entries
 end
 
---- Write a run as a ParaView series; frames with coordinates that are not
+--- Writes a run as a ParaView series. Frames with coordinates that are not
 -- finite, which VTK cannot read, are left out.
 -- @tparam table run with wires, obstacles and frames
 -- @tparam string path of the collection, ending in .pvd; the .vtp files go
--- into a folder of the same name ending in .vtk, made if it is not there
+-- into a folder of the same name ending in .vtk, made if it is missing
 -- @treturn string the path
 function vtk.write(run, path)
   if type(run) ~= "table" or not run.frames or not run.wires then
@@ -281,7 +281,7 @@ function vtk.write(run, path)
   return write_collection(path, entries)
 end
 
---- The names behind the numbers of the cell data object, as JSON.
+--- Returns the names behind the numbers of the cell data object, as JSON.
 -- @tparam table run
 -- @treturn string `{"obstacles":[names],"wires":[names]}`
 function vtk.objects(run)

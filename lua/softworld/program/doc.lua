@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The command `softworld doc [TOPIC]`: the same text as help "TOPIC" at the prompt.
+--- The command `softworld doc [TOPIC]`: prints the same text as help "TOPIC" at the prompt.
 -- @module softworld.program.doc
 local topics = require "softworld.prompt.topics"
 
---- Gives the exit status: 0; 1 where there is no such topic; 2 for more words than one.
+--- Returns the exit status: 0; 1 if there is no such topic; 2 for more than one word.
 return function(topic, more)
   if more then
     io.stderr:write("softworld: doc takes one topic; usage: softworld doc [topic]\n")

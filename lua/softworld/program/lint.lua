@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The command `softworld lint SCRIPT [ARGUMENTS]`: the script builds its scenes, nothing is run, and what is
--- hardly meant is told with the line of the script that made it. Runs give a placeholder that takes every
--- call; where a script needs a number of one, it ends there, and lint says so.
+--- The command `softworld lint SCRIPT [ARGUMENTS]`: lets the script build its scenes without running
+-- anything, and prints what is probably not meant, with the line of the script that made it. Runs return a
+-- placeholder that accepts every call. If the script needs a number from the placeholder it ends there, and
+-- lint says so.
 -- @module softworld.program.lint
 local advise = require "softworld.model.advise"
 local core = require "softworld.core"
@@ -12,10 +13,10 @@ local vec = require "softworld.vec"
 
 local lint = {}
 
-local least_modulus, most_modulus = 1e4, 2e12 -- of what wires are made of [Pa]
-local step = 0.25                             -- of the radius: between points where a wire is looked at [-]
+local least_modulus, most_modulus = 1e4, 2e12 -- usual moduli of wires [Pa]
+local step = 0.25                             -- distance of points checked along a wire, over its radius [-]
 local most_points = 20000
-local deep = 0.5 -- of the radius: a middle nearer to the surface than this is inside
+local deep = 0.5 -- share of the radius: a centre line nearer than this to the surface is inside [-]
 
 -- --- findings -----------------------------------------------------------------------------
 
@@ -34,7 +35,7 @@ end
 local Nothing = {}
 local nothing = setmetatable({}, Nothing)
 Nothing.__name = "result of a run that lint leaves out"
-local used = false -- something was left out
+local used = false -- true once a run was left out
 local function itself()
   used = true
   return nothing
@@ -100,7 +101,8 @@ end
 
 -- --- checks ---------------------------------------------------------------------------------------
 
--- Walk along a wire in steps that no surface is nearer than.
+-- Walks along a wire in steps no longer than the free distance to the obstacle, or `step` radii if larger.
+-- Returns arc length, point and distance of the first point inside the obstacle, or nil.
 local function walk(wire, radius, obstacle)
   local at, q = obstacle:pose()
   local back, shape = vec.conjugate(q), obstacle.shape
@@ -128,7 +130,7 @@ local function check_through(w, o)
     .. "it"):format(wire.name, o.entry.name, s, p[1], p[2], p[3], 1e3 * (wire.radius - gap)))
 end
 
--- Edges longer than what they have to go round or over.
+-- Warns of edges longer than a box is thick, if the wire may come to lie on it.
 local function check_edges(w, o)
   local wire, entry = w.object, o.entry
   local edge = wire.length / wire.segments
@@ -137,14 +139,14 @@ local function check_edges(w, o)
   local at, q = o.object:pose()
   local start = vec.rotate(vec.conjugate(q), vec.sub(wire:position(0), at))
   local gap = thickness and o.object.shape:distance(start)
-  if gap and gap < wire.length and edge > 1.001 * thickness then -- it may come to lie on it
+  if gap and gap < wire.length and edge > 1.001 * thickness then -- within reach
     tell(w.at, ("wire '%s': its edges of %.3g mm are longer than '%s' is thick, %.3g mm; segments = %d makes "
       .. "them as short"):format(wire.name, 1e3 * edge, entry.name, 1e3 * thickness,
       math.ceil(wire.length / thickness - 1e-9)))
   end
 end
 
--- The modulus that a full round section of its radius would have.
+-- Warns of EA or EI unlike that of a full round section of usual modulus.
 local function check_stiffness(w)
   local wire = w.object
   local fine, beam = pcall(function() return wire.beam end)
@@ -152,7 +154,7 @@ local function check_stiffness(w)
   local r = beam.radius
   local area, inertia = math.pi * r ^ 2, math.pi * r ^ 4 / 4
   local bending = type(beam.EI) == "table" and math.max(table.unpack(beam.EI)) or beam.EI
-  local known_modulus = false -- told already
+  local known_modulus = false -- E has a remark already
   for _, f in ipairs(found) do
     known_modulus = known_modulus or f.at == w.at and f.text:find(": E = ", 1, true) ~= nil
   end
@@ -218,7 +220,7 @@ end
 
 -- --- the script -----------------------------------------------------------------------------------
 
--- Nothing is computed: a run ends what is built of its scene, as far as lint can tell.
+-- Replaces runs by the placeholder. At a run the scene is checked, since lint cannot follow it further.
 local function leave_out(class)
   for _, name in ipairs { "run", "settle", "advance", "resume" } do
     class[name] = function(scene)
@@ -231,7 +233,7 @@ local function leave_out(class)
   for _, name in ipairs { "picture", "save", "script" } do class[name] = itself end
 end
 
--- Nothing is evaluated, but what setup builds is looked at.
+-- Evaluates nothing, but lets setup build its scene.
 local function study_of(args)
   used = true
   if type(args) == "table" and type(args.setup) == "function" then args.setup() end
@@ -250,7 +252,7 @@ local function prepare()
   rawset(os, "exit", function() error(nothing, 0) end)
 end
 
--- Gives nil, or what stopped it.
+-- Runs the script. Returns nil, or the error that stopped it.
 local function go(path, ...)
   local chunk, why = loadfile(path, "t")
   if not chunk then return why end
@@ -271,7 +273,7 @@ local function report(path, problem)
     return a.number < b.number
   end)
   for _, f in ipairs(found) do io.write(f.at, ": ", f.text, "\n") end
-  local stopped = problem and used -- it may only have wanted a number of what was left out
+  local stopped = problem and used -- it may only have needed a number from a run
   if stopped then
     io.write(("%s: looked at as far as here, since runs were left out (%s)\n"):format(
       problem:match "^([^\n]-:%d+):" or path, (problem:gsub("^[^\n]-:%d+: ", ""):gsub("\n.*", ""))))
@@ -283,7 +285,7 @@ local function report(path, problem)
   return (problem and not stopped or #found > 0) and 1 or 0
 end
 
---- Gives the exit status: 0 when there is nothing to say, 1 for warnings or an error, 2 for a wrong call.
+--- Returns the exit status: 0 if there is nothing to report, 1 for warnings or an error, 2 for a wrong call.
 function lint.run(path, ...)
   if not path then
     io.stderr:write "softworld: lint wants a script; usage: softworld lint SCRIPT [ARGUMENTS]\n"

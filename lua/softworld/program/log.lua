@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The file of `softworld --log FILE`: what was run, when, and how it ended; remarks and errors too.
--- Lines are appended, each with the time of day, and are in the file at once.
+--- Writes the file of `softworld --log FILE`: what was run, when, and how it ended, with remarks and errors.
+-- Lines are appended, each with the time of day, and reach the file at once.
 -- @module softworld.program.log
 local log = {}
 
 local file, path
 
---- One entry; lines after the first are indented. A disk that is full is told once, and the program goes on.
+--- Writes one entry; its further lines are indented. A full disk is reported once, and the program goes on.
 function log.line(text)
   if not file then return end
   text = tostring(text):gsub("\n+$", ""):gsub("\n", "\n    ")
@@ -26,7 +26,7 @@ local function told(what, fine, ...)
   return ...
 end
 
--- A run says how it ended; reading run.ok would count as the script's look at a failure.
+-- Logs how a run ended. It does not read run.ok, which would count as the script's look at a failure.
 local function ended(run)
   local sealed = require "softworld.sealed"
   local own = sealed.fields(run)
@@ -52,7 +52,7 @@ local function settled(result)
   log.line(("settle: %s"):format(type(result) == "table" and tostring(result.reason) or tostring(result)))
 end
 
---- Begin: what the program does from now on is in the file.
+--- Opens the log; from then on it gets what the program does.
 function log.open(name, script)
   local why
   file, why = io.open(name, "a")

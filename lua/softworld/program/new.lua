@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The command `softworld new NAME`: a script to begin with.
+--- The command `softworld new NAME`: writes a script to begin with.
 -- @module softworld.program.new
 local core = require "softworld.core"
 local sink = require "softworld.output.sink"
@@ -53,7 +53,7 @@ local function usage(why)
   return 2
 end
 
---- Gives the exit status: 0; 1 where the file is there or cannot be written; 2 for a wrong call.
+--- Returns the exit status: 0; 1 if the file exists or cannot be written; 2 for a wrong call.
 return function(name, more)
   if not name then return usage "new wants a name" end
   if more then return usage "new takes one name" end

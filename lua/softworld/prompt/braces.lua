@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Names of parameters that can stand at the end of a line that is being typed, within the braces of a call:
--- `hand:press{ fo`, `scene:gripper{ pads = { wi`. From the rows that check the arguments.
+--- Completes names of parameters within the braces of a call, at the end of a line being typed:
+-- `hand:press{ fo`, `scene:gripper{ pads = { wi`. The names come from the rows that check the arguments.
 -- @module softworld.prompt.braces
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -10,18 +10,19 @@ local braces = {}
 
 local loaded = false
 
--- Tables of the core's rows that belong to calls.
+-- Call -> names of the core's row tables for its arguments.
 local of_core = { ["scene:wire"] = { "wire", "section", "wire_mesh" },
   ["wire:remodel"] = { "remodel", "wire_mesh" },
   ["scene:run"] = { "run" }, ["scene:settle"] = { "settle" }, ["wire:frequencies"] = { "frequencies" },
   ["scene:wire_contact"] = { "wire_contact" }, ["scene:particles"] = { "particles" },
   ["scene:join"] = { "join" }, ["scene:obstacle"] = { "obstacle" }, ["sw.scene"] = { "scene" },
   ["sw.calibrate"] = { "calibrate" }, ["tune.minimise"] = { "minimise" } }
--- What the Lua side reads of them.
+-- Call -> arguments that only the Lua side reads.
 local in_lua = { ["scene:force"] = { { name = "kind" }, { name = "on" } },
   ["scene:obstacle"] = { { name = "file" } },
   ["scene:wire"] = { { name = "cable" }, { name = "stiffness" }, { name = "use" } } }
--- Families whose members have rows of their own: the word that chooses one.
+-- Calls whose further arguments depend on one of them: that argument, and the registry its word is looked up
+-- in.
 local chosen = { ["scene:obstacle"] = { "shape", "shapes" }, ["scene:force"] = { "kind", "forces" } }
 
 local function named(list, name)
@@ -31,7 +32,7 @@ local function named(list, name)
   return {}
 end
 
--- The row tables of a call; text: what stands in its braces so far.
+-- Returns the row tables of a call; text: what stands in its braces so far.
 local function tables_of(call, text)
   local r, list = core.registry(), {}
   local own = rows.all[call]
@@ -47,7 +48,7 @@ local function tables_of(call, text)
   return list
 end
 
--- Brackets that are open at the end of the text, strings left out: { { "{", place }, ... }.
+-- Returns the brackets that are open at the end of the text, outside strings: { { "{", place }, ... }.
 local function open_brackets(text)
   local stack, quote, i = {}, nil, 1
   while i <= #text do
@@ -63,7 +64,7 @@ local function open_brackets(text)
   return not quote and stack or {}
 end
 
--- The call, the keys of braces within its own on the way in, and where its braces begin.
+-- Returns the call, the keys that lead to the innermost braces, and where the call's braces begin.
 local function call_before(text)
   local stack, keys = open_brackets(text), {}
   for level = #stack, 1, -1 do
@@ -93,7 +94,8 @@ local function name_of(chain, value_before, globals)
   return mark == ":" and (kind == "process" and "p" or kind) .. ":" .. method or nil
 end
 
--- All rows that belong where a key can stand at the end of the text; nil: nowhere. Second, the call.
+-- Returns all rows whose key can stand at the end of the text (nil: none can), the call, and whether the text
+-- ends in the call's own braces.
 local function rows_at(text, value_before, globals)
   if not text:find "[{,]%s*$" then return nil end
   if not loaded then rows.load() end
@@ -116,7 +118,8 @@ local function rows_at(text, value_before, globals)
   return all, call, #keys == 0
 end
 
---- A set of names of parameters, or nil where none can stand. value_before: of the prompt's names.
+--- Returns a set of names of parameters, or nil where none can stand. value_before: the prompt's look-up of
+-- names.
 function braces.names(text, value_before, globals)
   local list = rows_at(text, value_before, globals)
   if not list then return nil end
@@ -125,7 +128,7 @@ function braces.names(text, value_before, globals)
   return names
 end
 
--- Words that stand for members of a registry, or for entries of the catalogue.
+-- Returns the words that name members of a registry or entries of the catalogue.
 local function members(call, key)
   local family = chosen[call]
   local list = {}
@@ -141,7 +144,7 @@ local function members(call, key)
   return list
 end
 
---- The words that can stand in quotes at the end of the text, `scene:wire{ model = `, or nil.
+--- Returns the words that can stand in quotes at the end of the text, `scene:wire{ model = `, or nil.
 function braces.choices(text, value_before, globals)
   local before, key = text:match "^(.*[{,]%s*)([%a_][%w_]*)%s*=%s*$"
   if not before then return nil end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What the prompt tells of an object below its name: what it is made of, how it is, its extremes so far.
+--- What the prompt prints of an object below its name: what it is made of, its state, its extremes so far.
 -- @module softworld.prompt.portrait
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -8,14 +8,14 @@ local number = require "softworld.output.number"
 
 local portrait = {}
 
-local STRAIGHT = 1e5 -- radius of what counts as straight, of a wire's length [-]
+local STRAIGHT = 1e5 -- radius over the wire's length from which it counts as straight [-]
 
 local function value_of(fine, ...)
   if fine then return ... end
   if checks.is_interrupt(...) then error((...), 0) end
 end
 
--- The value of a call that may not be possible now; nil then.
+-- Returns the value of a call, or nil if the call fails.
 local function try(f, ...) return value_of(pcall(f, ...)) end
 
 local function vector(v) return ("(%.4g, %.4g, %.4g)"):format(v[1], v[2], v[3]) end
@@ -93,7 +93,7 @@ local function kind_of(value)
   return core.type(value) or type(meta) == "table" and rawget(meta, "__name") or nil
 end
 
---- Lines below the name, each indented and after a line end; nil for other values.
+--- Returns the lines below the name, each indented and after a line end; nil for other values.
 return function(value)
   local make = portrait[kind_of(value)]
   local lines = make and try(make, value)

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Values as text for people: the prompt prints with it.
+-- Formats values as text for people; the prompt prints with it.
 --
 --   pretty(value, { width = 80, items = 100 }) -> text
 --
--- A table is one line when it fits, else one item per line, each item on one
--- line or summarised. Keys are sorted, metamethods other than __tostring stay
--- untouched, cycles are named.
+-- A table is one line if it fits, else one item per line, each item on one
+-- line or summarised. Keys are sorted, metamethods other than __tostring are
+-- not called, cycles are named.
 
-local DEPTH = 4 -- tables inside tables that are still opened
-local SORTED = 20000 -- keys above which sorting costs more than it helps
+local DEPTH = 4 -- deepest nesting of tables that is shown
+local SORTED = 20000 -- most keys that are sorted; beyond, sorting costs more than it helps
 
 local keywords = {}
 for word in ([[and break do else elseif end false for function goto if in local nil not or repeat
@@ -28,7 +28,7 @@ local function quote(text)
   end) .. '"'
 end
 
--- Inside tables seven digits say enough; the value alone shows all of them.
+-- Numbers inside tables have seven digits; a number alone has all of them.
 local function number(value)
   if math.type(value) == "integer" then return tostring(value) end
   local text = ("%.7g"):format(value)
@@ -60,7 +60,7 @@ local function before(a, b)
   return text_of(a) < text_of(b)
 end
 
--- Length of the array part and the other keys, sorted.
+-- Returns the length of the array part, and the other keys, sorted.
 local function keys_of(t)
   local count, keys = rawlen(t), {}
   while count > 0 and rawget(t, count) == nil do count = count - 1 end
@@ -83,14 +83,14 @@ local function key_text(key, room, path)
   return is_name(key) and key or "[" .. compact(key, room, path) .. "]"
 end
 
--- "a = 1" for a key, "1" for an array item; nil when it takes more than room.
+-- Returns "a = 1" for a key, "1" for an array item; nil if it is longer than room.
 local function item_text(t, key, is_array, room, path)
   local label = is_array and "" or key_text(key, room, path) .. " = "
   local text = compact(rawget(t, key), room - #label, path)
   return text and #label + #text <= room and label .. text or nil, label
 end
 
--- One line of at most room characters, or nil.
+-- Returns the table as one line of at most room characters, or nil.
 local function line(t, room, path)
   local count, keys = keys_of(t)
   if (count + #keys) * 3 > room then return nil end
@@ -105,7 +105,7 @@ local function line(t, room, path)
   return #parts == 0 and "{}" or "{ " .. table.concat(parts, ", ") .. " }"
 end
 
--- The value in at most room characters; nil when a table or string is longer.
+-- Returns the value in at most room characters; nil if a table or string is longer.
 function compact(value, room, path)
   local kind = type(value)
   if kind == "string" then

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The pleasant half of the prompt: printing results and completing names. The
--- host program (csrc/host/repl.c) reads the lines and runs them.
+-- Prints results at the prompt and completes names. The host program
+-- (csrc/host/repl.c) reads the lines and runs them.
 
 local pretty = require "softworld.prompt.pretty"
 
@@ -11,14 +11,14 @@ local function width()
   return host and host.columns() or 80
 end
 
--- What an object says at the prompt: a wire, a scene or a gripper more than tostring tells of it.
+-- Returns the text of a value at the prompt. Wires, scenes and grippers show more than their tostring.
 local function text_of(value)
   local more = package.loaded["softworld"] and type(value) ~= "number" and type(value) ~= "string"
     and require("softworld.prompt.portrait")(value)
   return pretty(value, { width = width() }) .. (more or "")
 end
 
---- Print results as the prompt does: values side by side, tables readable. The first is `_` from then on.
+--- Prints results as the prompt does: values side by side, tables readable. `_` is then the first of them.
 function repl.show(...)
   local values = table.pack(...)
   local texts, separator = {}, "\t"
@@ -30,7 +30,7 @@ function repl.show(...)
   io.write(table.concat(texts, separator), "\n")
 end
 
---- `?x` at the prompt: help on the value of x, else on the topic of that name.
+--- `?x` at the prompt: help on the value of x, else on the topic with this name.
 function repl.ask(text)
   local sw = require "softworld"
   text = text:match "^%s*(.-)%s*$"
@@ -46,7 +46,7 @@ function repl.ask(text)
   sw.help(topic:match "^sw%.([%w_]+)$" or topic:match "^[%w_]+[:.]([%w_]+)$" or topic)
 end
 
---- time(f, ...): call f, say how long that took, return what it returns.
+--- time(f, ...): calls f, prints how long it took, returns its results.
 function repl.time(f, ...)
   local clock = package.loaded["softworld"] and package.loaded["softworld"].core.clock or os.clock
   local wall, cpu = clock(), os.clock()
@@ -69,7 +69,7 @@ end
 
 local function index(value, key) return value[key] end
 
--- The value of "a.b[1]:" at the end of the text; nil when it cannot be told
+-- Returns the value of "a.b[1]:" at the end of the text; nil if it cannot be found
 -- without running calls.
 local function value_before(text, globals)
   local chain = text:match "[%a_][%w_%.%[%]]*$"
@@ -99,7 +99,7 @@ local function add_fields(names, fields, methods_only)
   end
 end
 
--- What a metamethod __names lists: properties and methods that no table holds.
+-- Adds the names that a metamethod __names lists: properties and methods that are in no table.
 local function add_listed(names, value, list)
   if type(list) == "function" then
     local ok, answer = pcall(list, value)
@@ -111,7 +111,7 @@ local function add_listed(names, value, list)
   end
 end
 
--- Every name that may follow value and "." or ":" (methods only).
+-- Returns every name that may follow value and "." or ":" (methods only).
 local function names_of(value, methods_only)
   local names, seen = {}, {}
   while value ~= nil and not seen[value] do
@@ -126,11 +126,11 @@ local function names_of(value, methods_only)
   return names
 end
 
---- The names that can stand for word after the text before it on the line; within braces of a call, its
--- parameters.
+--- Returns the names that can stand for word after the text before it on the line. Within braces of a call
+-- these are its parameters.
 function repl.complete(before, word, globals)
   globals = globals or _G
-  if package.loaded["softworld"] and before:find "[\"']$" then -- the choices of a parameter, or nothing
+  if package.loaded["softworld"] and before:find "[\"']$" then -- choices of a parameter, or nothing
     local choices = require("softworld.prompt.braces").choices(before:sub(1, -2), value_before, globals)
     local found = {}
     for _, name in ipairs(choices or {}) do
@@ -139,7 +139,7 @@ function repl.complete(before, word, globals)
     table.sort(found)
     return found
   end
-  if select(2, before:gsub("[\"']", "")) % 2 == 1 then return {} end -- within a text
+  if select(2, before:gsub("[\"']", "")) % 2 == 1 then return {} end -- within a string
   local text, mark = before:match "^(.-)%s*([%.:])%s*$"
   local names = package.loaded["softworld"]
     and require("softworld.prompt.braces").names(before, value_before, globals)

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Topics of help: pages of the manual, and the members of the core's registries with their parameter rows,
--- the same rows that check arguments.
+--- Topics of help: pages of the manual, and the members of the core's registries with their parameter rows.
+-- The same rows check arguments.
 -- @module softworld.prompt.topics
-require "softworld" -- its objects tell their rows
+require "softworld" -- its modules register their rows
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 local manual = require "softworld.manual"
@@ -52,7 +52,7 @@ local function outer(forces)
   return list
 end
 
--- Families in the order in which they are shown: what one is called, its list, how it is used.
+-- Returns the families in the order of help: title, list, use.
 local function families()
   local r = registered()
   return {
@@ -66,7 +66,7 @@ local function families()
 end
 
 local plural = { models = "model", holds = "hold", obstacles = "obstacle", forces = "force", force = "force",
-  shapes = "obstacle", shape = "obstacle", readouts = "readout" } -- integrators has a page
+  shapes = "obstacle", shape = "obstacle", readouts = "readout" } -- integrators has a manual page
 
 local function named(list, name)
   for _, entry in ipairs(list) do
@@ -80,9 +80,9 @@ local function names_of(list)
   return names
 end
 
-local HUGE = 1e300 -- a limit beyond it is none [-]
+local HUGE = 1e300 -- limits beyond it count as no limit [-]
 
---- The range that a row allows, as text.
+--- Returns the range that a row allows, as text.
 function topics.range(row)
   if row.choices then return "one of " .. table.concat(row.choices, ", ") end
   local low, high = row.min and row.min > -HUGE and row.min, row.max and row.max < HUGE and row.max
@@ -94,7 +94,7 @@ function topics.range(row)
   return ""
 end
 
---- A row's default, as text.
+--- Returns a row's default, as text.
 function topics.default(row)
   if row.required then return "required" end
   local usual = row.usual or type(row.default) ~= "number" and row.default
@@ -145,7 +145,7 @@ local function family_list(family)
   return part
 end
 
--- Rows with those of tables within them, under names like pads.width.
+-- Returns rows together with those of tables within them, under names like pads.width.
 local function flat(list, prefix, into)
   for _, row in ipairs(list) do
     local shown = setmetatable({ name = prefix .. row.name }, { __index = row })
@@ -173,16 +173,16 @@ local function call_part(call)
   return part
 end
 
-local WIDE = 110 -- longest line of what is made in Lua [characters]
+local WIDE = 110 -- longest line about a call made in Lua [characters]
 
--- The width of a column for these texts: of the longest one, between two bounds.
+-- Returns the width of a column: the longest of these texts, between two bounds.
 local function column(list, least, most, of)
   local wide = least
   for _, entry in ipairs(list) do wide = math.max(wide, math.min(#of(entry), most)) end
   return wide
 end
 
--- What an object of a class does: a line for each method and field.
+-- Returns the part about a class: a line for each method and field.
 local function class_part(class)
   local part = { title = ("what %s %s has"):format(class:find "^[aeiou]" and "an" or "a", class), lines = {} }
   local function short(call) return (signature(call):gsub("^%w+", "", 1)) end
@@ -195,8 +195,8 @@ local function class_part(class)
   return part
 end
 
--- Calls made in Lua under a name: the whole one; how an object of that class is made, and what it has; all
--- methods of that name, where it is nothing else.
+-- Adds the calls made in Lua under a name: the call with this full name; for a class how its objects are made
+-- and their methods; else all methods with this name, unless the name is a topic already.
 local function add_calls(topic, parts)
   local made = rows.all["scene:" .. topic]
   if rows.all[topic] then parts[#parts + 1] = call_part(rows.all[topic]) end
@@ -213,7 +213,7 @@ local function add_calls(topic, parts)
   end
 end
 
--- Classes of objects that are told of nowhere else.
+-- Returns the classes of objects that no other part of help describes.
 local function object_names()
   local names = checks.sorted(rows.classes)
   for i = #names, 1, -1 do
@@ -222,7 +222,8 @@ local function object_names()
   return names
 end
 
---- Members and tables of rows under a name: a list of { title =, lines = texts, rows = parameter rows }.
+--- Returns the members and tables of rows under a name: a list of { title =, lines = texts, rows = parameter
+-- rows }.
 function topics.parts(topic)
   local parts, r = {}, registered()
   if r.params[topic] then
@@ -245,7 +246,7 @@ end
 
 local function unit_of(row) return row.unit == "-" and "" or "[" .. row.unit .. "]" end
 
--- Choices of a row that has a line about each.
+-- Adds the choices of a row that has a line about each.
 local function add_choices(lines, row, indent)
   for _, choice in ipairs(row.about and row.choices or {}) do
     lines[#lines + 1] = ("%s%-12s %s"):format((" "):rep(indent), choice, row.about(choice))
@@ -270,12 +271,12 @@ local function part_text(part)
   return table.concat(lines, "\n")
 end
 
---- What an object of a class has, as text; nil for classes without rows.
+--- Returns the methods and fields of a class, as text; nil for classes without rows.
 function topics.object(class)
   return rows.classes[class] and part_text(class_part(class)) or nil
 end
 
---- Names of all members and tables of rows, in groups: a title and a list.
+--- Returns the names of all members and tables of rows, in groups: a title and a list.
 function topics.reference()
   local r = registered()
   return { { "make", checks.sorted(r.params) }, { "models", names_of(r.models) },
@@ -284,7 +285,7 @@ function topics.reference()
     { "readouts", names_of(r.readouts) }, { "objects", object_names() } }
 end
 
---- All topics, as text.
+--- Returns all topics, as text.
 function topics.overview()
   local lines = { 'SoftWorld: help "name" (or `softworld doc name`) shows a page or parameters, '
     .. "help(object) its methods." }
@@ -301,7 +302,7 @@ function topics.overview()
   return table.concat(lines, "\n")
 end
 
---- The text under a name: the page of the manual first, then parameters; or nil.
+--- Returns the text under a name, or nil: the page of the manual first, then parameters.
 function topics.text(topic)
   local texts, parts = {}, topics.parts(topic)
   local page = manual.has(topic) and topic or #parts == 0 and manual.also[topic]
@@ -310,7 +311,7 @@ function topics.text(topic)
   return #texts > 0 and table.concat(texts, "\n\n") or nil
 end
 
---- Message for a name without a topic, with the nearest one that has.
+--- Returns the message for a name without a topic, with the nearest topic.
 function topics.unknown(topic)
   local names = checks.sorted(manual.also)
   local function add(list) table.move(list, 1, #list, #names + 1, names) end

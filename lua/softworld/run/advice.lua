@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What to try next when a run failed, by its reason and options.
+--- Suggests what to try next when a run failed, by its reason and options.
 -- @module softworld.run.advice
 local core = require "softworld.core"
 local number = require "softworld.output.number"
 
 local advice = {}
 
--- Words of the core's reasons, most special first.
+-- Words of the core's reasons, the most specific first.
 local known = {
   { "fed too fast", "a slower feed, or a smaller dt" },
   { "feed slips", "a slower feed, or a smaller dt" },
@@ -26,7 +26,7 @@ local function is_explicit(integrator)
   return false
 end
 
---- A phrase that follows "try".
+--- Returns a phrase that follows "try".
 function advice.of(reason, args)
   if args.integrator and is_explicit(args.integrator) then
     return "dt below scene:stable_dt(), or an implicit integrator"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a conductor bears before it breaks, from its parts. See help "breaking".
+--- Computes the breaking load of a conductor from its construction. See help "breaking".
 -- @module softworld.run.breaking
 local stranding = require "softworld.wire.stranding"
 
@@ -9,8 +9,8 @@ local strengths = { copper = { 220e6, 200e6, 260e6 }, aluminium = { 75e6, 60e6, 
 
 local breaking = {}
 
---- Breaking load of a construction [N]: { value, low, high, flag, source }, computed from its
--- conductor; nil where the strength of that is not known.
+--- Returns the breaking load of a construction [N]: { value, low, high, flag, source }, computed from its
+-- conductor; nil if the conductor's strength is not known.
 function breaking.load(construction)
   local strength = strengths[construction.conductor]
   if not strength then return nil end

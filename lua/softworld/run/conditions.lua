@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Conditions that processes wait for, told as tables.
+--- Conditions that processes wait for, given as tables.
 -- @module softworld.run.conditions
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -17,7 +17,7 @@ local function pushes(object)
     or core.type(object) == "clamp"
 end
 
--- An object that the run of this scene moves.
+-- Raises an error if the object is in another scene, which this run does not move.
 local function check_scene(object, what, level)
   local _, _, _, own = core.number(object)
   if own == nil and type(object) == "table" then own = checks.field(object, "scene") end
@@ -26,13 +26,14 @@ local function check_scene(object, what, level)
   end
 end
 
--- Why a gripper that has neither hold nor pads feels nothing, or nil. Its own handler may grasp.
+-- Returns why a gripper without hold and pads feels nothing, or nil. One with on_crash may grasp in that
+-- function.
 local function holds_nothing(object)
   if type(object) ~= "table" or object.hold or object.tool or object.on_crash then return nil end
   return ("gripper '%s' holds nothing"):format(checks.shown(object.name))
 end
 
--- The force that a gripper or a hold puts on its wire, or wires on an obstacle, is so large.
+-- The force of a gripper or hold on its wire, or of wires on an obstacle, reaches a value.
 function kinds.force(t, level)
   local least = number("force", t.force, " N", level + 1)
   if not pushes(t.on) then
@@ -43,7 +44,7 @@ function kinds.force(t, level)
     least > 0 and function() return holds_nothing(t.on) end or nil
 end
 
--- The wire has slid so far through a gripper's pads.
+-- The wire has slid a distance through a gripper's pads.
 function kinds.slip(t, level)
   local least = number("slip", t.slip, " m", level + 1)
   if not checks.field(t.on, "state") then
@@ -63,7 +64,8 @@ function kinds.contact(t, level)
   return function() return vec.norm(t.contact:force()) > 0 end
 end
 
--- Where something is: a point, a gripper, an obstacle, { wire, s = }.
+-- Returns a function that gives a place: a point, a gripper, an obstacle, { wire, s = }; and true if it is
+-- fixed.
 local function place_of(what, level)
   if type(what) == "table" and core.type(rawget(what, 1)) == "wire" then
     local s = number("between: s", what.s, " m", level + 1)
@@ -83,7 +85,7 @@ local function place_of(what, level)
   return function() return point end, true
 end
 
--- Two places are so near to each other.
+-- Two places come near each other.
 function kinds.distance(t, level)
   local most = number("distance", t.distance, " m", level + 1)
   if type(t.between) ~= "table" or #t.between ~= 2 then
@@ -101,8 +103,8 @@ end
 local known = { on = true, between = true }
 for kind in pairs(kinds) do known[kind] = true end
 
---- The function for a table that tells a condition, and one, or nil, that says why it cannot come
--- true as long as nobody does anything.
+--- Returns the function for a condition given as a table, and a function (or nil) that says why it cannot
+-- come true as long as nobody acts.
 function conditions.of(t, level, scene)
   conditions.scene = scene
   checks.keys("p:wait_until", t, known, level + 1)
@@ -115,7 +117,7 @@ function conditions.of(t, level, scene)
   end
   if not found then error("p:wait_until: wait for what? give force, slip, contact or distance", level) end
   local holds, impossible = kinds[found](t, level + 1)
-  return holds, impossible -- no tail call, which would hide a level
+  return holds, impossible -- no tail call, it would hide a level
 end
 
 return conditions

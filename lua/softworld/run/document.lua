@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A run, or a scene as it is now, as plain tables: what charts, pictures, players and files are made of.
+--- Turns a run, or the present scene, into plain tables for charts, pictures, players and files.
 -- @module softworld.run.document
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -14,10 +14,10 @@ local trust = require "softworld.run.trust"
 local document = {}
 local readable = runfiles.readable
 
---- The wires as they are now, for pictures.
+--- Returns the present wires, for pictures.
 function document.wires(scene) return leave.all(scene, "wire") end
 
--- Entries of obstacles without the objects.
+-- Returns the entries of obstacles without the objects.
 local function obstacles_of(data)
   local list = {}
   for i, o in ipairs(data.obstacles) do
@@ -28,7 +28,7 @@ local function obstacles_of(data)
   return list
 end
 
--- Clips are shown as obstacles that stand still.
+-- Adds clips as obstacles that stand still.
 local function add_fixings(scene, doc)
   for _, f in ipairs(fixing.all(scene)) do
     for _, solid in ipairs(f:solids()) do
@@ -40,7 +40,7 @@ local function add_fixings(scene, doc)
   end
 end
 
--- What pictures show, of frames of these numbers; nil: of all.
+-- Adds what pictures show, in the frames with these numbers; nil: in all.
 local function draw(self, doc, wires, numbers)
   doc.wires = wires
   doc.obstacles, doc.zones = obstacles_of(build.data(self.scene)), build.data(self.scene).zones
@@ -52,7 +52,7 @@ local function draw(self, doc, wires, numbers)
   add_fixings(self.scene, doc)
 end
 
--- What a run has beside its frames.
+-- Returns a run's data except its frames.
 local function outline(self)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
     events = self.events,
@@ -71,7 +71,7 @@ local function outline(self)
   return doc
 end
 
---- Plain tables of everything that charts, pictures and files need.
+--- Returns plain tables of everything that charts, pictures and files need.
 function document.of(self)
   if self.ok then readable(self, "results") end
   local doc = outline(self)
@@ -79,7 +79,7 @@ function document.of(self)
   return doc
 end
 
--- What a player draws of a scene.
+-- Adds what a player draws of a scene.
 local function describe(scene, doc, wires)
   local data = build.data(scene)
   doc.scene, doc.wires, doc.obstacles = scene, wires or document.wires(scene), obstacles_of(data)
@@ -94,7 +94,7 @@ local function describe(scene, doc, wires)
   return doc
 end
 
--- For a player: without frames, which it takes from the core.
+-- For a player: without frames, which it reads from the core.
 function runfiles.described(self)
   readable(self, "frames", true)
   local doc = outline(self)
@@ -102,13 +102,13 @@ function runfiles.described(self)
   return describe(self.scene, doc, not self.ok and self.drawn or nil)
 end
 
--- The same of a scene as it is now, with or without a run under way.
+-- Same for the present scene, with or without a run under way.
 function runfiles.scene_described(scene)
   return describe(scene, { name = scene.name, ok = true, start = scene.time, time = scene.time,
     gravity = scene:gravity(), events = {} })
 end
 
--- What pictures of some frames need, without series and numbers.
+-- Returns what pictures of some frames need, without series and numbers.
 function runfiles.moments(self, numbers)
   readable(self, "frames", true)
   local doc = { name = self.name, ok = self.ok, reason = self.reason, time = self.time,
@@ -118,7 +118,7 @@ function runfiles.moments(self, numbers)
   return doc
 end
 
--- The same of a scene as it is now.
+-- Same for the present scene.
 function runfiles.present(scene)
   local doc = { name = scene.name, ok = true, time = scene.time, gravity = scene:gravity(),
     wires = document.wires(scene), obstacles = obstacles_of(build.data(scene)),
@@ -130,7 +130,7 @@ function runfiles.present(scene)
   return doc
 end
 
--- The document, with the frames of a run that failed.
+-- Returns the document, also with the frames of a run that failed.
 function runfiles.pictured(self)
   local doc = document.of(self)
   if not self.ok then

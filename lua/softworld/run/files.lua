@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What runs write: tables, charts, pictures, files for ParaView. Methods of Run, see softworld.run.run.
+--- Writes runs: tables, charts, pictures, files for ParaView. Methods of Run, see softworld.run.run.
 -- @module softworld.run.files
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -62,7 +62,7 @@ rows.calls{
 
 runfiles.camera = camera
 
---- Raise unless it is a camera: nil, "auto" or a table of its rows.
+--- Raises an error unless the value is a camera: nil, "auto" or a table of its rows.
 function runfiles.check_camera(given, what)
   if given == nil or given == "auto" then return end
   if type(given) ~= "table" then
@@ -71,7 +71,7 @@ function runfiles.check_camera(given, what)
   camera:read(given, what .. ": camera", what .. ": camera.")
 end
 
--- { width, height }, both above 0.
+-- Checks { width, height }, both above 0.
 local function check_size(given)
   if given == nil then return end
   if type(given) ~= "table" then
@@ -85,7 +85,7 @@ local function check_names(given)
   error("run:chart: columns must be a list of names of series, got " .. checks.got(given), 0)
 end
 
--- Raise when the run has no such results, or has lost them.
+-- Raises an error if the run has no such results, or has lost them.
 local function readable(self, what, even_failed)
   if not self.ok and not even_failed then
     error(("run of '%s' failed %s; it has no %s"):format(self.name, self.reason, what), 3)
@@ -103,7 +103,7 @@ local function check_path(path, what, wanted)
   error(("%s expects %s, got %s"):format(what, wanted, path == "" and "''" or type(path)), 3)
 end
 
---- Table of results on the terminal.
+--- Prints the table of results on the terminal.
 function Run:summary(stream)
   if stream ~= nil and io.type(stream) ~= "file" and type(checks.field(stream, "write")) ~= "function" then
     error("run:summary: an open file is wanted, got " .. (io.type(stream) or type(stream)), 2)
@@ -111,7 +111,7 @@ function Run:summary(stream)
   require("softworld.output.summary").print(self:document(), stream or io.stdout)
 end
 
---- Series as CSV or JSON, by the file's extension.
+--- Writes the series as CSV or JSON, by the file's extension.
 function Run:save(path)
   check_path(path, "run:save", "the name of a .csv or .json file")
   readable(self, "series")
@@ -119,7 +119,7 @@ function Run:save(path)
   return path
 end
 
---- ParaView series (.pvd).
+--- Writes a ParaView series (.pvd).
 function Run:vtk(path)
   check_path(path, "run:vtk", "the name of a .pvd file")
   readable(self, "frames", true)
@@ -127,7 +127,7 @@ function Run:vtk(path)
   return path
 end
 
---- The player: one .html file that needs no network.
+--- Writes the player: one .html file that needs no network.
 function Run:report(path)
   check_path(path, "run:report", "the name of an .html file")
   return require("softworld.output.report").write({ runfiles.described(self) }, path)
@@ -140,7 +140,7 @@ local several = rows.call("sw.report", "{ run, ..., ... }",
   { "title", "text", "-", "of the page", usual = "the runs' names" },
 })
 
---- Several runs in one page: sw.report{ run1, run2, path =, title = }.
+--- Writes several runs to one page: sw.report{ run1, run2, path =, title = }.
 function runfiles.report(args)
   if type(args) ~= "table" or getmetatable(args) then
     error("sw.report takes a table such as { run1, run2, path = 'both.html' }, got " .. checks.got(args), 3)
@@ -160,7 +160,7 @@ function runfiles.report(args)
   return build.call(4, require("softworld.output.report").write, list, o.path, { title = o.title })
 end
 
---- Chart of series: { path = "x.svg", columns = { names }, title = }.
+--- Draws a chart of series: { path = "x.svg", columns = { names }, title = }.
 function Run:chart(options)
   local o = chart:read(options or {})
   check_size(o.size)
@@ -170,7 +170,7 @@ function Run:chart(options)
   return require("softworld.output.chart").series(o)
 end
 
---- A strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
+--- Draws a strip of ray-traced pictures: { path = "x.png", count = 6, ... }.
 function Run:pictures(options)
   local o = pictures:read(options or {})
   runfiles.check_camera(o.camera, "run:pictures")

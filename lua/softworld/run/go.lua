@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A run goes on: steps of the core between those of processes, observers and the progress bar.
+--- Computes a run: advances the core between the turns of processes, with observers and the progress bar.
 -- @module softworld.run.go
 local core = require "softworld.core"
 local advice = require "softworld.run.advice"
@@ -19,9 +19,9 @@ local waiting = require "softworld.run.waiting"
 local go = {}
 local chunk = 64 -- steps between two looks at progress; fixed, so that results never depend on it
 local default_frame = 1 / 30 -- [s]
-local progress_after = 1 -- of computing [s]
+local progress_after = 1 -- computing time before the bar is shown [s]
 
---- What `frames` may have.
+--- Fields of `frames`.
 go.frames = tables.list{
   { "memory", "number", "B", "that all frames of the scene may take; when full every second one goes",
     min = 1e4, max = 1e12, default = 256e6 },
@@ -39,7 +39,7 @@ end
 local function new_bar(args, scene, level)
   local host = package.loaded["softworld.host"]
   local wanted = args.progress
-  local usual = wanted == nil -- on a terminal, for runs that last
+  local usual = wanted == nil -- on a terminal, for runs that take long
   if usual then wanted = host and host.terminal and os.getenv "TERM" ~= "dumb" end
   return progress.new{ total = args.duration and args.duration > 0 and args.duration or nil,
     name = level and ("%s, %s"):format(scene.name, level) or scene.name, quiet = not wanted,
@@ -50,7 +50,7 @@ end
 
 local advance = core.class.scene.advance
 
--- What the core is to know of scene:run's arguments.
+-- Returns those of scene:run's arguments that the core takes.
 local function options_of(args)
   local options = {}
   for k, v in pairs(args) do options[k] = v end
@@ -60,8 +60,8 @@ local function options_of(args)
   return options
 end
 
--- Advance until the end of time or of the processes. Gives the reason of the end, and of one that leaves
--- things undone "stopped" or "unfinished".
+-- Advances until the end of time or of the processes. Returns the reason of the end, and "stopped" or
+-- "unfinished" if something was left undone.
 local function drive(scene, args, total, bar)
   local start = total.start
   local stop = args.duration and start + args.duration or math.huge
@@ -81,7 +81,7 @@ local function drive(scene, args, total, bar)
     local target = math.min(stop, wake)
     if target == math.huge then
       waiting.look(scene, bar, args.progress == false)
-      -- a process that waits for a condition without an end: go on step by step
+      -- a process waits for a condition without an end: step by step
       target = scene.time + (args.dt or 0.01)
     end
     options.max_steps = math.min(left, watching and 1 or chunk)
@@ -105,7 +105,7 @@ local function new_total(scene)
     ok = true, reason = "", time = scene.time, start = scene.time, wall = 0, cpu = 0 }
 end
 
--- Everything is ready for the first step.
+-- Prepares everything for the first step.
 local function begin(scene, args)
   local data = build.data(scene)
   local total = data.going or new_total(scene)
@@ -119,7 +119,7 @@ local function begin(scene, args)
   return data, total
 end
 
--- Gives 1. whether it came to an end without an error, 2. the reason or that error, 3. see drive.
+-- Returns: 1. whether it ended without an error, 2. the reason or the error, 3. see drive.
 local function drive_shown(scene, args, total, level, hindrance)
   local bar <close> = new_bar(args, scene, level)
   local data = build.data(scene)
@@ -136,7 +136,7 @@ local function drive_shown(scene, args, total, level, hindrance)
   return fine, reason, cut
 end
 
---- One run: its fields. level names it where it is one of several, and hindrance tells why it cannot even
+--- Computes one run and returns its fields. level: its name if it is one of several; hindrance: why it cannot
 -- begin.
 function go.once(scene, args, level, hindrance)
   local data, total = begin(scene, args)

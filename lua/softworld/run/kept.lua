@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The summary of a run once the scene goes on. Peaks begin anew with the next run and settle, so it is taken
--- down before that, where the script still has the run.
+--- Keeps the summary of a run when the scene goes on. The next run or settle starts new peaks, so the summary
+-- is stored before that if the script still has the run.
 -- @module softworld.run.kept
 local build = require "softworld.scene.build"
 local sealed = require "softworld.sealed"
@@ -8,14 +8,14 @@ local sealed = require "softworld.sealed"
 local kept = {}
 
 local weak = { __mode = "v" }
-local last = setmetatable({}, { __mode = "k" }) -- scene -> its last run, and what gives its summary
+local last = setmetatable({}, { __mode = "k" }) -- scene -> its last run, and the function for its summary
 
---- A run has ended; summary(run) gives its rows as long as the scene stays as it is.
+--- Called when a run has ended; summary(run) gives its rows as long as the scene stays as it is.
 function kept.ended(scene, run, summary)
   last[scene] = { run = setmetatable({ run }, weak), summary = summary }
 end
 
---- The scene goes on.
+--- Called before the scene goes on: stores the summary.
 function kept.begin(scene)
   local before = last[scene]
   local run = before and before.run[1]
@@ -25,7 +25,7 @@ function kept.begin(scene)
   if own.ok and own.restores == build.data(scene).restores then own.summary_rows = before.summary(run) end
 end
 
---- The rows that were taken down, or nil.
+--- Returns the stored rows, or nil.
 function kept.rows(run) return sealed.fields(run).summary_rows end
 
 return kept

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The energy ledger of a run: work, energy that is there, losses, and the gap that nothing explains.
+--- The energy ledger of a run: work, stored energy, losses, and the gap that nothing explains.
 -- @module softworld.run.ledger
 local core = require "softworld.core"
 local number = require "softworld.output.number"
@@ -21,7 +21,7 @@ local function listed(t, names)
   return #parts > 0 and table.concat(parts, ", ") or "none"
 end
 
---- Ledger as lines of text.
+--- Returns the ledger as lines of text.
 function Ledger:__tostring()
   local function text(x) return number.text(x, "J") end
   local lines = {
@@ -41,15 +41,15 @@ function Ledger:__tostring()
   return table.concat(lines, "\n")
 end
 
---- The ledger of a run [J]: kinetic, stored, gravity, total (now), at_start; work = { holds, obstacles,
--- feeds, forces, changes }; lost = { damping, friction, plasticity, impact, contact, integrator,
--- jumps }; gap (energy that nothing explains, each step by itself), gained (beyond the work), play
--- (what was in play); steps; redone, halved, accepted = { count, largest, time [s], object, s [m] }.
+--- Returns the ledger of a run [J]: kinetic, stored, gravity, total (now), at_start; work = { holds,
+-- obstacles, feeds, forces, changes }; lost = { damping, friction, plasticity, impact, contact, integrator,
+-- jumps }; gap (energy that nothing explains, summed over single steps), gained (beyond the work), play
+-- (energy in play); steps; redone, halved, accepted = { count, largest, time [s], object, s [m] }.
 function ledger.of(run)
   return run.books
 end
 
---- At the end of a run: its ledger, its events, and whether it can be believed.
+--- Called at the end of a run: adds its ledger and events, and decides whether the run can be believed.
 function ledger.close(run)
   local scene = run.scene
   if run.ok then
@@ -60,7 +60,7 @@ function ledger.close(run)
   run.books = setmetatable(core.ledger(scene), Ledger)
 end
 
---- Columns of the series.
+--- Adds the ledger's columns to the series.
 function ledger.add(run, series, index)
   local rows, count = core.energy_log(run.scene)
   local columns = {}
@@ -76,7 +76,7 @@ function ledger.add(run, series, index)
   for _, c in ipairs(columns) do series.columns[#series.columns + 1] = c end
 end
 
---- The line of the summary.
+--- Adds the ledger's line to the summary.
 function ledger.report(run, add)
   local l = run.books
   add(("energy from nowhere (of %s in play)"):format(number.text(l.play, "J")), l.gap, "J")

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Loads of what holds wires between two times, from forces and moments of single steps: of holds, and of
--- grippers. See help "peaks".
+--- Loads of holds and grippers between two times, from the forces and moments of single steps. See help
+-- "peaks".
 -- @module softworld.run.loads
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -13,9 +13,9 @@ local loads = {}
 
 local WIDTH = 10 -- numbers in a row of a hold's log
 
---- What hold:log gave as a list of { t =, span =, fx, fy, fz, mx, my, mz, at = point } [s], [N], [N m],
--- [m]. span: above 0 the time up to t that the force is the mean of, below 0 that of the step at whose end
--- it is the force, 0 at an equilibrium.
+--- Returns the data of hold:log as a list of { t =, span =, fx, fy, fz, mx, my, mz, at = point } [s], [N], [N
+-- m], [m]. span: above 0 = the force is the mean over this time up to t; below 0 = it is the force at the end
+-- of a step of this length; 0 = an equilibrium.
 function loads.list(log, count, spans)
   local list = {}
   for i = 0, count - 1 do
@@ -26,7 +26,7 @@ function loads.list(log, count, spans)
   return list
 end
 
---- The same of a series of forces alone: t, fx, fy, fz of each step's end [s], [N].
+--- Same for a series of forces alone: t, fx, fy, fz at the end of each step [s], [N].
 function loads.forces(log, count)
   local list = {}
   for i = 1, count do
@@ -34,18 +34,18 @@ function loads.forces(log, count)
     list[i] = { t = log[b + 1], span = i > 1 and log[b - 3] - log[b + 1] or 0, log[b + 2], log[b + 3],
       log[b + 4], 0, 0, 0 }
   end
-  if count > 1 then list[1].span = list[2].span end -- a step's too: it is not known when that began
+  if count > 1 then list[1].span = list[2].span end -- also from a step, whose start is not known
   return list
 end
 
--- Moment of a row about a fixed point.
+-- Returns the moment of a row about a fixed point.
 local function moment_about(r, at)
   if not at then return { r[4], r[5], r[6] } end
   return vec.add({ r[4], r[5], r[6] }, vec.cross(vec.sub(r.at, at), { r[1], r[2], r[3] }))
 end
 
--- Integrate force and moment from t1 to t2: means of steps times their duration, values of a moment by
--- trapezoids; of the step after a mean, whose start is not known, the end counts for all of it.
+-- Integrates force and moment from t1 to t2: means of steps times their duration, other values by trapezoids.
+-- In a step that follows a mean the start value is not known, so its end value counts for all of it.
 local function add_up(m, list, o)
   local force_time, moment_time, before = 0, 0, nil
   local function add(h, r)
@@ -75,9 +75,9 @@ local function add_up(m, list, o)
   m.impulse_size = vec.norm(m.impulse)
 end
 
---- Measures of such a list. o: t1, t2 [s]; width of the window [s]; at, a point that moments are about, or
--- nil; forces_only: no moments; is_gap(t): did it hold nothing then? each(r, t0): called of each row in
--- between, which is of the time from t0 on [s].
+--- Returns measures of such a list. o: t1, t2 [s]; width of the window [s]; at: point for moments, or nil;
+-- forces_only: no moments; is_gap(t): true if nothing was held at that time; each(r, t0): called for each row
+-- between t1 and t2; the row holds from t0 on [s].
 -- @treturn table of gripper:over, without what pads have
 function loads.over(list, o)
   local m = { impulse = { 0, 0, 0 }, duration = 0, window = o.width }
@@ -106,10 +106,10 @@ local over = rows.call("clamp:over", "t1, t2, {...}",
   { "at", "vector", "m", "point that moments are about", usual = "where it holds, at that time" },
 })
 
---- The same of a clamp, pin, grip, feed or slider; also after its release.
+--- Same for a clamp, pin, grip, feed or slider; also after its release.
 function core.class.clamp.over(hold, t1, t2, options)
   if core.type(hold) ~= "clamp" then error("clamp:over is a method: call it with a colon", 2) end
-  build.call(3, core.window, hold) -- says so if it is gone
+  build.call(3, core.window, hold) -- raises if it does not exist any more
   options = options == nil and {} or over:read(options)
   t1 = t1 == nil and -math.huge or checks.number("clamp:over: t1", t1, -math.huge, " s", 3)
   t2 = t2 == nil and math.huge or checks.number("clamp:over: t2", t2, -math.huge, " s", 3)

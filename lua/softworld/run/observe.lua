@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Observers: functions that look at a scene while it runs. They are called between two steps without the
--- run being left, so that it keeps every bit; what they hand in is done between two calls of the core.
+--- Observers: functions that look at a scene while it runs. They are called between two steps inside one call
+-- of the core, so that the run keeps every bit. The changes they ask for are made between two calls of the
+-- core.
 -- @module softworld.run.observe
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -51,7 +52,7 @@ local function fields(self) return sealed.fields(self) end
 
 -- --- when ---------------------------------------------------------------------------------------
 
--- The least of what is due next: a simulated time [s], a time on the clock [s].
+-- Returns when the next observer is due: simulated time [s], time on the clock [s].
 local function next_of(list)
   local at, wall = math.huge, math.huge
   for _, observer in ipairs(list) do
@@ -61,7 +62,7 @@ local function next_of(list)
   return at, wall
 end
 
--- Times that steps have passed are left out.
+-- Sets when an observer is due next; times that a long step has passed are skipped.
 local function set_next(own, now)
   own.soon = nil
   own.at = own.each and -math.huge or own.wall and math.huge or -math.huge
@@ -72,7 +73,7 @@ local function set_next(own, now)
   own.at_wall = own.wall and core.clock() + own.wall or math.huge
 end
 
--- soon: the first step is looked at, whenever others are.
+-- soon: calls it after the first step in any case.
 local function begin(own, now)
   own.from = now
   own.at = (own.each or own.soon) and -math.huge or own.every and now + own.every
@@ -88,17 +89,17 @@ end
 
 -- --- in a run -----------------------------------------------------------------------------------
 
---- Functions that are told of runs: begin(scene, args), finish(scene, ok, reason).
+--- Functions that are called for each run: begin(scene, args), finish(scene, ok, reason).
 observe.followers = {}
 
 local function tell(what, ...)
   for _, follower in ipairs(observe.followers) do follower[what](...) end
 end
 
---- A run has come to its end.
+--- Called at the end of a run.
 function observe.finish(scene, ok, reason) tell("finish", scene, ok, reason) end
 
---- A run begins: times are counted from now on.
+--- Called at the start of a run: times are counted from here.
 function observe.begin(scene, args)
   tell("begin", scene, args)
   for _, observer in ipairs(list_of(scene)) do
@@ -108,7 +109,7 @@ function observe.begin(scene, args)
   end
 end
 
--- Call those that are due. Others may be made or removed meanwhile.
+-- Calls the observers that are due. They may make or remove others.
 local function look(scene)
   local list, wanted = list_of(scene), false
   for _, observer in ipairs(table.move(list, 1, #list, 1, {})) do
@@ -125,14 +126,15 @@ local function look(scene)
   return wanted, next_of(list)
 end
 
---- What scene:advance takes besides: the function that looks, and when it is due; nothing without observers.
+--- Returns further arguments of scene:advance: the function that looks, and when it is due; none without
+-- observers.
 function observe.arguments(scene)
   local list = list_of(scene)
   if #list == 0 then return end
   return function() return look(scene) end, next_of(list)
 end
 
---- Do what observers have handed in. Returns why the run is to stop, or nil.
+--- Makes the changes that observers have asked for. Returns why the run has to stop, or nil.
 function observe.settle(scene)
   local reason
   local list = list_of(scene)
@@ -159,11 +161,11 @@ end
 
 local function name_of(scene) return scene.name end
 
---- scene:observe{ every = [s], wall = [s], call = f }: see help "scene:observe". At any time, also by
--- an observer.
+--- scene:observe{ every = [s], wall = [s], call = f }: see help "scene:observe". It can be called at any
+-- time, also by an observer.
 function core.class.scene.observe(scene, args)
   if core.type(scene) ~= "scene" then error("scene:observe is a method: call it with a colon", 2) end
-  build.call(3, name_of, scene) -- raises when it has been closed
+  build.call(3, name_of, scene) -- raises if the scene is closed
   return build.call(3, make, scene, args)
 end
 
@@ -172,7 +174,7 @@ local function check_inside(self, what)
   error(what .. " works only inside the function of the observer, while a run goes on", 3)
 end
 
---- The run ends with this step.
+--- Ends the run with this step.
 function Observer:stop(reason)
   if reason ~= nil and type(reason) ~= "string" then
     error("observer:stop expects a text, the reason, got " .. checks.got(reason), 2)
@@ -181,7 +183,7 @@ function Observer:stop(reason)
   fields(self).reason = reason or "stopped by an observer"
 end
 
---- Hand in a change, to be done before the next step.
+--- Asks for a change, to be made before the next step.
 function Observer:change(change)
   if type(change) ~= "function" then
     error("observer:change expects a function, got " .. checks.got(change), 2)
@@ -192,14 +194,14 @@ function Observer:change(change)
   own.wants[#own.wants + 1] = change
 end
 
---- Hold the run for a time on the clock [s].
+--- Holds the run for a time on the clock [s].
 function Observer:pause(args)
   local given = build.call(3, pause.read, pause, args)
   check_inside(self, "observer:pause")
   build.call(3, core.sleep, given.wall)
 end
 
---- It is called no more.
+--- Removes the observer; it is not called any more.
 function Observer:remove()
   local own = fields(self)
   own.gone, own.wants, own.reason = true, nil, own.inside and own.reason or nil
@@ -212,7 +214,7 @@ end
 local names = { "scene", "every", "wall", "calls", "stop", "change", "pause", "remove" }
 local known = { scene = true, every = true, wall = true, calls = true }
 
---- Names of methods and fields, for completion at the prompt.
+--- Returns the names of methods and fields, for completion at the prompt.
 function Observer.__names() return table.move(names, 1, #names, 1, {}) end
 
 function Observer:__index(key)

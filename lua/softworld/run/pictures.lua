@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:picture, run:picture, run:film, run:gltf, run:obj, run:stl: what they take, which frames they need.
+--- scene:picture, run:picture, run:film, run:gltf, run:obj, run:stl: their arguments, and the frames they
+-- need.
 -- @module softworld.run.pictures
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -15,7 +16,7 @@ local pictures = {}
 local techniques = { "particles", "wireframe", "shaded", "raytraced" }
 local most_pixels = 8192
 
--- Rows that pictures and films share.
+-- Returns rows with those that pictures and films share.
 local function with_common(list)
   for _, row in ipairs{
     { "technique", "choice", "-", "how; raytraced needs POV-Ray", choices = techniques, usual = "shaded" },
@@ -103,9 +104,9 @@ end
 
 -- --- which frames ---------------------------------------------------------------------------
 
-local many = 40 -- frames of a run tell a camera what it has to see
+local many = 40 -- frames of a run that the camera considers
 
--- The number of the frame nearest to a time.
+-- Returns the number of the frame nearest to a time.
 local function nearest(times, t)
   local low, high = 1, #times
   while high - low > 1 do
@@ -115,7 +116,8 @@ local function nearest(times, t)
   return #times > 0 and math.abs(times[high] - t) < math.abs(times[low] - t) and high or low
 end
 
--- Those asked for, some of all for the camera, and where grippers take hold and let go.
+-- Returns the numbers of the wanted frames, of some of all for the camera, and of those where grippers grasp
+-- and let go.
 local function numbers_of(self, times, wanted)
   local set, total = {}, #times
   local function add(k) if k >= 1 and k <= total then set[k] = true end end
@@ -133,7 +135,7 @@ local function numbers_of(self, times, wanted)
   return checks.sorted(set)
 end
 
--- Times of the moments asked for; of a run that failed the last ones.
+-- Returns the times of the wanted moments; for a run that failed, the last ones.
 local function times_of(self, times, o)
   if o.t then return { o.t } end
   if o.times or #times == 0 then return o.times or {} end
@@ -154,7 +156,7 @@ local function moments(self, times, wanted)
   return doc
 end
 
--- Values of the frame itself, for a scene without a run.
+-- Returns a function for the range of values in the frame itself, for a scene without a run.
 local function own_range(doc)
   return function(quantity)
     local low, high
@@ -192,7 +194,7 @@ local function name_of(scene) return scene.name end
 
 local function picture_of_scene(scene, args)
   if core.type(scene) ~= "scene" then error("scene:picture is a method: call it with a colon", 0) end
-  name_of(scene) -- raises when it has been closed
+  name_of(scene) -- raises if the scene is closed
   local o = of_scene:read(args or {})
   check(o, "scene:picture")
   local doc = runfiles.present(scene)
@@ -237,7 +239,7 @@ end)
 
 -- --- exchange -----------------------------------------------------------------------------------
 
--- What exchange wants besides: the scene, and the numbers of its wires in it, from 0.
+-- Returns what exchange files need: frames, the scene, and the numbers of its wires, from 0.
 local function exchanged(self, numbers)
   local doc = runfiles.moments(self, numbers)
   if #doc.frames == 0 then

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- sw.plot: curves of several runs, or of any numbers.
+--- sw.plot: draws curves of several runs, or of any numbers.
 --
 --     sw.plot { run1, run2, columns = { "hand.force" }, path = "both.svg" }
 --     sw.plot { { name = "a", x = { 1, 2 }, y = { 3, 4 }, error = 0.1 }, log = "xy" }
@@ -44,7 +44,7 @@ local function check_numbers(what, list, count)
   end
 end
 
--- Values and errors out of numbers and tables with both.
+-- Separates values and errors in a list of numbers and tables with both.
 local function split(what, list)
   local values, errors = {}, nil
   for i, y in ipairs(list) do
@@ -81,7 +81,7 @@ local function errors_of(what, given, count)
   return given
 end
 
--- A table { x =, y =, ... } as a curve.
+-- Returns a table { x =, y =, ... } as a curve.
 local function curve_of(what, given)
   local o = {}
   for key, value in next, given do if key ~= "error" then o[key] = value end end
@@ -102,7 +102,7 @@ end
 
 local function is_run(value) return rawget(getmetatable(value) or {}, "__name") == "run" end
 
--- The series of a run as curves.
+-- Returns the series of a run as curves.
 local function curves_of(run, columns, several, list)
   local series, known, names = run:series(), {}, {}
   for i, c in ipairs(series.columns) do known[c.name], names[i] = c, c.name end

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Processes: sequences of handling steps, as coroutines. Several run at once,
--- each with its own clock of waits; the run advances the scene from one wake-up
--- to the next.
+-- each with its own waits; the run advances the scene from one wake-up to the
+-- next.
 --
 --     scene:process(function(p)
 --       p:wait(0.5)
@@ -9,8 +9,8 @@
 --       p:step("lay", function() left:move{ by = {0.3, 0, 0}, speed = 0.2 } end)
 --     end)
 --
--- A process that yields by itself goes on after the next step. Named steps (p:step) are what a
--- file of the scene can begin again after: see softworld.scene.save.
+-- A process that yields by itself goes on after the next step. A scene read from a file can
+-- continue after a named step (p:step): see softworld.scene.save.
 -- @module softworld.run.process
 local core = require "softworld.core"
 local methods = require "softworld.methods"
@@ -26,14 +26,14 @@ local process = {}
 local Process = { __name = "process" }
 
 local current = setmetatable({}, { __mode = "k" }) -- coroutine -> its process
-local SAME_TIME = 1e-12 -- of the time: the core's own rounding [-]
+local SAME_TIME = 1e-12 -- relative rounding of times in the core [-]
 
---- Has the scene's time reached t, but for rounding?
+--- True if the scene's time has reached t, within rounding.
 function process.reached(scene, t)
   return scene.time >= t - SAME_TIME * math.max(1, math.abs(t))
 end
 
---- The process that is running now, or nil outside of one.
+--- Returns the running process, or nil outside of one.
 function process.current()
   return current[coroutine.running()]
 end
@@ -44,7 +44,7 @@ local function check_inside(self, what)
   end
 end
 
---- The steps of a process that are done, in order.
+--- Returns the completed steps of a process, in order.
 function process.done(self)
   local data = build.data(self.scene)
   data.done = data.done or {}
@@ -52,8 +52,8 @@ function process.done(self)
   return data.done[self.number]
 end
 
---- Raise when steps are kept in a file and the running process is between two of them: a script that goes
--- on from the file would do it a second time.
+--- Raises an error if steps are kept in a file and the running process is between two of them: a script that
+-- continues from the file would do it again.
 function process.guard(what)
   local self = process.current()
   if not self or self.inside then return end
@@ -66,7 +66,7 @@ end
 
 build.guard = process.guard
 
--- Sleep until the scene's time reaches wake [s].
+-- Sleeps until the scene's time reaches wake [s].
 function process.sleep_until(self, wake)
   if not process.reached(self.scene, wake) then process.guard "to let time pass" end
   while not process.reached(self.scene, wake) do
@@ -75,7 +75,7 @@ function process.sleep_until(self, wake)
   end
 end
 
---- Let time pass [s].
+--- Waits for a time [s].
 function Process:wait(seconds)
   checks.number("p:wait: seconds", seconds, 0, " s", 3)
   check_inside(self, "p:wait")
@@ -107,10 +107,10 @@ local function timeout_of(options)
   return build.call(4, until_then.read, until_then, options).timeout or math.huge
 end
 
---- Wait until condition() is true; asked once per step. A condition may also be a table, see help
+--- Waits until condition() is true; it is called once per step. A condition may also be a table, see help
 -- "wait_until": { force = [N], on = gripper or obstacle }, { slip = [m], on = gripper },
 -- { contact = obstacle }, { distance = [m], between = { a, b } }. Returns true, or false
--- when timeout [s] passed first.
+-- if timeout [s] passed first.
 function Process:wait_until(condition, options)
   local impossible
   local told, asked = type(condition) == "table", false
@@ -127,7 +127,7 @@ function Process:wait_until(condition, options)
   while not condition() do
     if process.reached(self.scene, last) then return false end
     if last == math.huge then waiting.goes_on(self, impossible) end
-    if asked then self.moves = self.moves - 1 end -- it is where it was; a function may have a memory
+    if asked then self.moves = self.moves - 1 end -- it is where it was; but a function may have a memory
     asked = told
     self.watching, self.wake = true, last
     coroutine.yield()
@@ -144,7 +144,7 @@ rows.call("p:feed", "feed, {...}", "pays wire out or draws it in, and waits unti
   { "law", "text", "-", "of the motion, as of a trajectory" },
 })
 
---- Pay out or draw in wire through a feed, see help "p:feed".
+--- Pays out or draws in wire through a feed, see help "p:feed".
 function Process:feed(feed, args)
   if core.type(feed) ~= "clamp" then
     error("p:feed expects what scene:feed returns, got " .. (core.type(feed) or type(feed)), 2)
@@ -167,7 +167,7 @@ local function check_step(self, name, work)
   end
 end
 
--- The results of the step, from when it was done and the file was written.
+-- Returns the results of a step that was completed before the file was written.
 local function recall(self, name, old)
   if old.name == name then return table.unpack(old.results, 1, old.count) end
   error(("p:step '%s': the file '%s' has '%s' as step %d of %s; a script that goes on must have the "
@@ -175,9 +175,9 @@ local function recall(self, name, old)
     self.steps, tostring(self)), 3)
 end
 
---- A named step of the process: work() is called and may let time pass. A run with save = file writes the
--- scene after it; a script that goes on from the file leaves the step out. The results of work are
--- returned, and kept in the file: numbers, strings, tables of these, objects.
+--- A named step of the process: calls work(), which may let time pass. A run with save = file writes the
+-- scene after it; a script that continues from the file skips the step. The results of work are
+-- returned, and stored in the file: numbers, strings, tables of these, objects.
 function Process:step(name, work)
   check_step(self, name, work)
   local done = process.done(self)
@@ -190,12 +190,12 @@ function Process:step(name, work)
   local count = results.n
   results.n = nil
   done[self.steps] = { name = name, results = results, count = count }
-  self.between, self.wake = true, self.scene.time -- all that end a step now do so before any goes on
+  self.between, self.wake = true, self.scene.time -- other steps that end now end first
   coroutine.yield()
   return table.unpack(results, 1, count)
 end
 
---- End the process where it waits.
+--- Ends the process where it waits.
 function Process:finish()
   if coroutine.status(self.thread) == "suspended" then coroutine.close(self.thread) end
 end
@@ -204,10 +204,10 @@ end
 local fields = { wake = true, watching = true, begun = true, between = true, inside = true,
   failed = true, traceback = true }
 
---- Names of methods and fields, for completion at the prompt.
+--- Returns the names of methods and fields, for completion at the prompt.
 function Process.__names() return methods.names(Process, { "time", "scene", "number" }) end
 
---- p.time is that of the scene [s].
+--- p.time is the scene's time [s].
 function Process:__index(key)
   local own = rawget(sealed.fields(self), key)
   if own ~= nil then return own end
@@ -241,7 +241,7 @@ function core.class.scene.process(scene, body)
   local self = sealed.new(Process, { scene = scene, number = data.process_count, body = body,
     steps = 0, moves = 0 })
   self.thread = coroutine.create(body)
-  if not data.from_file then -- of an earlier process of this number nothing is done
+  if not data.from_file then -- forgets the steps of an earlier process with this number
     if data.done then data.done[self.number] = nil end
     if data.ended then data.ended[self.number] = nil end
   end
@@ -250,8 +250,8 @@ function core.class.scene.process(scene, body)
   return self
 end
 
---- The functions of the scene's processes, to be begun again later by process.renew. A
--- process that is under way has no way back: nil and it.
+--- Returns the functions of the scene's processes, so that process.renew can start them again. If a
+-- process is under way, which cannot be started again: nil and the process.
 function process.bodies(scene)
   local bodies = {}
   for i, p in ipairs(build.data(scene).processes) do
@@ -261,7 +261,7 @@ function process.bodies(scene)
   return bodies
 end
 
---- Put these processes in place of those that there are.
+--- Replaces all processes by these.
 function process.renew(scene, bodies)
   local data = build.data(scene)
   for _, p in ipairs(data.processes) do p:finish() end
@@ -269,7 +269,7 @@ function process.renew(scene, bodies)
   for _, body in ipairs(bodies) do scene:process(body) end
 end
 
---- How far the living processes are, for process.is_at: { [process] = moves }.
+--- Returns how far the living processes are, for process.is_at: { [process] = moves }.
 function process.mark(scene)
   local mark = {}
   for _, p in ipairs(build.data(scene).processes) do
@@ -278,7 +278,7 @@ function process.mark(scene)
   return mark
 end
 
---- Are the processes where they were then? The scene may be taken back to that time without them.
+--- True if the processes are still where they were at the mark, so that restoring the scene alone suffices.
 function process.is_at(scene, mark)
   local count = 0
   for _, p in ipairs(build.data(scene).processes) do

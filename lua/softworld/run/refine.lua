@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:run with error bars: the same run on level after level, edges and time steps
--- halved together, so that both their errors shrink alike.
+--- scene:run with error bars: repeats the run level by level, with edges and time steps
+-- halved together, so that both errors shrink alike.
 -- @module softworld.run.refine
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -11,20 +11,20 @@ local trust = require "softworld.run.trust"
 
 local refine = {}
 
--- Error of one step that goes with n segments: this share of L / n^3, which makes the
--- steps' error in a swing about that of the edges.
+-- Error allowed per step with n segments, over L / n^3. With this value the steps' error in a
+-- swing is about that of the edges.
 local step_share = 0.02
 local longest_step = 0.01 -- default dt [s]
-local at_rest = 1e-6      -- a settle that moves a wire by less finds it at rest [of its length]
+local at_rest = 1e-6      -- a scene is at rest if settling moves a wire by less, over its length [-]
 
--- The registry's entry of an integrator.
+-- Returns the registry's entry of an integrator.
 local function method_of(name)
   for _, m in ipairs(core.registry().integrators) do
     if m.name == (name or "tr-bdf2") then return m end
   end
 end
 
--- Options of the run of level k.
+-- Returns the function that gives the options of the run of level k.
 local function steps_of(job, args)
   local dt = args.dt or longest_step
   local adaptive = not args.quasistatic and method_of(args.integrator).adaptive
@@ -36,13 +36,13 @@ local function steps_of(job, args)
     local options = {}
     for key, value in pairs(args) do options[key] = value end
     options.dt = dt / job.share / 2 ^ (k - 1)
-    if options.parts == nil then options.parts = false end -- levels would be of like steps
+    if options.parts == nil then options.parts = false end -- all levels have the same kind of steps
     if adaptive then options.tolerance = error_of_step / 8 ^ (k - 1) end
     return options
   end
 end
 
---- Does the argument table of a run ask for error bars?
+--- True if the argument table of a run asks for error bars.
 function refine.wanted(args) return trust.wanted(args) or checks.field(args, "check") ~= nil end
 
 local function positions_of(scene)
@@ -60,7 +60,7 @@ local function moves(scene)
   return false
 end
 
--- Is the scene in the equilibrium that settling finds? Then so is each level to begin.
+-- True if the scene is in the equilibrium that settling finds. Each level then starts at rest too.
 local function is_at_rest(scene)
   if moves(scene) then return false end
   local before, wires = positions_of(scene), build.data(scene).wires
@@ -73,7 +73,7 @@ local function is_at_rest(scene)
   return rest
 end
 
--- Quantities that are asked for at a time of their own are read by a process.
+-- Starts processes that read the quantities with a time of their own.
 local function sample(job)
   for _, q in ipairs(job.quantities) do
     if q.at then
@@ -87,8 +87,8 @@ local function sample(job)
   end
 end
 
---- Check everything; returns the job for trust.work. job.steps(changes): options of the run of each level,
--- changes being options in place of those given.
+--- Checks everything and returns the job for trust.work. job.steps(changes): options of the run of each
+-- level; changes replace options given by the script.
 function refine.job(scene, given, check)
   local args = {}
   for key, value in pairs(given) do args[key] = value end
@@ -115,29 +115,28 @@ function refine.job(scene, given, check)
   return job
 end
 
---- Look whether the scene is at rest to begin with, as each level then is too; leaves it as it is.
+--- Finds out whether the scene starts at rest, as each level then does too; leaves the scene unchanged.
 function refine.look(job)
   job.rests = is_at_rest(job.scene)
   job.restore()
 end
 
--- Why there is no equilibrium to begin with, or nil.
+-- Returns why there is no equilibrium at the start, or nil.
 local function unsettled(scene)
   local settled = scene:settle()
   return not settled.ok and "no equilibrium to begin with: " .. settled.reason or nil
 end
 
---- job.shape(k), if there is one, makes other models of wires; it returns why it cannot, or nil, which then
--- is job.unmade too.
--- compute(k, name): the run of level k, of the scene as it has been restored and meshed; where it cannot
--- begin, a run that failed. total: wall and cpu are summed up in it.
+--- Returns the function compute(k, name), which runs level k on the restored and remeshed scene; if that
+-- cannot start, the result is a failed run. total: its wall and cpu are summed up. job.shape(k), if there is
+-- one, makes other models of wires; it returns why it cannot, or nil, which is kept in job.unmade.
 function refine.computer(job, steps, run_once, total)
   local scene = job.scene
   return function(k, name)
     local options = steps(k)
     job.moves = not options.quasistatic
     job.unmade = job.shape and job.shape(k)
-    process.renew(scene, {}) -- settling is not for them
+    process.renew(scene, {}) -- settling must not start them
     local rests = job.rests and not options.quasistatic and not job.unmade
     local hindrance = job.unmade or rests and unsettled(scene) or nil
     job.begin_processes()
@@ -148,7 +147,7 @@ function refine.computer(job, steps, run_once, total)
   end
 end
 
---- The run of the finest level, with quantities.
+--- Returns the run of the finest level, with quantities.
 function refine.run(job, run_once)
   local steps, total = job.steps(), { wall = 0, cpu = 0 }
   if not steps(1).quasistatic then

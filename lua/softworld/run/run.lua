@@ -25,7 +25,7 @@ local unread = require "softworld.unread"
 local Run = { __name = "run" }
 local readable = runfiles.readable
 
--- A run that failed keeps ok and reason where reading them is seen.
+-- Hides ok and reason of a failed run, so that reading them counts as a look at the failure.
 local function hide_failure(run)
   if sealed.fields(run).cut == "stopped" then unread.cut() end
   if sealed.fields(run).ok ~= false then return run end
@@ -62,7 +62,7 @@ local function check_start(scene, args)
   end
 end
 
--- What frames it is to store.
+-- Checks which frames to store.
 local function check_frames(args)
   if args.frames == nil or type(args.frames) == "boolean" then return end
   if type(args.frames) ~= "table" then
@@ -72,7 +72,7 @@ local function check_frames(args)
   go.frames:read(args.frames, "scene:run: frames")
 end
 
--- The files that it is to be written to and to go on from.
+-- Checks the files to write and to continue from.
 local function check_files(scene, args)
   if refine.wanted(args) and build.data(scene).from_file then
     error(("scene:run: error bars need the whole computation, and scene '%s' goes on from the "
@@ -92,9 +92,9 @@ local function check_files(scene, args)
   end
 end
 
---- Advance the scene: { duration = [s], dt = [s] or tolerance = [m], integrator =,
--- progress = true, frame = [s] }. Without duration until the processes end. With a
--- table of quantities as tolerance the run has error bars, see help "tolerance".
+--- Advances the scene: { duration = [s], dt = [s] or tolerance = [m], integrator =,
+-- progress = true, frame = [s] }. Without duration the run lasts until the processes end.
+-- With a table of quantities as tolerance the run has error bars, see help "tolerance".
 -- Returns a run: ok, reason, time, steps, ... Errors of processes and callbacks
 -- are raised unchanged and leave the scene at its last good step.
 function core.class.scene.run(scene, args)
@@ -104,7 +104,7 @@ function core.class.scene.run(scene, args)
     if checks.kind(args) ~= "table" then
       error("scene:run takes one table of parameters, got " .. checks.kind(args), 2)
     end
-    local own = {} -- what the table itself has, and nothing that metamethods make up
+    local own = {} -- only the table's own fields, nothing from metamethods
     for key, value in next, args do own[key] = value end
     args = own
     build.call(3, check_files, scene, args)
@@ -124,13 +124,13 @@ function core.class.scene.run(scene, args)
   return hide_failure(run_once(scene, args))
 end
 
---- Time series of the run: { time = {...} [s], columns = {{ name, unit, values }} }.
+--- Returns the time series of the run: { time = {...} [s], columns = {{ name, unit, values }} }.
 function Run:series()
   readable(self, "series")
   return series.of(self, ledger.add)
 end
 
---- Frames stored while running: { { t, wires = {flat positions}, obstacles, holds, energy } }.
+--- Returns the stored frames: { { t, wires = {flat positions}, obstacles, holds, energy } }.
 function Run:frames()
   readable(self, "frames", true)
   local list = {}
@@ -146,13 +146,13 @@ tables.later(Run, "softworld.model.answer", "why")
 Run.error_bars = trust.error_bars
 Run.ledger = ledger.of
 
--- Fields that a run may lack.
+-- Fields that may be nil.
 local may_lack = checks.set [[quantities levels met advice where asked refused last_jump failure
   ok reason model]]
 local fields = { "ok", "reason", "time", "steps", "rejected", "iterations", "evaluations", "jumps",
   "smallest_dt", "start", "wall", "cpu", "scene", "name", "events", "quantities", "met", "levels", "model" }
 
---- Names of methods and fields, for completion at the prompt.
+--- Returns the names of methods and fields, for completion at the prompt.
 function Run.__names() return methods.names(Run, fields) end
 
 for name, value in pairs(Run) do

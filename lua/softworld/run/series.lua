@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Time series of a run: the records of the scene since the run began, on one time axis.
+--- Builds the time series of a run: the scene's records since the run began, on one time axis.
 -- @module softworld.run.series
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -9,7 +9,7 @@ local series = {}
 
 local axes = { "x", "y", "z" }
 
--- The record of one object: times [s] and columns of as many values.
+-- Adds the record of one object: times [s] and columns with as many values.
 local function source(list, name, times)
   local one = { name = name, times = times, columns = {} }
   list[#list + 1] = one
@@ -24,8 +24,7 @@ end
 
 local function norm(x, y, z) return (x * x + y * y + z * z) ^ 0.5 end
 
--- Flat rows of the run, from its start to its end, as a list of their first places (0: before the row), and
--- times.
+-- Returns the rows within the run from flat data: a list of the index before each row, and times.
 local function places(rows, count, width, run)
   local list, times, from, to = {}, {}, run.start, run.time
   for i = 0, count - 1 do
@@ -35,7 +34,7 @@ local function places(rows, count, width, run)
   return list, times
 end
 
--- A vector that stands in the rows from number first on: its length, then its components.
+-- Adds vectors: first the length of each, then the components.
 local function add_vectors(one, vectors)
   for _, v in ipairs(vectors) do
     add(one, v.what, v.unit, function(i) return norm(v.at(i, 1), v.at(i, 2), v.at(i, 3)) end)
@@ -56,7 +55,7 @@ local function add_hold(list, name, object, run)
     { what = "moment", unit = "N m", at = function(i, k) return rows[at[i] + 4 + k] end } })
 end
 
--- All grasps of a gripper as one.
+-- Adds all grasps of a gripper as one record.
 local function add_gripper(list, gripper, run)
   local rows, times, from, to = {}, {}, run.start, run.time
   for _, r in ipairs(measures.records(gripper, run.start, run.time)) do
@@ -82,7 +81,7 @@ local function add_obstacle(list, entry, run)
   end)
 end
 
--- Clips, ties.
+-- Adds clips and ties.
 local function add_fixing(list, it, run)
   local rows, count = it.object:log(run.start, run.time)
   if count == 0 then return end
@@ -121,7 +120,7 @@ local function sources(self)
     add_wire(list, w.object, w.name, self)
     taken[w.name] = true
   end
-  for _, g in ipairs(data.gone or {}) do -- another one may have its name by now
+  for _, g in ipairs(data.gone or {}) do -- another one may have its name
     local name = taken[g.label] and ("%s until %.6g s"):format(g.label, g.time) or g.label
     if g.kind == "wire" then add_wire(list, g.body, name, self) end
     taken[name] = true
@@ -129,7 +128,7 @@ local function sources(self)
   return list
 end
 
--- Every time at which something was recorded, and the number of each.
+-- Returns the number of each time at which something was recorded, and all times.
 local function common_times(list)
   local index, times = {}, {}
   for _, one in ipairs(list) do
@@ -145,8 +144,8 @@ local function common_times(list)
   return times, index
 end
 
---- { time = {...} [s], columns = {{ name, unit, values }} } of a run; nan where an object has
--- recorded nothing: it was not there, or held nothing. more(run, series, index) adds columns, with
+--- Returns { time = {...} [s], columns = {{ name, unit, values }} } of a run; NaN where an object has no
+-- record, because it did not exist or held nothing. more(run, series, index) adds columns, with
 -- the number of each time in index.
 function series.of(self, more)
   local list = sources(self)

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- When the named steps of processes were (p:step), so that a time can be told by them.
+--- Records when the named steps of processes (p:step) happened, so that times can be named by them.
 -- @module softworld.run.stages
 local build = require "softworld.scene.build"
 
 local stages = {}
 
---- A step begins; its `to` is set when it has ended. Those of a run that is repeated are forgotten.
+--- Called when a step begins; its `to` is set when it ends. Steps of a repeated run are forgotten.
 function stages.begin(scene, number, name)
   local data, list = build.data(scene), {}
   for _, stage in ipairs(data.stages or {}) do
@@ -18,7 +18,7 @@ function stages.begin(scene, number, name)
   return stage
 end
 
---- Names of the steps that a time belongs to, or nil. The time at which one ends is its own.
+--- Returns the names of the steps at a time, or nil. A step includes the time at which it ends.
 function stages.at(scene, time)
   local names = {}
   for _, stage in ipairs(build.data(scene).stages or {}) do

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The rows of a run's summary: what grippers bore, how far wires were bent and pulled, what fixings,
--- energies and error bars say.
+--- The rows of a run's summary: loads of grippers, bending and tension of wires, fixings, energies and error
+-- bars.
 -- @module softworld.run.summary
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -11,14 +11,14 @@ local window = require "softworld.run.window"
 
 local summary = {}
 
--- Events of grippers that a summary tells, at their time.
+-- Events of grippers that the summary shows, with their time.
 local told = {
   slip = function() return "the wire SLIPS since" end,
   lost = function() return "the wire is LOST since" end,
   crash = function(e) return ("%s RUNS INTO %s at"):format(e.part, e.obstacle) end,
 }
 
--- Rows of the summary; add(label, value, unit, s, t, note) puts one.
+-- Adds the rows of grippers; add(label, value, unit, s, t, note) adds one row.
 local function sum_up_grippers(self, data, add)
   for _, g in ipairs(data.grippers) do
     local m = g:over(self.start, self.time)
@@ -62,7 +62,7 @@ local function bar_of(q)
       .. (q.note and (" (%s)"):format(q.note) or "") }
 end
 
---- Rows { label, value, unit, where, when } of a run, as long as its scene stays as it is.
+--- Returns rows { label, value, unit, where, when } of a run, as long as its scene stays as it is.
 function summary.of(self)
   local data, rows = build.data(self.scene), {}
   local function add(label, value, unit, s, t, note)

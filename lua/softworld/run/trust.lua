@@ -8,9 +8,9 @@
 --     print(run.quantities.sag.value, run.quantities.sag.error)
 --
 -- The scene is computed from the same start on coarser and finer meshes, in a run with
--- time steps that are halved with the edges. How the quantities change from level to
--- level tells how far the finest is off. A level that fails is left out as long as a
--- finer one does not; otherwise there are no numbers.
+-- time steps that are halved with the edges. The changes of the quantities from level to
+-- level show the error of the finest level. A failed level is left out if a finer one
+-- succeeds; otherwise there are no numbers.
 -- @module softworld.run.trust
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -24,14 +24,14 @@ local sealed = require "softworld.sealed"
 
 local trust = {}
 
-local first_share = 1 / 4 -- of the segments asked for, on the coarsest level
-local fewest = 6          -- segments of the coarsest level, if so many were asked for
-local least_levels = 3    -- to see how fast the quantities converge
+local first_share = 1 / 4 -- segments of the coarsest level over those asked for [-]
+local fewest = 6          -- least segments of the coarsest level, unless fewer were asked for
+local least_levels = 3    -- levels that show how fast the quantities converge
 local most_levels = { ["scene:settle"] = 7, ["scene:run"] = 5 } -- default
-local finest_level = 12   -- edges of 1/512 of those asked for
+local finest_level = 12   -- its edges are 1/512 of those asked for
 local failures = 3        -- levels that may fail before giving up
 
---- Does the argument table ask for error bars?
+--- True if the argument table asks for error bars.
 function trust.wanted(args) return type(checks.field(args, "tolerance")) == "table" end
 
 -- --- results ----------------------------------------------------------------------------
@@ -51,16 +51,17 @@ function Quantity:__tostring()
   return ("%s +- %s"):format(text_of(self.value, self.unit), number.text(self.error, self.unit))
 end
 
---- The value for people: a vector as one text.
+--- Returns the value for people: a vector as one text.
 function Quantity:text() return text_of(self.value, self.unit) end
 
---- Its name; of a row of a check, which may judge something else than a quantity of that name, with a word.
+--- Returns the name; a row of a check gets "check: " in front, because it may differ from the quantity of
+-- that name.
 function Quantity:label() return self.row and "check: " .. self.name or self.name end
 
 local Bars = { __name = "error bars" }
 Bars.__index = Bars
 
---- What was asked for in words: by the script, or by the row of a check for its verdict.
+--- Returns what was asked for in words: by the script, or by the row of a check for its verdict.
 function Quantity:asked()
   local q = self
   local asked = q.tolerance < math.huge and number.text(q.tolerance, q.unit) or nil
@@ -79,7 +80,7 @@ function Bars:__tostring()
   return table.concat(lines, "\n")
 end
 
---- result:error_bars(): the quantities in the order asked for; prints as lines.
+--- result:error_bars(): returns the quantities in the order asked for; prints as lines.
 function trust.error_bars(result)
   if sealed.fields(result).refused then
     error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
@@ -93,7 +94,7 @@ function trust.error_bars(result)
   return setmetatable(list, Bars)
 end
 
---- Which tolerances were not met, in words; nil when all were, or none was asked for.
+--- Returns in words which tolerances were not met; nil if all were, or none was asked for.
 function trust.unmet(result)
   local names = {}
   for _, name in ipairs(result.quantities and result.asked or {}) do
@@ -105,7 +106,7 @@ function trust.unmet(result)
   return ("%d of %d tolerances NOT met: %s"):format(#names, #result.asked, table.concat(names, ", "))
 end
 
---- For the __index of results: raises when the quantities of a refused one are read.
+--- For the __index of results: raises an error if the quantities of a refused result are read.
 function trust.refuse(result, key)
   if key == "quantities" and sealed.fields(result).refused then
     error(("there are no numbers: %s (%s)"):format(result.reason, result.advice), 2)
@@ -114,7 +115,7 @@ end
 
 -- --- levels -----------------------------------------------------------------------------
 
---- Even segments of every wire on level k, counted from 1.
+--- Returns the number of segments of every wire on level k, counted from 1; all edges of a wire are equal.
 function trust.counts(job, k)
   local list = {}
   for i, n in ipairs(job.first) do list[i] = n << (k - 1) end
@@ -132,7 +133,7 @@ local function first_counts(scene)
   return counts, share
 end
 
--- Levels of the table of arguments, checked; taken out of it.
+-- Takes the levels out of the table of arguments and checks them.
 local function take_levels(what, args)
   local levels = args.levels
   args.levels = nil
@@ -145,9 +146,9 @@ local function take_levels(what, args)
   return levels
 end
 
---- A computation to be done level by level.
+--- Returns a job: a computation to be done level by level.
 -- @tparam table args a copy of the caller's, from which tolerance and levels are taken
--- @treturn table a job; its advice, for when nothing can be computed, is the caller's to set; and its moves,
+-- @treturn table a job; the caller sets its advice, for when nothing can be computed, and its moves,
 --   true before a level with inertia is judged
 function trust.job(scene, what, args)
   local data = build.data(scene)
@@ -187,14 +188,14 @@ function trust.job(scene, what, args)
   return job
 end
 
--- Were more than 1 % of the steps redone, by methods of first order? Differences of levels then tell
--- no more than they are.
+-- True if more than 1 % of the steps were redone by first-order methods. Differences between levels are then
+-- no estimate of what follows.
 local function was_redone(scene)
   local l = core.ledger(scene)
   return l.redone.count > 0.01 * l.steps
 end
 
---- Does anything touch, or has it in this run?
+--- True if anything touches, or has touched in this run.
 function trust.touches(scene)
   if scene:contacts() > 0 or build.data(scene).touching then return true end
   for _, o in ipairs(build.data(scene).obstacles) do
@@ -206,7 +207,7 @@ function trust.touches(scene)
   return false
 end
 
---- Read the quantities' values of a computation: by their names.
+--- Returns the values of the quantities after a computation, by their names.
 function trust.read(job, result)
   local found = {}
   if job.rows then job.rows(result) end
@@ -214,10 +215,10 @@ function trust.read(job, result)
   return found
 end
 
--- Take the quantities' values on the level just computed. Returns whether all tolerances are met, and if
--- finer levels are in vain: a bar is more than hopeless times too long, even its least, without the caution
--- with coarse levels of a motion, which finer ones end. A row of a check like that, for it is all but its
--- limit, keeps nobody waiting.
+-- Reads the quantities on the level just computed. Returns whether all tolerances are met, and whether finer
+-- levels are in vain: a bar is more than `hopeless` times too long, even without the extra caution for coarse
+-- levels of a motion, which ends with finer levels. A row of a check with such a bar does not hold up the
+-- others: its value is practically at its limit.
 local function judge(job, result, hopeless)
   local met, vain = true, false
   job.contact = job.contact or trust.touches(job.scene) or was_redone(job.scene)
@@ -247,7 +248,7 @@ local function describe(job, k)
   return ("level %d, %d segments"):format(k, most)
 end
 
--- Levels have a number of segments for each wire that there is when they begin.
+-- Raises an error if wires came or went: levels have segments for the wires that exist at their start.
 local function check_wires(job)
   local data = build.data(job.scene)
   local gone = #(data.gone or {}) > job.gone and data.gone[#data.gone]
@@ -262,9 +263,9 @@ local function check_wires(job)
     .. "make it before"):format(job.what, new.name), 0)
 end
 
--- Compute level after level until the bars are met. Returns the last result.
+-- Computes level after level until the bars are short enough. Returns the last result.
 local function climb(job, compute)
-  local first = math.min(job.begun or 0, job.most - 1) -- levels whose values are known
+  local first = math.min(job.begun or 0, job.most - 1) -- levels with known values
   local good, bad, result = first, 0, nil
   if job.prepare then job.prepare() end
   for k = first + 1, job.most do
@@ -299,7 +300,7 @@ local function climb(job, compute)
   return result
 end
 
--- What to do about bars that are too long.
+-- Returns what to do about bars that are too long.
 local function advice_of(job)
   local worst, slow = 0, nil
   for _, q in ipairs(job.quantities) do
@@ -347,20 +348,20 @@ local function conclude(job, result)
   return result
 end
 
---- Take down where the job begins. job.restore() goes back there.
+--- Stores the start of the job; job.restore() returns to it.
 function trust.open(job)
   local scene, data = job.scene, build.data(job.scene)
   kept.begin(scene)
   local start, restores = scene:snapshot(), data.restores
   function job.restore()
     scene:restore(start)
-    data.restores = restores -- what earlier runs have recorded is still there
+    data.restores = restores -- the records of earlier runs still exist
   end
   function job.close() start:close() end
 end
 
---- Do the job: compute(level, name) gives a result with ok and reason. After an error or
--- a refusal the scene is as it was before; else at the finest level's end. Needs trust.open.
+--- Does the job: compute(level, name) returns a result with ok and reason. After an error or
+-- a refusal the scene is as it was before; else in the final state of the finest level. Needs trust.open.
 function trust.work(job, compute)
   local fine, result = pcall(climb, job, compute)
   if fine then result = conclude(job, result) end
@@ -374,7 +375,7 @@ function trust.work(job, compute)
   return result
 end
 
---- The same of a job whose beginning is not needed any more.
+--- Same for a job whose start is not needed any more.
 function trust.once(job, compute)
   trust.open(job)
   local fine, result = pcall(trust.work, job, compute)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Tuning: the parameters for which a simulation agrees with a measurement.
+--- Tuning: finds the parameters for which a simulation agrees with a measurement.
 --
 --     local found = sw.tune.minimise{ from = 0.001, to = 0.1, f = function(EI)
 --       return (sag_of(EI) - 0.042) ^ 2
@@ -13,16 +13,16 @@ local unread = require "softworld.unread"
 
 local tune = {}
 
---- Where is f smallest?
+--- Minimises f.
 --
--- Of one number in an interval (GSL's Brent after nine even looks): `from`, `to`.
--- Of one or several from a first guess (GSL's simplex of Nelder and Mead):
+-- For one number in an interval (GSL's Brent after nine evenly spaced values): `from`, `to`.
+-- For one or several from a first guess (GSL's simplex of Nelder and Mead):
 -- `start`, a number or a list; `step`, the size of the first steps, default a
 -- tenth of start. `tolerance` (1e-6) is a share of the interval or of the steps;
--- Brent cannot tell x closer than about 1e-8 of itself. `max_iterations` (200).
+-- Brent cannot find x closer than about 1e-8 of itself. `max_iterations` (200).
 --
--- An error in f is raised unchanged; a value of f that is not finite counts as
--- worse than all others; runs that fail within f need not be looked at. One Ctrl-C stops the search.
+-- An error in f is raised unchanged. A value of f that is not finite counts as
+-- worse than all others. Failed runs within f need not be looked at. One Ctrl-C stops the search.
 -- @tparam table args `f`, a function of the number (or of the list, when start is
 -- one) returning a number, and the above
 -- @treturn table `x`, `value`, `ok`, `reason`, `iterations`, `evaluations`, and

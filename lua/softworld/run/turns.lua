@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Whose turn it is: processes go on when their time has come, one after the other, and what they raise
--- has the place of the script's line.
+--- The turns of processes: each goes on when its time has come, one after the other. Their errors get the
+-- place of the script's line.
 -- @module softworld.run.turns
 local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
@@ -9,8 +9,8 @@ local turns = {}
 
 local library = debug.getinfo(1, "S").source:match "^(.*)run/turns%.lua$" or "@softworld/"
 
--- Where in the user's script the library was called that failed a process:
--- "file:line: "; "" when the script's own code failed, whose errors stay as they are.
+-- Returns the line of the user's script at which a process failed inside the library,
+-- "file:line: "; "" if the script's own code failed, whose errors stay as they are.
 local function place_in(thread)
   local inside = false
   for level = 0, 50 do
@@ -27,7 +27,7 @@ local function place_in(thread)
   return ""
 end
 
--- A process that has come to its end must have had all the steps that the file has.
+-- Raises an error if a process has ended before it had all the steps in the file.
 local function check_end(self)
   local done, data = process.done(self), build.data(self.scene)
   if self.steps < #done then
@@ -39,7 +39,8 @@ local function check_end(self)
   data.ended[self.number] = true
 end
 
--- What it uses was taken away from outside of processes, as by hand: it ends, and an event tells.
+-- True if the process failed because something it uses was removed from outside of processes, for example by
+-- hand. The process ends, and an event says so.
 local function is_bereft(self, message)
   local why = build.data(self.scene).bereft and type(message) == "string"
     and message:match "[^\n]* was taken away[^\n]*"
@@ -70,7 +71,7 @@ local function is_due(p, second)
   return not p.wake or p.watching or process.reached(p.scene, p.wake)
 end
 
--- Let those go on whose time has come; second: those that ended a step just now.
+-- Continues the processes whose time has come; second: those that have just ended a step.
 local function go_on(data, second)
   local alive, wake, watching, between, inside = {}, math.huge, false, false, false
   for _, p in ipairs(data.processes) do
@@ -87,7 +88,7 @@ local function go_on(data, second)
   return wake, watching, between, inside
 end
 
---- Let every process whose time has come go on. Returns the number of living
+--- Continues every process whose time has come. Returns the number of living
 -- processes, the next wake-up time [s] and whether one watches a condition.
 function turns.step(scene)
   local data = build.data(scene)
@@ -99,7 +100,7 @@ function turns.step(scene)
   return #data.processes, wake, watching
 end
 
---- After a file was read: processes that had ended without steps are not to begin again.
+--- Called after a file was read: processes that had ended without steps do not start again.
 function turns.take_up(scene)
   local data = build.data(scene)
   for _, p in ipairs(data.processes) do
@@ -107,7 +108,7 @@ function turns.take_up(scene)
   end
 end
 
---- Before a run: every process whose steps the file has must be there.
+--- Called before a run: raises an error if a process with steps in the file is missing.
 function turns.check_steps(scene)
   local data = build.data(scene)
   turns.take_up(scene)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Processes that wait for a condition without a timeout: since when, and at which line. A run
--- that only they could end tells of them where that takes long.
+--- Processes that wait for a condition without a timeout: since when, and at which line. If only they
+-- could end the run, long waits are reported.
 -- @module softworld.run.waiting
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -8,12 +8,12 @@ local build = require "softworld.scene.build"
 local waiting = {}
 
 local waits = setmetatable({}, { __mode = "k" }) -- process -> { since =, where =, ... }
-local FIRST = 10 -- first told of after so much simulated time, then after ten times as much [s]
-local PATIENCE = 10 -- and on the terminal after so much real time, then after twice as much [s]
+local FIRST = 10 -- simulated time before the first event, then ten times as much [s]
+local PATIENCE = 10 -- real time before a line on the terminal, then twice as much [s]
 
 local library = debug.getinfo(1, "S").source:match "^(.*)run/waiting%.lua$" or "@softworld/"
 
--- The line of the user's script that called the library.
+-- Returns the line of the user's script that called the library.
 local function place()
   for level = 3, 50 do
     local info = debug.getinfo(level, "Sl")
@@ -33,7 +33,7 @@ local function alive(scene)
   return list
 end
 
---- The process goes on waiting. impossible: function that says why the condition cannot come true
+--- Called while the process keeps waiting. impossible: function that says why the condition cannot come true
 -- without another process, or nil.
 function waiting.goes_on(p, impossible)
   if not waits[p] then
@@ -59,7 +59,8 @@ local function tell(p, w)
     value = p.scene.time - w.since, text = text_of(p, w, "waits") }
 end
 
---- In a run that only processes end, all of which wait: a word now and then. bar: the run's.
+--- Reports long waits now and then, in a run that only processes can end and in which all wait. bar: the
+-- run's.
 function waiting.look(scene, bar, quiet)
   for _, p in ipairs(alive(scene)) do
     local w = waits[p]
@@ -80,7 +81,7 @@ function waiting.look(scene, bar, quiet)
   end
 end
 
---- A run ends while processes wait: say so.
+--- Called at the end of a run: reports processes that still wait.
 function waiting.at_end(scene)
   for _, p in ipairs(alive(scene)) do
     if waits[p] then tell(p, waits[p]) end

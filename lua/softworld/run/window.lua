@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Peaks of forces as means over a window of time that moves along, from the forces of single steps.
+--- Peaks of forces as means over a moving window of time, from the forces of single steps.
 -- See help "peaks".
 -- @module softworld.run.window
 local core = require "softworld.core"
@@ -9,9 +9,9 @@ local number = require "softworld.output.number"
 
 local window = {}
 
-local SLACK = 1e-9 -- of the window: rounding of times [-]
+local SLACK = 1e-9 -- relative rounding of times [-]
 
---- The window asked for, or that of the last run of the scene (or obstacle's scene) [s].
+--- Returns the window given, or that of the last run of the scene (or obstacle's scene) [s].
 function window.of(scene, asked, what, level)
   if asked == nil then return core.window(scene) end
   return checks.number(what .. ": window", asked, 0, " s", level + 1)
@@ -19,7 +19,7 @@ end
 
 local function size(x, y, z) return (x * x + y * y + z * z) ^ 0.5 end
 
--- Integral of steps up to each one's begin.
+-- Returns the integral of the steps up to the start of each.
 local function sums_of(steps)
   local sums, x, y, z = {}, 0, 0, 0
   for i, s in ipairs(steps) do
@@ -30,7 +30,7 @@ local function sums_of(steps)
   return sums
 end
 
--- A function that integrates up to a time; times must not fall from call to call.
+-- Returns a function that integrates up to a time; times must not fall from call to call.
 local function integral(steps, sums)
   local i, n = 1, #steps
   return function(t)
@@ -41,7 +41,8 @@ local function integral(steps, sums)
   end
 end
 
--- The largest mean over whole windows, which begin or end with a step; its size and the window's end.
+-- Returns the size of the largest mean over whole windows that begin or end with a step, and that window's
+-- end.
 local function largest_mean(steps, width)
   local sums, first, last = sums_of(steps), steps[1].t0, steps[#steps].t1
   local most, time = 0, nil
@@ -66,11 +67,11 @@ local function largest_mean(steps, width)
   return most, time
 end
 
-local FEW = 3 -- steps in the window of a peak tell a blow to 15 % (make stability: laying, drops, pegs) [-]
-local NEAR = 3 -- more than so many windows before a peak nothing is of its blow [-]
-local SHARP = 0.55 -- before a blow there is less than this share of its mean [-]
+local FEW = 3 -- steps in a peak's window that show a blow to 15 % (make stability: laying, drops, pegs) [-]
+local NEAR = 3 -- a blow starts at most this many windows before its peak [-]
+local SHARP = 0.55 -- largest mean before a blow over its own mean [-]
 
--- A blow that is told by few steps: with shorter ones it may be another.
+-- True if a blow lasts few steps: shorter steps may show another peak.
 local function is_coarse(steps, p, width)
   local long = math.max(width, p.span)
   if p.span * FEW < long then return false end
@@ -83,7 +84,7 @@ local function is_coarse(steps, p, width)
   return size(x1 - x0, y1 - y0, z1 - z0) / (till - from) < SHARP * p.value
 end
 
--- The longest step within the window that ends at a time.
+-- Returns the longest step within the window that ends at a time.
 local function longest(steps, time, width)
   local most = 0
   for _, s in ipairs(steps) do
@@ -92,13 +93,13 @@ local function longest(steps, time, width)
   return most
 end
 
---- Peaks of a vector.
--- @tparam table steps { { t0 =, t1 =, x, y, z }, ... } in order: each of what it was from t0 to t1 [s];
+--- Returns the peaks of a vector.
+-- @tparam table steps { { t0 =, t1 =, x, y, z }, ... } in order: the vector from t0 to t1 [s];
 -- t0 = t1 at an equilibrium
 -- @tparam number width of the window [s]
 -- @treturn table value of the largest mean and its time, raw (of single steps) with raw_time and raw_span;
--- steps as long as the window, and equilibria, count as they are; whole: the record, where it is shorter;
--- coarse: it is of a blow that lasts few steps
+-- steps as long as the window, and equilibria, are not averaged; whole: length of the record, if it is
+-- shorter than the window; coarse: true for a blow that lasts few steps
 function window.peak(steps, width)
   local p = window.largest(steps, width)
   if p.time and p.value > 0 and width > 0 then
@@ -108,7 +109,7 @@ function window.peak(steps, width)
   return p
 end
 
---- The same without coarse.
+--- Same without coarse.
 function window.largest(steps, width)
   local p = { value = 0, raw = 0, raw_span = 0, width = width }
   local averaged = false
@@ -135,7 +136,7 @@ local function short(x, unit)
   return ("%.3g %s"):format(tonumber(digits), scaled)
 end
 
--- How a peak was measured, and the raw one: "10 ms mean; raw 41 N in 0.4 ms".
+-- Returns how a peak was measured, with the raw one: "10 ms mean; raw 41 N in 0.4 ms".
 local function note(p, unit)
   if p.raw_span == 0 then return "at rest" end
   if p.width == 0 then return ("raw, in %s"):format(short(p.raw_span, "s")) end
@@ -148,16 +149,16 @@ local function note(p, unit)
   return ("%s; raw %s in %s"):format(mean, short(p.raw, unit), short(p.raw_span, "s"))
 end
 
---- How a peak was measured, and whether steps are short enough for it.
+--- Returns how a peak was measured, and whether the steps are short enough for it.
 function window.note(p, unit)
   if not p.coarse then return note(p, unit) end
   return ("%s; a blow of few steps: shorter ones may tell another"):format(note(p, unit))
 end
 
---- The same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".
+--- Same with the value in front: "12.3 N (10 ms mean; raw 41 N in 0.4 ms)".
 function window.text(p, unit) return ("%s (%s)"):format(short(p.value, unit), window.note(p, unit)) end
 
--- Its largest tension in each step between two times [s]: what a series has.
+-- Returns the wire's largest tension in each step between two times [s], as in a series.
 local function tension_steps(wire, from, to)
   local rows, count = wire:log(from, to)
   local steps, before = {}, nil
@@ -169,7 +170,7 @@ local function tension_steps(wire, from, to)
   return steps
 end
 
---- A wire's largest tension [N], where [m], when [s], and its note.
+--- Returns a wire's largest tension [N], where [m], when [s], and its note.
 function window.tension(scene, wire)
   local value, s, t = wire:max_tension()
   local raw, _, _, span = wire:max_tension{ raw = true }
@@ -183,7 +184,7 @@ function window.tension(scene, wire)
   return value, s, t, window.note(p, "N")
 end
 
---- Put a peak into a table of measures, as name = value, name_time, raw_name, ...
+--- Puts a peak into a table of measures, as name = value, name_time, raw_name, ...
 function window.fill(m, name, p, unit)
   m[name], m[name .. "_time"] = p.value, p.time
   m["raw_" .. name], m["raw_" .. name .. "_time"] = p.raw, p.raw_time
@@ -196,14 +197,14 @@ end
 
 local over_keys = { window = true }
 
---- obstacle:over(t1, t2, { window = [s] }): force of wires on it over [t1, t2] [s], blows included: a
--- table with peak_force, mean_force [N] (of the magnitude), impulse (vector), impulse_size [N s],
+--- obstacle:over(t1, t2, { window = [s] }): force of wires on the obstacle over [t1, t2] [s], blows included.
+-- Returns a table with peak_force, mean_force [N] (of the magnitude), impulse (vector), impulse_size [N s],
 -- duration [s], the times of the peaks, and raw_peak_force, that of a single step of raw_peak_force_span.
 function core.class.obstacle.over(obstacle, t1, t2, options)
   if core.type(obstacle) ~= "obstacle" then
     error("obstacle:over is a method: call it with a colon", 2)
   end
-  build.call(3, core.window, obstacle) -- says so if it is gone
+  build.call(3, core.window, obstacle) -- raises if it does not exist any more
   options = options or {}
   checks.keys("obstacle:over", options, over_keys, 3)
   t1 = t1 == nil and -math.huge or checks.number("obstacle:over: t1", t1, -math.huge, " s", 3)
@@ -223,7 +224,7 @@ function core.class.obstacle.over(obstacle, t1, t2, options)
     local s = { t0 = t - span, t1 = t, rows[b + 2], rows[b + 3], rows[b + 4] }
     if t >= t1 and t <= t2 then steps[#steps + 1] = s end
     add(math.min(t, t2) - math.max(s.t0, t1), s)
-    if span == 0 and before then -- equilibria: straight from one to the next
+    if span == 0 and before then -- equilibria: linear between them
       local h = 0.5 * (math.min(t, t2) - math.max(before.t1, t1))
       add(h, s)
       add(h, before)

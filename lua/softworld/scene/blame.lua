@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Whose line an error is told at: an error of this library or of the core has the place of the script's
--- line that was being done; one of a script's own function keeps its place.
+--- Gives errors the right place. Errors of this library or of the core get the place of the script's line
+-- that is running; an error of a script's own function keeps its place.
 -- @module softworld.scene.blame
 local blame = {}
 
--- Where this library lies, as places in messages begin; long paths are cut there, those of files with
--- longer names earlier.
+-- The folder of this library, as places in messages begin. Lua cuts long paths there; how early depends on
+-- the length of the file name.
 local library = debug.getinfo(1, "S").source:match "^@(.*)scene/blame%.lua$" or "softworld/"
 
 local function is_ours(source)
@@ -13,7 +13,7 @@ local function is_ours(source)
   return source:find(cut and "softworld/" or library, 1, true) ~= nil
 end
 
--- "file:line: " of the script's line that is being done; "" where there is none.
+-- Returns "file:line: " of the script's line that is running; "" if there is none.
 local function place()
   for level = 3, 200 do
     local info = debug.getinfo(level, "Sl")
@@ -25,7 +25,7 @@ local function place()
   return ""
 end
 
--- Lua's own message on a mistake in this library: its place must be seen.
+-- True for Lua's own message about a bug in this library. Its place must stay visible.
 local function is_mistake(text)
   return text:find "^attempt to " or text:find "^bad argument #%d+ to '[^f]" or text:find "^stack overflow"
 end
@@ -36,7 +36,7 @@ local function finish(of_core, ok, ...)
   if type(message) ~= "string" then error(message, 0) end
   local where, text = message:match "^([^\n]-:%d+: )(.*)$"
   if where and (not is_ours(where) or is_mistake(text)) or not where and of_core then
-    error(message, 0) -- a script's own
+    error(message, 0) -- an error of the script itself
   end
   text = (text or message):gsub("^bad argument #(%d+) to 'f' %((.*)%)$", "argument %1: %2")
   error(place() .. text, 0)
@@ -44,7 +44,8 @@ end
 
 local function all(...) return ... end
 
--- An error of the core has the place of this line; an error of a script's function keeps its own.
+-- Calls f so that an error of the core gets the place of this line; an error of a script's function keeps its
+-- own.
 local function of_core(f, ...) return all(f(...)) end
 
 local kinds = setmetatable({}, { __mode = "k" }) -- function -> "C", "Lua"
@@ -58,23 +59,23 @@ local function kind_of(f)
   return kind
 end
 
---- Call f; an error of this library or of the core gets the place of the script's line. f as a
--- function of this library raises errors without a place, error(text, 0).
+--- Calls f. An error of this library or of the core gets the place of the script's line. If f is a
+-- function of this library it raises errors without a place, error(text, 0).
 function blame.call(_, f, ...)
   if kind_of(f) == "C" then return finish(true, pcall(of_core, f, ...)) end
   return finish(false, pcall(f, ...))
 end
 
---- The same of a function of this library that places its errors itself, but counts levels as if the
+--- Same for a function of this library that places its errors itself, with levels counted as if the
 -- script called it.
 function blame.through(f, ...) return finish(true, pcall(of_core, f, ...)) end
 
---- f, with errors placed as by blame.call.
+--- Returns f with errors placed as by blame.call.
 function blame.placed(f)
   return function(...) return blame.call(3, f, ...) end
 end
 
---- An error's text without the place in this library where it was raised.
+--- Returns an error's text without the place in this library where it was raised.
 function blame.plain(message)
   return (tostring(message):gsub("^[^\n:]*softworld/[%w_/]+%.lua:%d+: ", ""))
 end

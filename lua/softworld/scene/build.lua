@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Making objects, on the Lua side: names, mesh files, descriptions for pictures and series, and the Lua
+--- Makes objects on the Lua side: names, mesh files, descriptions for pictures and series, and the Lua
 -- state that snapshots keep.
 -- @module softworld.scene.build
 local blame = require "softworld.scene.blame"
@@ -14,18 +14,18 @@ local solid = require "softworld.output.solid"
 local build = { call = blame.call, through = blame.through, placed = blame.placed, plain = blame.plain }
 local class = core.class
 
---- Lists of build.data, to which only is added: { object =, name =, ... } of what was made.
+--- Lists of build.data that only grow: { object =, name =, ... } of each object made.
 build.lists = { "wires", "particles", "obstacles", "holds", "grippers", "joins", "fixings" }
---- Parts of build.data that belong to the process, not to the scene.
+--- Fields of build.data that belong to the process, not to the scene.
 build.passing = { processes = true, process_count = true, running = true, saving = true, going = true,
   restores = true, from_file = true }
--- How snapshots keep it, see keep.image.
+-- How snapshots keep these fields, see keep.image.
 local imaged = { lists = build.lists, things = { "grippers", "fixings" }, whole = { "origin" },
   passing = { origin = true } }
 for name in pairs(build.passing) do imaged.passing[name] = true end
 for _, name in ipairs(build.lists) do imaged.passing[name] = true end
 
---- What is known of a scene: lists of { object =, name =, ... }.
+--- Returns the Lua side's data of a scene: lists of { object =, name =, ... }.
 function build.data(scene)
   local data = core.data(scene)
   if not data.wires then
@@ -44,18 +44,18 @@ local function check_scene(scene, what)
     error(("%s: scene '%s' cannot be changed from inside a step or a function of time")
       :format(what, scene.name), 0)
   end
-  if build.guard then build.guard(what) end -- of processes whose steps are kept
+  if build.guard then build.guard(what) end -- set by softworld.run.process, which may keep steps
 end
 
---- Raise unless scene is one that may be changed now.
+--- Raises an error unless scene may be changed at this moment.
 function build.check(scene, what) build.call(3, check_scene, scene, what) end
 
---- Raise when a wire has left its scene; of one that was taken away it says when.
+--- Raises an error if the wire has left its scene; for a removed wire the error says when.
 function build.present(wire)
   if not wire.present then wire:positions() end
 end
 
---- Raise unless a wire is one of the scene. what: how the error begins.
+--- Raises an error unless the wire is in the scene. what: how the error begins.
 function build.own(scene, what, wire)
   if not rawequal((select(4, core.number(wire))), scene) then error(what .. " another scene", 0) end
   build.present(wire)
@@ -75,8 +75,8 @@ local function table_of(args, what)
   return copy(args)
 end
 
--- Lists only grow, or are made anew.
-local listed = setmetatable({}, { __mode = "k" }) -- a list -> { count =, of the entries, names = }
+-- Lists only grow, or are replaced by new ones.
+local listed = setmetatable({}, { __mode = "k" }) -- list -> { count = entries read, names = set }
 
 local function is_in(list, name)
   local known = listed[list]
@@ -94,8 +94,8 @@ local function is_taken(data, name)
     or is_in(data.holds, name) or is_in(data.grippers, name) or is_in(data.fixings, name)
 end
 
---- The name to use: the given one, which must be new, or kind and a number.
--- Names tell objects apart in series and messages.
+--- Returns the name to use: the given one, which must be new, or kind and a number.
+-- Names distinguish objects in series and messages.
 function build.name(scene, given, kind, count, level)
   local data = build.data(scene)
   if given == nil then
@@ -110,7 +110,7 @@ end
 
 local cable_words, wire_words = { "cable", "stiffness", "use" }, nil
 
--- The core names unknown keys, but does not know these words, which belong to Lua.
+-- Proposes a cable word for a misspelt key. The core reports unknown keys but does not know these Lua words.
 local function check_cable_words(args)
   if not wire_words then
     wire_words = { from = true, to = true, path = true }
@@ -127,8 +127,8 @@ local function check_cable_words(args)
   end
 end
 
--- Replaces cable, stiffness and use by the section they stand for; what is given
--- besides stays. Returns the entry and the use.
+-- Replaces cable, stiffness and use by the section they stand for; other given values
+-- stay. Returns the entry and the use.
 local function take_cable(args)
   check_cable_words(args)
   local entry = args.cable
@@ -156,7 +156,7 @@ local function take_cable(args)
   return entry, use
 end
 
--- section = "solid" and "springs" say the same as body; other sections are shapes of a cubic mesh.
+-- Turns section = "solid" or "springs" into body; other sections are shapes of a cubic mesh.
 local function take_body(args)
   if args.section ~= "solid" and args.section ~= "springs" then return end
   args.body, args.section = args.body or args.section, nil
@@ -164,9 +164,9 @@ end
 
 local new_wire = class.scene.wire
 --- scene:wire{...}: see help "wire" for the parameters. `cable`, a name or entry of
--- the catalogue, gives EA, EI, GJ, mass_per_length and radius that are not given;
--- `stiffness` = "default", "slip" or "stick" chooses among its EI and GJ; `use` is
--- what its bend radius is judged by. See help "cable".
+-- the catalogue, gives those of EA, EI, GJ, mass_per_length and radius that are not given;
+-- `stiffness` = "default", "slip" or "stick" chooses its EI and GJ; `use` selects the
+-- limit for its bend radius. See help "cable".
 function class.scene.wire(scene, args)
   build.check(scene, "scene:wire", 3)
   args = table_of(args, "scene:wire")
@@ -174,7 +174,7 @@ function class.scene.wire(scene, args)
   take_body(args)
   local entry, use = build.call(3, take_cable, args)
   args.name = build.name(scene, args.name, "wire", #data.wires, 3)
-  local auto = args.model == "auto" -- a rod, until a run needs more
+  local auto = args.model == "auto" -- a rod, until a run needs another model
   if auto then args.model = nil end
   local wire = build.call(3, new_wire, scene, args)
   data.wires[#data.wires + 1] = { object = wire, name = args.name }
@@ -200,10 +200,10 @@ end
 local function name_of(wire) return wire.name end
 local function bend_of(wire, options) return wire:min_bend_radius(options) end
 
---- The catalogue entry the wire was made from, or nil.
+--- Returns the catalogue entry the wire was made from, or nil.
 function class.wire.cable(wire)
   if core.type(wire) ~= "wire" then error("wire:cable is a method: call it with a colon", 2) end
-  build.call(3, name_of, wire) -- raises when the scene has been closed
+  build.call(3, name_of, wire) -- raises if the scene is closed
   return core.data(wire).cable
 end
 
@@ -215,11 +215,11 @@ function Limit.__tostring(l)
     l.use, l.ok and "kept" or "NOT kept")
 end
 
---- Is the wire bent more tightly than its cable allows?
+--- Checks whether the wire is bent more tightly than its cable allows.
 -- @tparam[opt] table options `use` (default: that of the wire), `now` = true for the
 -- present shape instead of the tightest of the run
 -- @treturn table `ok`, `radius` (smallest radius of the centre line [m]) at `s` [m]
--- and `t` [s], `limit` (of the centre line [m]), `inside` (the rule's own radius, of
+-- and `t` [s], `limit` (of the centre line [m]), `inside` (the rule's own radius, at
 -- the inside of the bend [m]), `use`
 function class.wire.bend_limit(wire, options)
   if core.type(wire) ~= "wire" then error("wire:bend_limit is a method: call it with a colon", 2) end
@@ -252,7 +252,7 @@ end
 
 local new_obstacle = class.scene.obstacle
 
--- The core takes a mesh's content and does not know this word, which belongs to Lua.
+-- Reports a misspelt `file`. The core takes a mesh's content and does not know this Lua word.
 local function check_mesh_words(args)
   if args.shape ~= "mesh" or args.file ~= nil then return end
   for key in pairs(args) do
@@ -289,13 +289,13 @@ function class.scene.obstacle(scene, args)
   local obstacle = build.call(3, obstacle_from, scene, args, path)
   local entry = copy(args)
   entry.object, entry.data = obstacle, nil
-  data.obstacles[#data.obstacles + 1] = entry -- in the order of the core's, whatever fails next
+  data.obstacles[#data.obstacles + 1] = entry -- keeps the core's order, even if something below fails
   solid.keep(entry, obstacle.shape)
   remarks.obstacle(data, entry, scene.time)
   return obstacle
 end
 
--- clamp, pin, ...; hold takes particles
+-- clamp, pin, ... take a wire; hold takes particles
 local hold_kinds = { "hold" }
 for _, hold in ipairs(core.registry().holds) do hold_kinds[#hold_kinds + 1] = hold.name end
 for _, kind in ipairs(hold_kinds) do
@@ -304,7 +304,7 @@ for _, kind in ipairs(hold_kinds) do
     build.check(scene, "scene:" .. kind, 3)
     args = table_of(args, "scene:" .. kind)
     local data = build.data(scene)
-    if kind ~= "grip" or args.name == nil then -- a gripper's holds have its name
+    if kind ~= "grip" or args.name == nil then -- a gripper's holds share its name
       args.name = build.name(scene, args.name, kind == "hold" and "clamp" or kind, #data.holds, 3)
     end
     local hold = build.call(3, new_hold, scene, wire, args)
@@ -315,8 +315,8 @@ for _, kind in ipairs(hold_kinds) do
 end
 
 local new_contact = class.scene.wire_contact
---- scene:wire_contact{ between = wires, friction =, ... }: wires touch each other and
--- themselves from now on; see help "wire_contact".
+--- scene:wire_contact{ between = wires, friction =, ... }: lets wires touch each other and
+-- themselves from then on; see help "wire_contact".
 function class.scene.wire_contact(scene, args)
   build.check(scene, "scene:wire_contact", 3)
   remarks.on("wire_contact", "wire_contact", args)
@@ -325,7 +325,7 @@ function class.scene.wire_contact(scene, args)
 end
 
 local new_join = class.scene.join
---- scene:join{ ends = { { wire, s = }, ... }, rigid =, name = }: wires fixed to each other
+--- scene:join{ ends = { { wire, s = }, ... }, rigid =, name = }: fixes wires to each other
 -- where they meet; see help "join".
 function class.scene.join(scene, args)
   build.check(scene, "scene:join", 3)
@@ -345,10 +345,10 @@ function class.scene.force(scene, args)
   return force
 end
 
---- All forces that were made, in that order, those of clips and ties too, also what was released.
+--- Returns all forces in the order they were made, including those of clips and ties and released ones.
 function class.scene.forces(scene)
   if core.type(scene) ~= "scene" then error("scene:forces is a method: call it with a colon", 2) end
-  build.call(3, name_of, scene) -- raises when it has been closed
+  build.call(3, name_of, scene) -- raises if the scene is closed
   local list = {}
   for i, entry in ipairs(build.data(scene).forces or {}) do list[i] = entry.object end
   return list
@@ -357,8 +357,8 @@ end
 -- --- snapshots ------------------------------------------------------------------
 
 local new_snapshot = class.scene.snapshot
---- The scene as it is, to be restored as often as wanted. Processes are not part
--- of it: restoring ends them.
+--- Returns a snapshot of the scene that can be restored any number of times. Processes are not
+-- part of it: restoring ends them.
 function class.scene.snapshot(scene)
   local snapshot = build.call(3, new_snapshot, scene)
   core.data(snapshot).image = keep.image(build.data(scene), imaged)
@@ -366,7 +366,7 @@ function class.scene.snapshot(scene)
 end
 
 local restore = class.scene.restore
---- Back to the snapshot, bit by bit. What was made after it is taken back.
+--- Restores the snapshot bit for bit. Objects made after it disappear.
 function class.scene.restore(scene, snapshot)
   build.check(scene, "scene:restore", 3)
   local data = build.data(scene)
@@ -379,8 +379,8 @@ function class.scene.restore(scene, snapshot)
   build.back(scene, snapshot)
 end
 
---- The same between two steps of a run. Its processes end; they go on where they are the same: they
--- have not gone on since the snapshot.
+--- Restores a snapshot between two steps of a run and ends its processes. With same = true the processes
+-- have not run since the snapshot, and they go on.
 function build.back(scene, snapshot, same)
   local data = build.data(scene)
   build.call(3, restore, scene, snapshot)

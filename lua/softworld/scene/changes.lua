@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- get and set of scenes and grippers: values of their rows, those marked changeable to be set between steps.
--- Obstacles and forces have theirs in the core.
+--- get and set of scenes, wires and grippers: the values of their rows. Rows marked changeable can be set
+-- between steps. Obstacles and forces have get and set in the core.
 -- @module softworld.scene.changes
 local core = require "softworld.core"
 local build = require "softworld.scene.build"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:describe: what a scene is made of, as a plain table.
+--- scene:describe: the parts of a scene as a plain table.
 -- @module softworld.scene.describe
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -24,7 +24,7 @@ local function name_of(value)
   return fine and name or nil
 end
 
--- Objects become their names, functions the word. above: tables that the value is in.
+-- Replaces objects by their names and functions by the word "function". above: tables that contain the value.
 local function plain(value, above)
   local kind = type(value)
   if kind == "number" or kind == "string" or kind == "boolean" then return value end
@@ -44,7 +44,7 @@ local function plain(value, above)
   return copy
 end
 
--- Tables of parameters by the object that a call of the scene made.
+-- Returns the tables of parameters by the object that a call of the scene made.
 local function given_of(scene)
   local given, forces = {}, {}
   for _, call in ipairs(record.of(scene)) do

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What pictures show besides wires and obstacles: where grippers and clamps are in every frame.
+--- Adds to pictures what they show besides wires and obstacles: grippers and clamps, with their place in each
+-- frame.
 -- @module softworld.scene.drawn
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -8,7 +9,7 @@ local vec = require "softworld.vec"
 
 local drawn = {}
 
--- Direction of the wires where one of them is nearest to a point; frame as scene:frame gives it.
+-- Returns the direction of the nearest wire at the point closest to `at`; frame as scene:frame gives it.
 local function tangent_near(frame, at)
   local best, along = math.huge, { 1, 0, 0 }
   for _, x in ipairs(frame.wires) do
@@ -22,7 +23,7 @@ local function tangent_near(frame, at)
   return along
 end
 
--- How it is turned against its pose, so that its x axis lies along the wire there.
+-- Returns the rotation, relative to the pose, that puts the x axis along the wire there.
 local function lean(scene, frame, pose)
   local up = vec.unit(vec.scale(scene:gravity(), -1)) or { 0, 0, 1 }
   local facing = vec.facing(tangent_near(frame, pose.position), up)
@@ -38,7 +39,7 @@ local function placed(pose, turned, held)
   return { position = pose.position, rotation = vec.multiply(pose.rotation, turned), held = held }
 end
 
--- The grasp of the gripper that this time belongs to, or nil.
+-- Returns the number and the span of the gripper's grasp at this time, or nil.
 local function span_at(gripper, t)
   for i = #gripper.spans, 1, -1 do
     local span = gripper.spans[i]
@@ -46,17 +47,17 @@ local function span_at(gripper, t)
   end
 end
 
--- One pose after the other of a gripper that has no pads as obstacles; false before it is anywhere.
+-- Returns the poses, frame by frame, of a gripper without pads as obstacles; false before it has a place.
 local function gripper_poses(scene, gripper, frames)
   local list, turned, last, grasps = {}, {}, false, nil
   local carrier = gripper.carrier and slot_of(gripper.carrier)
-  local pads = gripper.tool and slot_of(gripper.tool) -- from then on it is seen by them
+  local pads = gripper.tool and slot_of(gripper.tool) -- once this tool is there, its pads are drawn instead
   local function pose_in(frame)
     local i, span = span_at(gripper, frame.t)
     local by_hold = i and not (span.carried and frame.t >= span.carried)
     return by_hold and frame.holds[slot_of(gripper.past[i])] or carrier and frame.tools[carrier] or nil, i
   end
-  for _, frame in ipairs(frames) do -- as it lies on the wire in the first frame of each grasp
+  for _, frame in ipairs(frames) do -- aligned with the wire in the first frame of each grasp
     local pose, i = pose_in(frame)
     if i and pose and not turned[i] then turned[i] = lean(scene, frame, pose) end
     grasps = grasps or i
@@ -98,7 +99,7 @@ local function show(list, kind, frames, shown, poses)
   for f, frame in ipairs(frames) do frame[kind][#list] = poses[f] end
 end
 
--- Of a gripper: when it held what, and where it is otherwise; slots from 0.
+-- Returns a gripper's entry: when it held what, and where it is otherwise; slots from 0.
 local function gripper_of(gripper)
   local spans = {}
   for i, span in ipairs(gripper.spans) do
@@ -109,13 +110,13 @@ local function gripper_of(gripper)
     tool = gripper.tool and slot_of(gripper.tool) - 1, left = gripper.left }
 end
 
---- doc.particles: { name, radius, edges of the surface } of each object of particles.
+--- Adds doc.particles: { name, radius, edges of the surface } of each object of particles.
 function drawn.add_particles(scene, doc)
   doc.particles = leave.all(scene, "particles")
 end
 
---- Add to a document what a player draws besides wires: doc.grips, doc.holds, doc.particles; in
--- doc.obstacles their slots, and of which gripper they are a part.
+--- Adds to a document what a player draws besides wires: doc.grips, doc.holds, doc.particles. Entries of
+-- doc.obstacles get their slots and the name of the gripper they belong to.
 function drawn.describe(scene, doc)
   local data, theirs = build.data(scene), {}
   doc.grips, doc.holds = {}, {}
@@ -137,11 +138,11 @@ function drawn.describe(scene, doc)
   drawn.add_particles(scene, doc)
 end
 
---- Add grips and clamps to a document with frames (of scene:frame): lists doc.grips and doc.clamps of
--- { name, width, kind }, and in each frame as many poses, false where it is not there.
+--- Adds grips and clamps to a document with frames (of scene:frame): the lists doc.grips and doc.clamps of
+-- { name, width, kind }, and in each frame one pose per entry, false where the object is not there.
 function drawn.add(scene, doc)
   local data, theirs = build.data(scene), {}
-  for _, frame in ipairs(doc.frames) do -- those made later are not there yet
+  for _, frame in ipairs(doc.frames) do -- obstacles made later are not there yet
     for i = #frame.obstacles + 1, #data.obstacles do frame.obstacles[i] = false end
   end
   doc.grips, doc.clamps = {}, {}

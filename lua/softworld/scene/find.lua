@@ -15,12 +15,12 @@ rows.calls{
   { "scene:grippers", "", "its grippers, in the order made", "a list" },
 }
 
--- Parts of build.data without objects of the scene.
+-- Parts of build.data that hold no objects of the scene.
 local skipped = { origin = true }
 for key in pairs(build.passing) do skipped[key] = true end
 
--- All that has a name: { name = object }, and the names in order. The holds of a gripper have its
--- name: they come last.
+-- Returns all named objects, { name = object }, and the names in order. The holds of a gripper share its
+-- name, so they come last.
 local function named(scene)
   local objects, names, data, order = {}, {}, build.data(scene), {}
   for key, list in pairs(data) do
@@ -70,7 +70,7 @@ function class.scene.names(scene)
   return (select(2, named(scene)))
 end
 
--- Obstacles that are parts of grippers.
+-- Returns the set of obstacles that are parts of grippers.
 local function parts_of(grippers)
   local parts = {}
   for _, g in ipairs(grippers) do
@@ -79,7 +79,7 @@ local function parts_of(grippers)
   return parts
 end
 
--- The objects of a list's entries for which there(object) holds.
+-- Returns the objects of a list's entries for which there(object) is true.
 local function objects(entries, there)
   local list = {}
   for _, entry in ipairs(entries) do

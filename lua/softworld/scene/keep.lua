@@ -1,21 +1,21 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Values of Lua as a string and back, for the Lua side's part of a saved scene. Numbers keep their bits.
--- Objects of a scene are kept by their numbers, tables that occur more than once stay one table, and
--- tables of a known class (a gripper) get their class again:
+--- Turns Lua values into a string and back, for the Lua side's part of a saved scene. Numbers keep their
+-- bits. Objects of a scene are stored by their numbers, a table that occurs several times stays one table,
+-- and tables of a known class (a gripper) get their class again:
 --
 --     keep.class("gripper", Gripper)
 --
--- Such an object has a `name`, by which a script that made it too gets it back; its fields are
--- kept as they are. Functions cannot be kept.
+-- An object of a known class has a `name`. If the reading script has made an object with this name, the value
+-- refers to that object. Its fields are stored as they are. Functions cannot be stored.
 -- @module softworld.scene.keep
 local core = require "softworld.core"
 local sealed = require "softworld.sealed"
 
 local keep = {}
 local classes, class_names = {}, {}
-local DEEPEST = 150 -- tables in tables
+local DEEPEST = 150 -- deepest nesting of tables
 
---- Make tables with this metatable known by a name.
+--- Registers tables with this metatable as the class `name`.
 function keep.class(name, metatable)
   classes[name], class_names[metatable] = metatable, name
 end
@@ -28,7 +28,7 @@ local function fail(path, what)
   error(("%s is %s, which cannot be saved"):format(path, what), 0)
 end
 
--- Keys in an order of their own, so that equal tables give equal strings.
+-- Returns the keys in a fixed order, so that equal tables give equal strings.
 local function sorted_keys(value)
   local keys = {}
   for key in next, value do keys[#keys + 1] = key end
@@ -109,14 +109,14 @@ function write(out, value, path, depth)
   writer(out, value, path, depth)
 end
 
---- The value as a string. scene: whose objects may be in it. what: names it in errors.
+--- Returns the value as a string. scene: whose objects may be in it. what: its name in errors.
 function keep.pack(value, scene, what)
   local out = { numbers = {}, count = 0, scene = scene }
   write(out, value, what, 0)
   return table.concat(out)
 end
 
---- May the value be kept? Else false and why.
+--- True if the value can be stored; else false and the reason.
 function keep.may(value, scene, what)
   return pcall(keep.pack, value, scene, what)
 end
@@ -130,7 +130,7 @@ local function damaged() error("its note makes no sense", 0) end
 local function unpack(from, format)
   local ok, a, b, c, at = pcall(string.unpack, format, from.text, from.at)
   if not ok then damaged() end
-  -- the place after the values comes last, whatever their number
+  -- string.unpack returns the next position after the values, which are one to three
   if at == nil then if c ~= nil then at, c = c, nil else at, b = b, nil end end
   from.at = at
   return a, b, c
@@ -195,9 +195,9 @@ end
 
 local function nothing() return nil end
 
---- The value of a string, for a scene. object(class, slot, generation) gives its objects, instance(class,
--- name) the object of that class of keep.class and name that the script has made, or nil. Without these
--- two the string is only checked; an error tells its fault.
+--- Returns the value of a string, for a scene. object(class, slot, generation) gives its objects;
+-- instance(class, name) gives the object of a registered class that the script has made under this name, or
+-- nil. Without these two functions the string is only checked; an error names its fault.
 function keep.unpack(text, scene, object, instance)
   local from = { text = text, at = 1, tables = {}, count = 0, scene = scene,
     object = object or nothing, instance = instance or nothing }
@@ -208,8 +208,8 @@ end
 
 -- --- in the process ----------------------------------------------------------------
 
--- Plain tables are copied. Tables of a known class stay the same tables, and what they have goes to
--- `own`; records { object =, ... } of what was made never change.
+-- Copies plain tables. Tables of a known class stay the same tables, and their fields are copied into `own`.
+-- Records { object =, ... } never change and are not copied.
 local function copy(value, seen, own)
   if type(value) ~= "table" then return value end
   if seen[value] then return seen[value] end
@@ -226,7 +226,7 @@ local function copy(value, seen, own)
   return seen[value]
 end
 
--- Of the things in a list what they have; nil when it has none.
+-- Copies the fields of a list's objects of a known class into `own`; it stays nil if there are none.
 local function things(list, own, seen)
   for k = 1, #list do
     own, seen = own or {}, seen or {}
@@ -236,10 +236,10 @@ local function things(list, own, seen)
   return own, seen
 end
 
---- The fields of a table as they are, with all that belongs to them, for keep.back. imaged says how:
--- `lists` names those that only get longer, `things` those of them that have objects of a known class,
--- `whole` what never changes, `passing` all these and what is left out. Objects and functions are only
--- referred to.
+--- Returns an image of a table's fields with everything that belongs to them, for keep.back. imaged:
+-- `lists` names fields whose lists only grow; `things` names those of them that have objects of a known
+-- class; `whole` names fields whose value never changes; `passing` names all of these and the fields to
+-- leave out. Objects and functions are only referred to.
 function keep.image(data, imaged)
   local image, own, seen = {}, nil, nil
   for i = 1, #imaged.lists do
@@ -265,7 +265,7 @@ local function refill(to, from, seen)
   for key, value in next, from do rawset(to, key, copy(value, seen, {})) end
 end
 
---- The table again as keep.image found it, and all of a known class that it had.
+--- Restores the table to its state at keep.image, and every object of a known class in it.
 function keep.back(data, image, imaged)
   local seen, rest = {}, image.rest or {}
   for i = 1, #imaged.lists do
@@ -283,7 +283,7 @@ function keep.back(data, image, imaged)
   for key, value in next, rest do data[key] = copy(value, seen, {}) end
 end
 
---- Every table of a class of keep.class within a value: { [class .. " " .. name] = it }.
+--- Returns every table of a registered class within a value: { [class .. " " .. name] = table }.
 function keep.instances(value)
   local found, seen = {}, {}
   local function walk(t)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:remove: whatever is in a scene goes, with what belongs to it. What it did until then stays in the
--- run's series, frames and events. Entries of wires and objects of particles that are gone are in
+--- scene:remove: removes any object from a scene, with everything that belongs to it. The run's series,
+-- frames and events keep what it did until then. Removed wires and objects of particles are listed in
 -- build.data(scene).gone: { kind =, label =, body =, radius =, length =, segments =, edges =, time = [s] }.
 -- @module softworld.scene.leave
 local core = require "softworld.core"
@@ -19,7 +19,7 @@ rows.calls{
 
 local lists = { wire = "wires", particles = "particles" }
 
--- A table that is as the list without the one entry; lists themselves only get longer.
+-- Returns a new list without the object, and the object's entry. The old list stays, because lists only grow.
 local function without(list, object)
   local left, entry = {}, nil
   for _, one in ipairs(list) do
@@ -54,7 +54,7 @@ local function remove_body(scene, kind, body)
   if not entry then error(("scene:remove: '%s' was taken away already"):format(tostring(body.name)), 0) end
   local gone = entry_of(kind, entry)
   gone.time = scene.time
-  core.remove_body(body) -- first, for a motion of what holds it may fail
+  core.remove_body(body) -- first: the motion of its holds may raise an error
   for _, gripper in ipairs(data.grippers) do losing.wire(gripper, body) end
   data[lists[kind]] = left
   data.gone = table.move(data.gone or {}, 1, #(data.gone or {}), 1, {})
@@ -73,7 +73,7 @@ local function remove_gripper(scene, gripper)
   told(scene, "gripper", gripper.name)
 end
 
--- What is a part of a gripper goes with it only.
+-- Raises an error if the object is a part of a gripper; it leaves only with the gripper.
 local function check_own(scene, object)
   for _, g in ipairs(build.data(scene).grippers) do
     for _, part in ipairs(g.left and {} or g.obstacles or {}) do
@@ -98,7 +98,7 @@ local function class_of(object)
   return core.type(object) or type(meta) == "table" and rawget(meta, "__name") or nil
 end
 
--- The scene of an object: of the core, or of a table that stands for one.
+-- Returns the scene of an object: of the core, or a table.
 local function scene_of(object)
   if core.type(object) then return (select(4, core.number(object))) end
   return object.scene
@@ -130,7 +130,7 @@ end
 
 local leave = {}
 
---- Wires, or objects of particles, as frames number them: those that are there and those that are gone.
+--- Returns wires, or objects of particles, in the numbering of frames, both present and removed ones.
 -- kind: "wire", "particles". { { name, radius, length, segments, edges, slot } }; slot: among all, from 0.
 function leave.all(scene, kind)
   local data, list = build.data(scene), {}

@@ -1,21 +1,21 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Values as Lua source that gives the same bits again.
+--- Writes values as Lua source that gives the same bits again.
 -- @module softworld.scene.literal
 local literal = {}
 
-local WIDTH = 100 -- of a line [characters]
-local DEEPEST = 100 -- tables in tables
+local WIDTH = 100 -- widest line [characters]
+local DEEPEST = 100 -- deepest nesting of tables
 
 local reserved = {}
 for word in ([[and break do else elseif end false for function goto if in local nil not or repeat return then
   true until while]]):gmatch "%a+" do reserved[word] = true end
 
---- May the text stand as a name?
+--- True if the text can be written as a name.
 function literal.is_name(text)
   return text:find "^[%a_][%w_]*$" ~= nil and not reserved[text]
 end
 
---- The shortest source of a number that gives it back.
+--- Returns the shortest source of a number that gives the same number back.
 function literal.number(x)
   if math.type(x) == "integer" then return ("%d"):format(x) end
   if x ~= x then return "(0 / 0)" end
@@ -28,7 +28,7 @@ function literal.number(x)
   end
 end
 
--- What objects are called by comes first, then places, then the rest by the alphabet.
+-- Order of keys: an object's name first, then places, then the rest alphabetically.
 local rank = { name = 1, kind = 2, shape = 2, model = 3, cable = 4, on = 5, s = 6, from = 7, to = 8, at = 9 }
 
 local function sorted_keys(value, count)
@@ -52,7 +52,7 @@ local function key_text(key, object, path)
   error(("%s has a key that is a %s"):format(path, type(key)), 0)
 end
 
--- Items in one line if they fit, else in lines as long as they may be.
+-- Returns the items in one line if they fit, else in lines filled to the width.
 local function in_braces(items, indent)
   if #items == 0 then return "{}" end
   local line = "{ " .. table.concat(items, ", ") .. " }"
@@ -70,8 +70,8 @@ local function in_braces(items, indent)
   return "{\n" .. indent .. "  " .. table.concat(lines, "\n" .. indent .. "  ") .. "\n" .. indent .. "}"
 end
 
---- A value as source. object(value, path): source of what is neither plain nor a plain table, may raise;
--- path names the value in messages. Raises a text without a place.
+--- Returns a value as source. object(value, path) gives the source of any value that is not plain; it may
+-- raise an error. path names the value in messages. Errors are texts without a place.
 function literal.of(value, object, path, indent, above)
   local kind = type(value)
   if kind == "number" then return literal.number(value) end

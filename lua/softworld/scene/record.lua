@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a script made and changed in a scene, call by call, for scene:script and scene:describe.
--- A record has { self =, method =, args = { n = }, results = { n = }, late = } of each call that returned,
--- arguments copied; late: it came after the first step. Calls that are made by others of the library, and
--- those from within a run, are not in it.
+--- Records what a script made and changed in a scene, call by call, for scene:script and scene:describe. A
+-- record has { self =, method =, args = { n = }, results = { n = }, late = } of each call that returned, with
+-- copied arguments; late: the call came after the first step. Calls that other library functions make, and
+-- calls from within a run, are not recorded.
 -- @module softworld.scene.record
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -10,10 +10,10 @@ local trajectory = require "softworld.trajectory"
 
 local record = {}
 
-local DEEPEST = 100 -- tables in tables that are copied
-local MOST = 20000 -- calls of a scene; a loop that changes something at each step would fill the memory
+local DEEPEST = 100 -- deepest nesting of copied tables
+local MOST = 20000 -- most calls of a scene; a loop that changes something at each step would fill the memory
 
--- Methods that make or change something. "name?" only does with an argument; else it reads.
+-- Methods that make or change something. "name?" changes only if called with an argument; else it reads.
 local core_methods = {
   scene = "wire particles obstacle hold wire_contact join force gripper clip "
     .. "channel tie set gravity? settle remove zone",
@@ -30,18 +30,18 @@ local table_methods = {
   clip = "release", tie = "release", channel = "open close release",
 }
 
--- scene's data -> { calls, missed = calls beyond MOST, made = table of sw.scene }
+-- scene's data -> { calls, missed = number of calls beyond MOST, made = table of sw.scene }
 local logs = setmetatable({}, { __mode = "k" })
-local marks = setmetatable({}, { __mode = "k" })    -- snapshot -> how long the record was
+local marks = setmetatable({}, { __mode = "k" })    -- snapshot -> length of the record at that time
 local made_by = setmetatable({}, { __mode = "k" })  -- trajectory -> { self =, method =, args = }
 local inside = false
 
--- What stands for a function, which must not live on because it was an argument once.
+-- Stands for a function argument, which the record must not keep alive.
 local Function = { __name = "function" }
 record.a_function = setmetatable({}, Function)
 
--- Scripts may change their tables after the call. Objects stay what they are. seen: table -> its copy, for
--- tables may contain themselves.
+-- Copies an argument, because scripts may change their tables after the call. Objects are not copied. seen:
+-- table -> its copy, because tables may contain themselves.
 local function copied(value, seen, depth)
   if type(value) == "function" then return record.a_function end
   if type(value) ~= "table" or getmetatable(value) ~= nil or depth > DEEPEST then return value end
@@ -58,7 +58,7 @@ local function arguments(...)
   return args
 end
 
---- f(...), without a record of what it calls: it is kept elsewhere. Errors are raised as they are.
+--- Calls f(...) without recording the calls it makes; the caller keeps them elsewhere. Errors are passed on.
 function record.quietly(f, ...)
   local before = inside
   inside = true
@@ -70,7 +70,7 @@ function record.quietly(f, ...)
   return out(pcall(f, ...))
 end
 
---- Has the scene been changed after its first step, beside what was done quietly?
+--- True if the scene was changed after its first step, apart from calls within `quietly`.
 function record.has_late(scene)
   for _, call in ipairs(record.of(scene)) do
     if call.late then return true end
@@ -78,22 +78,22 @@ function record.has_late(scene)
   return false
 end
 
---- The record of a scene.
+--- Returns the record of a scene.
 function record.of(scene)
   local data = build.data(scene)
   logs[data] = logs[data] or { missed = 0 }
   return logs[data]
 end
 
---- Note what a scene was made with.
+--- Records the arguments a scene was made with.
 function record.begin(scene, args)
   record.of(scene).made = arguments(args or {})[1]
 end
 
---- What a scene was made with: the table of sw.scene; nil for one that was read from a file.
+--- Returns the arguments of sw.scene that the scene was made with; nil for a scene read from a file.
 function record.made_as(scene) return record.of(scene).made end
 
---- The call that a trajectory was made by, or nil.
+--- Returns the call that made a trajectory, or nil.
 function record.trajectory(object) return made_by[object] end
 
 local function finish(scene, call, fine, ...)
@@ -105,13 +105,15 @@ local function finish(scene, call, fine, ...)
   return ...
 end
 
--- As if the script called it: a tail call where the method is Lua's, else its errors are placed anew.
+-- Returns the method as if the script called it: itself if it is a Lua function, else with its errors placed
+-- anew.
 local function unrecorded(method)
   if debug.getinfo(method, "S").what == "Lua" then return method end
   return function(self, ...) return build.through(method, self, ...) end
 end
 
--- scene_of(self): the scene to be told; nil when self is no such object, or is gone.
+-- Returns the plain name and a recording method. scene_of(self): the scene of self; nil if self is not such
+-- an object or its scene is closed.
 local function recorded(name, method, scene_of)
   local plain, other = name:gsub("%?$", ""), unrecorded(method)
   return plain, function(self, ...)
@@ -135,7 +137,8 @@ local function name_of(scene) return scene.name end
 
 local function is_open(scene) return core.type(scene) == "scene" and (pcall(name_of, scene)) end
 
--- The scene of an object of the core, nil for other values; the class's own check tells of these.
+-- Returns a function that gives the scene of an object of the core, and nil for other values; the class's own
+-- check reports those.
 local function scene_of_core(kind)
   return function(self)
     if core.type(self) ~= kind then return nil end
@@ -193,7 +196,7 @@ local function follow_trajectories()
   end
 end
 
---- Begin to record. made: classes of objects made in Lua, by name.
+--- Starts recording. made: classes of objects made in Lua, by name.
 function record.install(made)
   for kind, names in pairs(core_methods) do install(core.class[kind], names, scene_of_core(kind)) end
   for kind, names in pairs(table_methods) do install(made[kind], names, scene_of_table(made[kind])) end

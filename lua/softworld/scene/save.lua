@@ -7,8 +7,8 @@
 --     end)
 --     scene:run{ save = "laying.sws", resume = "laying.sws" }
 --
--- writes the scene after every step. Killed and started again, the script builds the scene,
--- takes its state from the file, leaves out the steps that are done and goes on with the same bits.
+-- writes the scene after every step. If the script is killed and started again, it builds the scene, takes
+-- the state from the file, skips the steps already done and continues with the same bits.
 -- @module softworld.scene.save
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -22,13 +22,13 @@ local solid = require "softworld.output.solid"
 local save = {}
 local class = core.class
 
--- Parts of build.data that are not in the file's, the origin because it stands beside it.
+-- Fields of build.data that the file's data leaves out; the file stores the origin separately.
 local passing = { origin = true }
 for key in pairs(build.passing) do passing[key] = true end
 
 -- --- what a script has made -----------------------------------------------------------
 
--- Every object and every table of a class within the data, by class and number or name.
+-- Returns every object and every table of a class within the data, by class and number or name.
 local function known(data)
   local found = keep.instances(data)
   local seen = {}
@@ -47,7 +47,7 @@ local function known(data)
   return found
 end
 
---- What the scene is made of when its first run begins: { name, sum, name, sum, ... }.
+--- Returns what the scene is made of when its first run begins: { name, sum, name, sum, ... }.
 function save.origin(scene)
   local data = build.data(scene)
   if data.origin then return data.origin end
@@ -66,7 +66,7 @@ end
 
 -- --- writing ---------------------------------------------------------------------------
 
--- The obstacles' triangles come from their shapes.
+-- Returns the obstacles without triangles; reading makes them again from the shapes.
 local function without_triangles(obstacles)
   local list = {}
   for i, entry in ipairs(obstacles) do
@@ -78,7 +78,7 @@ local function without_triangles(obstacles)
   return list
 end
 
--- What is kept beside each object: its cable and so on.
+-- Returns the Lua data of each object, such as its cable.
 local function beside(data)
   local list = {}
   for _, name in ipairs{ "wires", "particles", "obstacles", "holds" } do
@@ -100,13 +100,13 @@ local function note_of(scene, run)
     scene, ("scene '%s'"):format(scene.name))
 end
 
---- Write the scene to a file, whole or not at all, also when the computer goes down; run: the
+--- Writes the scene to a file, whole or not at all, even if the computer goes down; run: the
 -- totals of a run under way.
 function save.write(scene, file, run)
   return sink.write_file(file, build.call(3, core.save, scene, note_of(scene, run)), { safe = true })
 end
 
--- A process that has begun lives in its coroutine.
+-- Raises an error if a process is under way: its state is in a coroutine, which cannot be saved.
 local function check_processes(scene)
   for _, p in ipairs(build.data(scene).processes) do
     if p.begun and coroutine.status(p.thread) ~= "dead" then
@@ -134,7 +134,7 @@ local function save_now(scene, file)
   return save.write(scene, file, data.going)
 end
 
---- scene:save(file): everything that the scene is, for scene:resume and sw.load.
+--- scene:save(file): writes the whole state of the scene, for scene:resume and sw.load.
 function class.scene.save(scene, file)
   build.check(scene, "scene:save", 3)
   return build.call(3, save_now, scene, file)
@@ -147,7 +147,7 @@ local function read(what, file)
   return sink.read_file(file)
 end
 
--- Errors of the core say "it is ...".
+-- Calls f and rewrites its errors. Errors of the core say "it is ...".
 local function tell(what, file, f, ...)
   local fine, result = pcall(f, ...)
   if fine then return result end
@@ -187,7 +187,7 @@ end
 local totals = { "steps", "rejected", "iterations", "evaluations", "jumps", "smallest_dt", "time",
   "start", "wall", "cpu" }
 
--- Checks of the Lua side's part of the file, in which objects are words, for there are none yet.
+-- Checks the Lua side's part of the file. Objects are still texts there, because the scene has none yet.
 local function check_note(note)
   expect(is_list(note) and is_list(note.data) and is_list(note.beside) and is_list(note.origin), "note")
   for key in pairs(note.data) do expect(not passing[key], "note") end
@@ -204,7 +204,7 @@ end
 local kinds = { wire = true, particles = true, clamp = true, obstacle = true, force = true, join = true,
   tool = true }
 
--- The note, looked through so that nothing that follows from it fails.
+-- Returns the note and its text after checks that exclude failures further on.
 local function note_from(bytes, scene)
   local text = core.saved_note(bytes)
   local note = keep.unpack(text, scene, function(kind, slot, generation)
@@ -215,7 +215,7 @@ local function note_from(bytes, scene)
   return text, note
 end
 
--- Objects of a scene by number: those the script has, or new ones.
+-- Returns the note with the scene's objects by number: those the script has made, or new ones.
 local function realise(text, scene, have)
   local function object(kind, slot, generation)
     local key = ("%s %d %d"):format(kind, slot, generation)
@@ -233,13 +233,13 @@ local function add_triangles(entry, old)
   end
 end
 
--- The scene's data from a note.
+-- Takes the scene's data from a note.
 local function take(scene, text)
   local data = build.data(scene)
   local have, old = known(data), {}
   for _, entry in ipairs(data.obstacles) do old[entry.object] = entry end
   local note = realise(text, scene, have)
-  for key, value in pairs(data) do -- lists stay lists, whether the file knows them or not
+  for key, value in pairs(data) do -- lists stay lists, even if the file lacks them
     if not passing[key] then data[key] = is_list(value) and {} or nil end
   end
   for key, value in pairs(note.data) do data[key] = value end
@@ -253,7 +253,7 @@ local function take(scene, text)
   return note
 end
 
--- Is the script's scene what the file's was before its first run?
+-- Raises an error unless the script's scene is the same as the file's was before its first run.
 local function compare(scene, note, file)
   local now, then_ = save.origin(scene), note.origin
   for i = 1, math.max(#now, #then_), 2 do
@@ -282,7 +282,7 @@ local function check_before(scene)
   end
 end
 
---- Go on from a file: false when there is none.
+--- Continues from a file; returns false if there is none.
 function save.resume(scene, file)
   check_file("scene:resume", file)
   check_before(scene)
@@ -300,8 +300,8 @@ function save.resume(scene, file)
   return true
 end
 
---- scene:resume(file) -> true, or false when there is no such file: the scene, built by the
--- same script, as it was when the file was written.
+--- scene:resume(file) -> true, or false if there is no such file: restores the scene, built by
+-- the same script, to its state when the file was written.
 function class.scene.resume(scene, file)
   build.check(scene, "scene:resume", 3)
   return build.call(3, save.resume, scene, file)
@@ -314,19 +314,19 @@ local function load(file)
     local scene = core.load(bytes)
     local note = take(scene, text)
     local data = build.data(scene)
-    data.origin, data.done, data.ended = note.origin, nil, nil -- its processes are not there
+    data.origin, data.done, data.ended = note.origin, nil, nil -- the processes are not in the file
     return scene
   end)
 end
 
---- sw.load(file) -> the scene that was saved; scene:find(name) gives what is in it.
+--- sw.load(file) -> the saved scene; scene:find(name) returns its objects.
 function save.load(file) return build.call(3, load, file) end
 
 -- --- steps -----------------------------------------------------------------------------
 
 local function all(...) return ... end
 
--- While steps are kept, a scene is changed only inside of them.
+-- While the steps of processes are kept, these methods may be called only inside steps.
 for kind, methods in pairs{ clamp = { "follow", "release", "feed" },
   obstacle = { "follow", "remove" }, force = { "release" }, join = { "release" },
   wire = { "remodel" }, tool = { "follow", "hold", "pads_on", "jaws", "freeze", "thaw" } } do

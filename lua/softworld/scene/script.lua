@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- scene:script: the Lua that builds a scene again, bit for bit.
+--- scene:script: writes Lua that builds a scene again, bit for bit.
 --
 --     print(scene:script())       -- the text
 --     scene:script "place.lua"    -- a file; local scene = dofile "place.lua" builds the scene
 --
--- It has the calls that made and changed the scene until its first step, with their arguments. What came
--- later stands in it as comments; scene:save keeps a scene as it is at any time.
+-- The text has the calls that made and changed the scene until its first step, with their arguments. Later
+-- calls appear as comments; scene:save stores a scene at any time.
 -- @module softworld.scene.script
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -25,7 +25,7 @@ rows.calls{
 
 -- --- objects ----------------------------------------------------------------------------------
 
--- The number of the call that made an object.
+-- Returns, by object, the number of the call that made it.
 local function makers(log)
   local made = {}
   for i, call in ipairs(log) do
@@ -38,7 +38,7 @@ local function makers(log)
   return made
 end
 
--- Numbers of the calls whose object a later one needs.
+-- Returns the numbers of the calls whose object a later call needs.
 local function needed(log, made)
   local list, seen = {}, {}
   local function walk(value)
@@ -69,7 +69,7 @@ end
 
 local taken_words = { scene = true, sw = true, made = true }
 
--- A word for a local, from the object's name.
+-- Returns a name for a local variable, from the object's name.
 local function word_for(object, call, words)
   local base = (name_of(object) or call.method):gsub("[^%w_]+", "_"):gsub("^_+", ""):gsub("_+$", "")
   if base == "" or base:find "^%d" then base = call.method .. "_" .. base end
@@ -107,7 +107,7 @@ local function call_text(self, method, args, object, path)
   return ("%s:%s(%s)"):format(self, method, table.concat(list, ", "))
 end
 
--- Source of objects: by the words that they have got.
+-- Returns a function that gives the source of an object: the variable it was given, or a call.
 local function namer(scene, words)
   local function object(value, path)
     if rawequal(value, scene) then return "scene" end
@@ -136,7 +136,7 @@ local function line_of(call, k, list, words, object)
   return ("%s = %s"):format(words.locals[k] and "local " .. word or word, text)
 end
 
--- Words of the objects that are needed: locals, then items of a table.
+-- Returns the variables of the needed objects: locals first, then items of a table.
 local function words_of(log, list)
   local words, used, count = { of = {}, locals = {} }, {}, 0
   for k, call in ipairs(log) do
@@ -165,7 +165,7 @@ local function body(log, lines, list, words, object)
   end
 end
 
--- The gravity that a scene was made with: scene:set and scene:gravity have lines of their own.
+-- Writes the gravity that the scene was made with; later changes have their own lines.
 local function head(scene)
   local made = record.made_as(scene)
   if not made then
@@ -201,7 +201,7 @@ local function scene_name(scene) return scene.name end
 
 local function write(scene, file)
   if core.type(scene) ~= "scene" then error("scene:script is a method: call it with a colon", 0) end
-  build.call(3, scene_name, scene) -- raises when it has been closed
+  build.call(3, scene_name, scene) -- raises if the scene is closed
   if file ~= nil and (type(file) ~= "string" or file == "") then
     error(("scene:script: the name of a file is wanted, got %s"):format(file == "" and "''" or type(file)), 0)
   end
@@ -212,7 +212,7 @@ local function write(scene, file)
 end
 
 --- scene:script(file) -> text: see help "scene:script". Lua functions cannot be written: an error names the
--- first one, and nothing is written.
+-- first one, and no file is written.
 script.script = build.placed(write)
 
 return script

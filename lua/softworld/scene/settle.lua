@@ -35,7 +35,7 @@ function Rest:__tostring()
 end
 
 local core_settle = core.class.scene.settle
--- How often each tube was told to be kinked.
+-- Returns the last kink event of each tube; its count tells how often the kink was reported.
 local function kinks(scene)
   local counts = {}
   for _, e in ipairs(scene:events()) do if e.kind == "kink" then counts[e.object] = e end end
@@ -46,7 +46,7 @@ local function settle(scene, args)
   build.check(scene, "scene:settle", 4)
   local before, data = kinks(scene), build.data(scene)
   kept.begin(scene)
-  data.runs = (data.runs or 0) + 1 -- peaks begin anew, as in a run
+  data.runs = (data.runs or 0) + 1 -- peaks start again, as in a run
   local rest = build.call(3, core_settle, scene, args)
   for tube, e in pairs(rest.ok and kinks(scene) or {}) do
     if not before[tube] or before[tube].count < e.count then rest.kinked = e.text end
@@ -80,15 +80,14 @@ local function with_bars(scene, given)
     r.start = scene.time
     return r
   end)
-  job.begin_processes() -- none of them had begun
+  job.begin_processes() -- settling did not start any of them
   result.iterations = iterations
   return setmetatable(result, Settled)
 end
 
 --- Static equilibrium: { tolerance = [m], max_iterations = }. Jaws of grippers that hold with a
--- force go on with it; others stay as open as they are. With a table of
--- quantities as tolerance the result has error bars, see help "tolerance"; progress =
--- true then tells every level.
+-- force keep that force; others keep their opening. With a table of quantities as tolerance
+-- the result has error bars, see help "tolerance"; progress = true then prints every level.
 function core.class.scene.settle(scene, args)
   process.guard "scene:settle"
   if not trust.wanted(args) then return settle(scene, args) end

@@ -14,11 +14,11 @@ rows.calls{
     example = 'scene:zone { name = "oven", shape = "box", size = { 1, 1, 1 }, temperature = 90 }' },
 }
 
-local AROUND = 24     -- points around a round zone that is drawn
-local PIECE = 0.5     -- half of the square that is drawn of a half space [m]
+local AROUND = 24     -- points around a drawn round zone
+local PIECE = 0.5     -- half the side of the square that is drawn of a half space [m]
 
--- What is drawn of a zone: its surface in its own axes, and where it is. on: { slot = of the obstacle that
--- it moves with, position =, rotation = in the axes of that }.
+-- Returns what is drawn of a zone: its surface in its own axes, and its place. on: { slot = of the obstacle
+-- that the zone moves with, position =, rotation = in that obstacle's axes }.
 local function look_of(args, name, shape, position, rotation, on)
   local surface
   if solid.flat(args) then
@@ -51,7 +51,7 @@ local function make(scene, args)
   return name
 end
 
---- A part of space that nothing touches: run:check tells how near wires came to it.
+--- Adds a part of space that nothing touches; run:check reports how near wires came to it.
 function core.class.scene.zone(scene, args)
   build.check(scene, "scene:zone", 3)
   return build.call(3, make, scene, args)

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Which method a search had better take, and how many evaluations: from what the parameters and constraints
--- are, and from what has been evaluated so far.
+--- Advises which method a search should use, and how many evaluations: from the parameters and constraints,
+-- and from the evaluations so far.
 --
--- What the evaluations tell: the share that failed; whether constraints have steps (a result of few values);
--- whether values are noisy, and whether a smooth surface goes through them: the part of the variance that a
--- quadratic polynomial leaves over. Which one: BOBYQA and COBYLA where it goes through; CMA-ES where it does
--- not, where much fails or a limit is a step; the simplex for one parameter.
+-- The evaluations show the share that failed; whether constraints have steps (a result with few values);
+-- whether values are noisy; and whether they are smooth: the part of the variance that a quadratic polynomial
+-- leaves over. BOBYQA and COBYLA suit smooth values; CMA-ES suits others, many failures, and limits with
+-- steps; the simplex suits one parameter.
 -- @module softworld.study.advise
 local checks = require "softworld.checks"
 local judge = require "softworld.study.judge"
@@ -17,16 +17,16 @@ local search = require "softworld.study.search"
 
 local advise = {}
 
-local MANY_FAIL = 0.05   -- share of evaluations
-local SMOOTH = 0.05      -- of the variance that a quadratic polynomial may leave over
-local FEW_VALUES = 4     -- of a result: it has steps
-local MOST_TERMS = 300   -- of a polynomial
+local MANY_FAIL = 0.05   -- share of evaluations that counts as many
+local SMOOTH = 0.05      -- largest part of the variance that a quadratic polynomial leaves over
+local FEW_VALUES = 4     -- a result with at most this many values has steps
+local MOST_TERMS = 300   -- most terms of a polynomial
 
 local function say(lines, text, ...) lines[#lines + 1] = text:format(...) end
 
 -- --- what there is --------------------------------------------------------------------------------
 
--- Do two evaluations of the same place differ?
+-- True if two evaluations of the same place differ.
 local function is_noisy(own, result, list)
   local seen = {}
   for _, record in ipairs(list) do
@@ -51,7 +51,7 @@ local function has_steps(list, name)
   return all > 5 * FEW_VALUES and count <= FEW_VALUES
 end
 
--- Share of the variance that a quadratic polynomial leaves over; nil where there are too few evaluations.
+-- Returns the share of the variance that a quadratic polynomial leaves over; nil with too few evaluations.
 local function left_over(own, result, good)
   local n = quadratic.count(#own.parameters)
   if #good < 2 * n or n > MOST_TERMS then return nil end
@@ -96,7 +96,7 @@ local function only_numbers(own)
   return true
 end
 
--- The method, and why.
+-- Returns the method, and why.
 local function choose(own, seen)
   local method, why = search.auto(own.parameters, #own.constraints, seen.noise)
   if seen.noise or #own.parameters == 1 or not only_numbers(own) then return method, why end
@@ -114,8 +114,9 @@ local function choose(own, seen)
   return judge.count_sides(own) > 0 and "cobyla" or "bobyqa", why
 end
 
--- Evaluations of a start. Bowls of 1 to 8 parameters took until 1e-4 of the ranges: simplex 24 to 420, BOBYQA
--- 9 to 29, COBYLA 20 to 166, CMA-ES 144 to 940, and of a crooked valley 3020. This is about twice as many.
+-- Evaluations of a start. To come within 1e-4 of the ranges, bowls of 1 to 8 parameters took: simplex 24 to
+-- 420, BOBYQA 9 to 29, COBYLA 20 to 166, CMA-ES 144 to 940; a crooked valley took 3020. This is about twice
+-- as many.
 local NEEDED = { simplex = function(n) return 50 * n ^ 1.4 end, bobyqa = function(n) return 20 * n end,
   cobyla = function(n) return 40 * n end, ["cma-es"] = function(n) return 400 * n end }
 
@@ -142,7 +143,7 @@ local function remarks(own, result, seen, lines)
   if not best then say(lines, "  no evaluation meets the constraints so far") end
 end
 
---- Advice on a search for the smallest value of a result.
+--- Returns advice on a search for the smallest value of a result.
 function advise.run(own, result)
   if type(result) ~= "string" then
     error(("study:advise: the name of a result is wanted, such as study:advise 'time', got %s"):format(

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- An evaluation of a study computed again in this process, with the same bits, to be looked at.
+--- Computes an evaluation of a study again in this process, with the same bits, so that one can look at it.
 -- @module softworld.study.again
 local build = require "softworld.scene.build"
 local campaign = require "softworld.study.campaign"
@@ -28,7 +28,7 @@ local function check(value, what)
     what, checks.got(value))
 end
 
---- The record that is meant by a row, or by number and part.
+--- Returns the record given by a row, or by number and part.
 function again.find(own, number, part)
   if type(number) == "table" then
     number, part = checks.field(number, "number"), checks.field(number, "part")
@@ -52,7 +52,7 @@ function again.find(own, number, part)
   return found
 end
 
--- f(...), and the last run of a scene within it.
+-- Calls f(...). Returns the last run of a scene within it, and the results.
 local function with_run(f, ...)
   local class, run = core.class.scene, nil
   local real = class.run
@@ -87,7 +87,7 @@ local function compare(own, record, status, text)
   end
 end
 
---- The same as study:again, without the place of the call in errors.
+--- Same as study:again, without the place of the call in errors.
 function again.compute(self, number, part)
   local own = sealed.fields(self)
   if own.busy then fail("study '%s': its evaluations cannot ask for more of them", own.name) end
@@ -106,7 +106,7 @@ function again.compute(self, number, part)
   return nil, run
 end
 
---- study:again(number, part): what evaluate returns, the last run; nil for the former when it fails.
+--- study:again(number, part): returns what evaluate returned (nil if it fails), and the last run.
 function again.again(self, number, part) return build.call(3, again.compute, self, number, part) end
 
 return again

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What lies around a minimum: second differences of the result say in which directions it is flat, and
--- the same place evaluated again, with other random numbers, says how noisy it is.
+--- Explores the surroundings of a minimum: second differences of the result show flat directions, and
+-- repeated evaluations of the same place, with other random numbers, show the noise.
 -- @module softworld.study.around
 local core = require "softworld.core"
 local judge = require "softworld.study.judge"
@@ -10,16 +10,16 @@ local parameters = require "softworld.study.parameters"
 local around = {}
 around.__index = around
 
-local STEP = 0.02     -- of a difference, as a share of the range
-local CROSSED = 10    -- parameters of which mixed differences are taken
-local REPEATS = 8     -- more of the same place, once a first one has shown noise
-local FLAT = 1e-4     -- of the strongest curvature: a flat direction has less
-local SAME = 1e-9     -- change of a value that is none, as a share of it
-local NEAR = 1e-3     -- of a limit: it is reached
+local STEP = 0.02     -- of a difference, over the range
+local CROSSED = 10    -- most parameters for mixed differences
+local REPEATS = 8     -- further evaluations of the same place, if the first one shows noise
+local FLAT = 1e-4     -- largest curvature of a flat direction over the strongest
+local SAME = 1e-9     -- relative change of a value that counts as none
+local NEAR = 1e-3     -- relative distance from a limit that counts as reached
 
 -- --- what is evaluated ---------------------------------------------------------------------------
 
--- The parameters that are moved: { index, place, two steps of the place in units of STEP }.
+-- Returns the parameters that are moved: { index, place, two steps of the place in units of STEP }.
 local function axes_of(own, values)
   local axes = {}
   for i, p in ipairs(own.parameters) do
@@ -60,15 +60,15 @@ local function plan(self)
   end
 end
 
---- So many evaluations are kept for it: where values are noisy a search takes all that it is given.
+--- Returns how many evaluations to keep for this; a search with noisy values uses up all it is given.
 function around.reserve(own, o)
   local n = #own.parameters
   local wanted = 1 + REPEATS + 2 * n + (n <= CROSSED and n * (n - 1) // 2 or 0)
   return o.around and o.noise and 4 * wanted <= o.evaluations and wanted or 0
 end
 
---- After all starts: o.around, o.evaluations; list of records so far; highest number of them; center: a place
--- to take instead of that of the best, where values are noisy.
+--- Called after all starts. o.around, o.evaluations; list: records so far; highest: their highest number;
+-- center: a place to use instead of the best one, for noisy values.
 function around.begin(own, result, o, list, highest, center)
   local self = setmetatable({ own = own, result = result, list = {}, at = 0, told = 0, highest = highest,
     got = {} }, around)
@@ -102,8 +102,8 @@ function around:done(record)
   repeat_it(self)
 end
 
---- Once all is known: the record that stands for the place, the best, or of a center the first that passes;
--- nil where less than half of them do.
+--- Returns the record that stands for the place, once all are known: the best, or for a center the first that
+-- passes; nil if less than half of them pass.
 function around:record()
   if not self.center then return self.best end
   local first, passed, count = nil, 0, 0
@@ -122,8 +122,8 @@ local function value_at(self, key)
   return record and record.results and judge.value(self.own, self.result, record)
 end
 
---- The noise at the best place: { mean =, error = standard error, deviation =, repeats =, failed =,
--- broken = }, nil where there is none.
+--- Returns the noise at the best place: { mean =, error = standard error, deviation =, repeats =, failed =,
+-- broken = }, or nil with fewer than two repeats.
 function around:noise()
   local values, n = {}, 0
   local noise = { repeats = 0, failed = 0, broken = 0 }
@@ -146,7 +146,7 @@ function around:noise()
   return noise
 end
 
--- Does the axis change neither the result nor a limit?
+-- True if the axis changes neither the result nor a limit.
 local function is_idle(self, i, center, borne)
   local sides, known = judge.sides(self.own, self:record()), false
   for k = 1, 2 do
@@ -164,7 +164,7 @@ local function is_idle(self, i, center, borne)
   return known
 end
 
--- Second differences over axes that are not idle, as a list of rows; nil where one is not known.
+-- Returns second differences over axes that are not idle, as a list of rows; nil if one is not known.
 local function curvature(self, list, center)
   local h = {}
   for r, i in ipairs(list) do
@@ -183,7 +183,7 @@ local function curvature(self, list, center)
   return h
 end
 
--- Is the best place away from all limits and bounds? Only there curvature is all that matters.
+-- True if the best place is away from all limits and bounds. Only there curvature alone decides.
 local function is_inside(self, list)
   for _, side in ipairs(judge.sides(self.own, self:record())) do
     if side > -NEAR then return false end
@@ -194,7 +194,8 @@ local function is_inside(self, list)
   return true
 end
 
---- Flat directions: a list of { name = share of its range, ... }, each of length 1; idle parameters first.
+--- Returns flat directions: a list of { name = share of its range, ... }, each of length 1; idle parameters
+-- first.
 function around:flat()
   local flat, rest = {}, {}
   if not self.best or self.told == 0 or not self:record() then return nil end

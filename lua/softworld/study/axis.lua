@@ -1,18 +1,18 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- One parameter of a study by itself: round values over its range and about the present one, the slope of
--- a result there with its error, and the search for where something begins to pass.
+--- Handles one parameter of a study alone: round values over its range and about the present one, the slope
+-- of a result with its error, and the search for the value from which something passes.
 -- @module softworld.study.axis
 local parameters = require "softworld.study.parameters"
 
 local axis = {}
 
-local STEP = 0.025 -- of a difference, as a share of the range [-]
-local FINE = 100   -- a round value is a multiple of a power of ten below this part of the range [-]
+local STEP = 0.025 -- of a difference, over the range [-]
+local FINE = 100   -- round values are multiples of a power of ten below this part of the range [-]
 local T = { 12.71, 4.30, 3.18, 2.78 } -- Student's factor of 95 % by degrees of freedom [-]
 
 -- --- values --------------------------------------------------------------------------------------
 
---- A value that people would write, near the given one, within the range.
+--- Returns a round value near the given one, within the range.
 function axis.round(p, value)
   if p.kind ~= "number" then return math.tointeger(math.max(p.low, math.min(p.high, value // 1))) end
   local size = p.log and math.abs(value) or p.high - p.low
@@ -21,7 +21,7 @@ function axis.round(p, value)
   return math.max(p.low, math.min(p.high, tonumber(text) + 0.0))
 end
 
---- So many round values over the range, its ends included, in their order; of choices all.
+--- Returns about `count` round values over the range, both ends included, in order; for choices all.
 function axis.scan(p, count)
   local list, seen = {}, {}
   if p.kind == "choice" then count = #p.choices end
@@ -34,7 +34,7 @@ function axis.scan(p, count)
   return list
 end
 
---- Values for differences about a value: four others, two on each side where the range has them.
+--- Returns values for differences about a value: four others, two on each side if the range has them.
 function axis.around(p, value)
   if p.kind == "choice" then return {} end
   local here, step, list, seen = parameters.place(p, value), STEP, {}, { [value] = true }
@@ -55,7 +55,7 @@ end
 
 -- --- slopes --------------------------------------------------------------------------------------
 
--- Solve a 3 by 3 system by elimination with pivots, for two right sides; nil where it has no solution.
+-- Solves a 3 by 3 system by elimination with pivots, for two right sides; nil if it has no solution.
 local function solve(a)
   for i = 1, 3 do
     local pivot = i
@@ -72,7 +72,8 @@ local function solve(a)
   return { a[1][4] / a[1][1], a[2][4] / a[2][2], a[3][4] / a[3][3] }, a[2][5] / a[2][2]
 end
 
--- Sums for the least squares of y = c1 + c2 x + c3 x^2; the last column gives the inverse's second one.
+-- Returns the sums for least squares of y = c1 + c2 x + c3 x^2; the last column gives the inverse's second
+-- one.
 local function normal_equations(points)
   local a = { { 0, 0, 0, 0, 0 }, { 0, 0, 0, 0, 1 }, { 0, 0, 0, 0, 0 } }
   for _, p in ipairs(points) do
@@ -84,8 +85,8 @@ local function normal_equations(points)
   return a
 end
 
---- The slope at x = 0 of the parabola that fits points { x, y } best, and by how much it may be off: by the
--- residuals (95 %) and by an error of each y. nil where there are less than 4 points.
+--- Returns the slope at x = 0 of the parabola that fits points { x, y } best, and its error from the
+-- residuals (95 %) and from an error of each y. nil with fewer than 4 points.
 function axis.slope(points, error_of_y)
   if #points < 4 then return nil end
   local size = 0
@@ -103,8 +104,8 @@ end
 
 -- --- where it begins to pass ---------------------------------------------------------------------
 
---- The next value of a hunt { bad =, good = }, both { value =, lacks = what it lacks, below 0 what it has
--- left, or nil }; nil where they are as near as is wanted. By turns where the line between them passes, and
+--- Returns the next value of a hunt { bad =, good = }, each { value =, lacks = what it lacks (below 0: what
+-- it has to spare), or nil }; nil if the two are near enough. It alternates between linear interpolation and
 -- the middle.
 function axis.between(p, hunt)
   if p.kind == "choice" then return nil end

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Job arrays of a study: what is to be sent in tasks, and what has been sent before this process.
+--- Job arrays of a study: what to send in tasks, and what earlier processes have sent.
 --
--- A run, of one part of a study: own, name (of the part), needed (by number the tasks that have no result),
--- left (how many), waiting (those to be sent), sends (arrays that were sent: folder, job, id, tasks, open
+-- A run, of one part of a study: own, name (of the part), needed (tasks without a result, by number),
+-- left (their count), waiting (tasks to be sent), sends (arrays already sent: folder, job, id, tasks, open
 -- and missed by number), per (evaluations in a task), options (of sbatch). A task: number, word, values,
--- tries (how often it was sent), send and k where it is, per where it is sent again.
+-- tries (how often it was sent), send and k (where it is), per (for sending it again).
 -- @module softworld.study.batch
 local core = require "softworld.core"
 local sends = require "softworld.study.sends"
@@ -13,11 +13,11 @@ local slurm = require "softworld.study.slurm"
 
 local batch = {}
 
-local AGAIN = 5 -- after Slurm had no room [s]
+local AGAIN = 5 -- wait after Slurm had no room [s]
 
 local function fail(text, ...) error(text:format(...), 0) end
 
---- Tell the user.
+--- Prints a message for the user.
 function batch.say(own, text, ...)
   if own.bar then own.bar:clear() end
   io.stderr:write(("study '%s': %s\n"):format(own.name, text:format(...)))
@@ -30,7 +30,7 @@ local say, plural = batch.say, batch.plural
 
 -- --- sending ----------------------------------------------------------------------------------------
 
--- Tasks in lists of so many, those that are sent again in smaller ones.
+-- Returns the tasks in lists of run.per, or of task.per for those that are sent again.
 local function chunks(run, tasks)
   local lists, list, most = {}, nil, nil
   for _, task in ipairs(tasks) do
@@ -53,7 +53,7 @@ local function job_script(folder)
     sink.quote(here), sink.quote(folder), table.concat(words, " "))
 end
 
--- One array: true, or false where there is no room now.
+-- Sends one array. Returns true, or false if Slurm has no room at the moment.
 local function send_array(run, lists)
   local own, root = run.own, sends.folder(run.own.file)
   run.last = run.last + 1
@@ -87,7 +87,7 @@ local function send_array(run, lists)
   return true
 end
 
---- Send what waits, in arrays of the largest length at most.
+--- Sends the waiting tasks, in arrays of at most the largest allowed length.
 function batch.send(run)
   if #run.waiting == 0 or run.full and core.clock() - run.full < AGAIN then return end
   run.largest = run.largest or slurm.largest(run.own.name)
@@ -104,12 +104,12 @@ function batch.send(run)
     say(run.own, "%s sent to Slurm, job%s %s", plural(tasks, "task"), #ids == 1 and "" or "s",
       table.concat(ids, " "))
   end
-  run.asked, run.calm = core.clock(), 0 -- soon there is something to be seen
+  run.asked, run.calm = core.clock(), 0 -- results will come soon
 end
 
 -- --- what is there from before ------------------------------------------------------------------------
 
---- Take over what has been sent of this part: tasks of the list fresh that are there wait for their result.
+--- Takes over what has been sent of this part: tasks in `fresh` that were sent already wait for their result.
 function batch.adopt(run, fresh)
   local own, others = run.own, 0
   for _, number in ipairs(sends.numbers(own.file)) do

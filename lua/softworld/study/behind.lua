@@ -1,22 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Rows behind parameters of a study: { 0.1, 1, of = "obstacle.friction" } has the row's unit, and its range
--- is checked against what the row allows; { of = "obstacle.friction" } takes that range.
+--- Rows behind parameters of a study: { 0.1, 1, of = "obstacle.friction" } takes the row's unit and checks
+-- its range against the row; { of = "obstacle.friction" } also takes the row's range.
 -- @module softworld.study.behind
 local checks = require "softworld.checks"
 local core = require "softworld.core"
 
 local behind = {}
 
-local WIDEST = 1e3 -- beyond it an end is one of what can be computed, not of what is looked for
+local WIDEST = 1e3 -- largest end of a range that is taken; larger ones only limit what can be computed
 local FAMILIES = { "holds", "shapes", "forces" }
 
 local function fail(text, ...) error(text:format(...), 0) end
 
--- All tables of rows by the name of what takes them.
+-- Returns all tables of rows by the name of their call or object.
 local function groups()
   local r, list = core.registry(), {}
   for name, rows in pairs(r.params) do list[name] = rows end
-  local wire = table.move(list.wire, 1, #list.wire, 1, {}) -- what it is made of too
+  local wire = table.move(list.wire, 1, #list.wire, 1, {}) -- with its section
   list.wire = table.move(list.section, 1, #list.section, #wire + 1, wire)
   for _, family in ipairs(FAMILIES) do
     for _, entry in ipairs(r[family]) do list[entry.name] = list[entry.name] or entry.params end
@@ -57,7 +57,7 @@ local function range(row)
 end
 
 local function is_inside(row, value)
-  if type(value) ~= "number" then return true end -- told elsewhere
+  if type(value) ~= "number" then return true end -- reported elsewhere
   if row.min and (value < row.min or row.above and value == row.min) then return false end
   return not (row.max and (value > row.max or row.below and value == row.max))
 end
@@ -69,7 +69,7 @@ local function has_ends(row)
   return not (row.above or row.below)
 end
 
---- A copy of a parameter as a script wrote it, with what its row tells; the same when it names none.
+--- Returns a copy of a parameter with the data of its row; a parameter without `of` is returned itself.
 function behind.read(what, given)
   if given.of == nil then return given end
   local row, copy = row_of(what, given.of), {}

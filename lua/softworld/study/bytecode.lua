@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A function's compiled code without the numbers of its lines, which string.dump writes even where it leaves
--- everything else of the source away: moved within its file it is the same. Format: lundump.c of Lua 5.4.
+--- Returns a function's compiled code without line numbers. string.dump keeps them even when stripped;
+-- without them a function moved within its file stays the same. Format: lundump.c of Lua 5.4.
 -- @module softworld.study.bytecode
-local START = "\27Lua\x54\0\x19\x93\r\n\x1a\n\4\8\8" -- of what is read here
-local HEADER = #START + 8 + 8 + 1 -- with an integer, a number, the count of upvalues [B]
+local START = "\27Lua\x54\0\x19\x93\r\n\x1a\n\4\8\8" -- of the format read here
+local HEADER = #START + 8 + 8 + 1 -- followed by an integer, a number, the count of upvalues [B]
 
-local SIZES = { [0x03] = 8, [0x13] = 8 } -- of constants: integer, number
+local SIZES = { [0x03] = 8, [0x13] = 8 } -- of constants: integer, number [B]
 local TEXTS = { [0x04] = true, [0x14] = true }
 
--- A number of seven bits a byte, the last one marked; and the place after it.
+-- Reads a number of seven bits per byte with the last byte marked. Returns it and the position after it.
 local function number_at(code, at)
   local value = 0
   while true do
@@ -34,22 +34,22 @@ local function constants_after(code, at)
 end
 
 local function function_after(code, at, parts)
-  at = text_after(code, at) -- its source: nothing
+  at = text_after(code, at) -- its source, empty
   local count, first
-  for _ = 1, 2 do at = select(2, number_at(code, at)) end -- its first and last line
+  for _ = 1, 2 do at = select(2, number_at(code, at)) end -- first and last line
   first = at
-  count, at = number_at(code, at + 3) -- after three bytes on its frame
+  count, at = number_at(code, at + 3) -- after three bytes about its frame
   at = constants_after(code, at + 4 * count)
   count, at = number_at(code, at)
   at = at + 3 * count -- upvalues
   count, at = number_at(code, at)
   parts[#parts + 1] = code:sub(first, at - 1)
   for _ = 1, count do at = function_after(code, at, parts) end
-  for _ = 1, 4 do at = select(2, number_at(code, at)) end -- what is left away
+  for _ = 1, 4 do at = select(2, number_at(code, at)) end -- stripped parts
   return at
 end
 
---- The code of a Lua function as text; of another version of Lua with its lines.
+--- Returns the code of a Lua function as text; with line numbers for other versions of Lua.
 return function(f)
   local code = string.dump(f, true)
   if code:sub(1, #START) ~= START then return code end

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- All evaluations of one sweep, search or spread: those that the journal has are taken from there, the
--- others are computed by workers and put down.
+--- Runs all evaluations of one sweep, search or spread: it takes those in the journal from there; workers
+-- compute the others, which are added to the journal.
 --
 -- A record: { part =, number =, values =, results = { name = number } or nil, failed = reason, machine = true
--- where the machine and not the model failed }.
+-- if the machine failed, not the model }.
 -- @module softworld.study.campaign
 local checks = require "softworld.checks"
 local cluster = require "softworld.study.cluster"
@@ -24,7 +24,7 @@ local function finite(text)
   return x and x - x == 0 and x + 0.0 or nil
 end
 
--- "time=1.5 margin=0.25" as a table; nil where it is anything else.
+-- Reads "time=1.5 margin=0.25" as a table; nil for anything else.
 local function results_of(text)
   local results, left = {}, text
   while left ~= "" do
@@ -36,7 +36,7 @@ local function results_of(text)
   return next(results) and results
 end
 
---- A record out of a line: status "ok" and results as text, or another one and a reason. nil: it is none.
+--- Makes a record from a line: status "ok" and results as text, or another status and a reason. nil: invalid.
 function campaign.record(part, number, values, status, rest)
   local r = { part = part, number = number, values = values }
   if status == "ok" then
@@ -47,21 +47,21 @@ function campaign.record(part, number, values, status, rest)
   return r
 end
 
--- Has this line been computed for good? What the machine did is computed again, unless by these limits.
+-- True if the line is final. Failures of the machine are computed again, unless due to the present limits.
 local function stands(own, status, rest)
   if status ~= "machine" then return true end
   return own.cpu and rest == pool.cpu_reason(own.cpu)
     or own.memory and rest == evaluation.memory_reason(own.memory)
 end
 
---- What setup builds, once, when something is to be computed.
+--- Calls setup once, when something must be computed.
 function campaign.build(own)
   if own.built then return end
   own.built = own.setup and table.pack(own.setup()) or table.pack()
   evaluation.keep(own)
 end
 
--- What is left to do: an iterator over tasks; those in the journal are done at once.
+-- Returns an iterator over the tasks left to do; those in the journal are done at once.
 local function tasks(own, part, source, done)
   return function()
     while true do
@@ -81,7 +81,7 @@ end
 
 local function keep(own, part, task, status, rest, done)
   if status == "mistake" then
-    if task.number == 1 then error(rest, 0) end -- all the others would fail alike
+    if task.number == 1 then error(rest, 0) end -- all others would fail alike
     status = "failed"
   end
   own.journal:add(part, task.number, task.word, status, rest)
@@ -89,7 +89,7 @@ local function keep(own, part, task, status, rest, done)
   done(campaign.record(part, task.number, task.values, status, rest))
 end
 
--- Within this process: one after the other.
+-- Computes within this process, one task after the other.
 local function here(own, part, next_task, done)
   local again, more = math.random(0), math.random(0)
   local fine, why = pcall(function()
@@ -119,7 +119,7 @@ local function by_workers(own, part, count, next_task, done)
   }
 end
 
--- The first task is needed to know whether there is something to build.
+-- Computes the tasks. The first one shows whether anything must be built.
 local function compute(own, part, options, source, done)
   local next_task = tasks(own, part, source, done)
   local first = next_task()
@@ -153,8 +153,8 @@ local function bar_of(own, method, options, source)
     most = source.count == nil, result = method:match "^minimise (.*)$" })
 end
 
---- Evaluate all that source.next() gives: number, values; nil when there is none now. source.done(record)
--- hears what came of each. The part's records by number.
+--- Evaluates everything that source.next() gives: number, values; nil if there is none at the moment.
+-- source.done(record) gets each result. Returns the part's records by number.
 function campaign.run(own, method, options, source)
   if own.busy then error(("study '%s': its evaluations cannot ask for more of them"):format(own.name), 0) end
   local name, part, records = parts.name(own, method, options), nil, {}
@@ -179,7 +179,7 @@ function campaign.run(own, method, options, source)
   own.journal:close()
   cluster.release(own, own.hold)
   if fine then return records end
-  if part then parts.leave(own, name) end -- asked for again it goes on
+  if part then parts.leave(own, name) end -- if asked for again, it goes on
   if checks.is_interrupt(why) then own.interrupted() end
   error(why, 0)
 end

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- study:change: what to change so that rows of a check pass that do not, or hardly. See help "change".
+--- study:change: finds what to change so that failing or barely passing rows of a check pass. See help
+-- "change".
 -- @module softworld.study.change
 local build = require "softworld.scene.build"
 local campaign = require "softworld.study.campaign"
@@ -53,7 +54,7 @@ local function value_of(p, given)
   return math.tointeger(given) or fail("at: %s = %.9g is no integer", p.name, given)
 end
 
--- The present values, by the parameters' numbers. at may be a row of the table, with results.
+-- Returns the present values by the parameters' numbers. at may be a row of the table, with results.
 local function present(own, at)
   local values = {}
   for name in pairs(at or {}) do
@@ -70,7 +71,7 @@ local function present(own, at)
   return values
 end
 
--- The check of the present values: made here, for names, units and limits.
+-- Returns the check of the present values; it is made here for names, units and limits.
 local function present_check(own, values)
   campaign.build(own)
   own.busy = true
@@ -94,7 +95,7 @@ local function is_wanting(row, reserve)
   return row.verdict ~= "PASS" or row.margin ~= nil and row.margin < floor_of(row, reserve)
 end
 
--- Nothing is judged there: no limit, or nothing to measure.
+-- True for a row without judgement: it has no limit, or nothing to measure.
 local function is_hopeless(row) return row.verdict == "OPEN" and row.margin == nil end
 
 local function by_names(keys, names)
@@ -115,7 +116,7 @@ local function by_names(keys, names)
   return wanted
 end
 
--- Targets, and what is to be known of all rows.
+-- Returns the targets, and what must be known of all rows.
 local function targets_of(keys, o)
   local targets, hopeless, names = {}, {}, {}
   local wanted = o.rows and by_names(keys, o.rows)
@@ -138,7 +139,7 @@ end
 
 -- --- doing it ------------------------------------------------------------------------------------------
 
--- Evaluations that the coroutine asks for, one list after the other.
+-- Returns the source of the evaluations that the coroutine asks for, one list after the other.
 local function source_of(self, thread)
   local list, at, told, numbers, highest = {}, 0, 0, {}, 0
   local function resume(...)

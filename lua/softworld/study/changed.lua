@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What study:change gives: for each row that is to pass, what each parameter does for it.
+--- The result of study:change: for each row that should pass, the effect of each parameter on it.
 -- @module softworld.study.changed
 local cells = require "softworld.check.cells"
 local checks = require "softworld.checks"
@@ -23,7 +23,7 @@ local function shown(p, value)
   return cells.number(value, p.unit or "-")
 end
 
--- A round part of a range, about a tenth, by which a slope is told; of a logarithmic one of the value.
+-- Returns a round step in which a slope is given, about a tenth of the range; for log ranges of the value.
 local function round_part(p, from)
   return 10.0 ^ math.floor(math.log((p.log and from or p.high - p.low) / 5, 10))
 end
@@ -105,7 +105,7 @@ local function text_of(c, list, together)
   return table.concat(lines, "\n")
 end
 
-local texts = setmetatable({}, { __mode = "k" }) -- of what was found
+local texts = setmetatable({}, { __mode = "k" }) -- result -> its text
 
 function Changed.__tostring(c) return texts[c] end
 
@@ -117,8 +117,8 @@ local function size_of(found)
   return math.abs(parameters.place(p, found.to) - parameters.place(p, found.from))
 end
 
--- What was found of one target: the row's fields and a list of parameters, those that mend it first, the
--- least change before others.
+-- Returns the row of one target: its fields and a list of parameters, those that mend it first, by rising
+-- change.
 local function row_of(one)
   local row = { parameters = one.parameters, mended = false, all = one.target.all or false,
     passes = one.target.passes or false }
@@ -137,7 +137,7 @@ local function row_of(one)
   return row
 end
 
--- The least change after which all rows pass.
+-- Returns the least change after which all rows pass.
 local function least(list)
   local best
   for _, row in ipairs(list) do
@@ -159,7 +159,7 @@ local function reason_of(list, best)
   return "no parameter alone mends all rows"
 end
 
--- The parameters by name, as evaluate takes them.
+-- Returns the parameters by name, as evaluate takes them.
 local function by_name(work, best)
   local values, from = {}, work.together and work.together.values or work.values
   for i, p in ipairs(work.own.parameters) do
@@ -169,7 +169,7 @@ local function by_name(work, best)
   return values
 end
 
--- Several changes in words.
+-- Returns several changes in words.
 local function several_of(work)
   local moves = {}
   for i, p in ipairs(work.own.parameters) do
@@ -179,7 +179,7 @@ local function several_of(work)
   return #moves > 0 and table.concat(moves, " and ") or nil
 end
 
--- What scripts see of it.
+-- Fields that scripts see.
 local SEEN = { "name", "unit", "status", "value", "margin", "gain", "slope", "slope_error", "breaks",
   "all_pass", "evaluation", "part" }
 
@@ -195,7 +195,7 @@ local function public(list)
   return list
 end
 
---- Of what changing.run found. check: of the present parameters.
+--- Makes the result from what changing.run found. check: of the present parameters.
 function changed.new(work, check, o)
   local list = {}
   for i, one in ipairs(work.answer or {}) do list[i] = row_of(one) end

@@ -1,20 +1,20 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Which change of one parameter mends a row of a check: each parameter is looked at over its whole range
--- and closely about its present value, then the least change that passes is hunted down. Whatever is said was
--- run.
+--- Finds which change of one parameter mends a row of a check. Each parameter is scanned over its whole range
+-- and closely about its present value; then the least change that passes is narrowed down. Every reported
+-- value was run.
 --
--- A target: { key =, row =, floor = least margin wanted, passes = has it that already }, or { all = true }:
--- every row. What is asked for are lists of values, by coroutine.yield, which gives their records.
+-- A target: { key =, row =, floor = least margin wanted, passes = true if it has it already }, or { all =
+-- true }: every row. Lists of values are requested by coroutine.yield, which returns their records.
 -- @module softworld.study.changing
 local axis = require "softworld.study.axis"
 local parameters = require "softworld.study.parameters"
 
 local changing = {}
 
-local ROUNDS = 8 -- of a hunt
-local AGAIN = 2  -- more runs of what is said, where values are noisy
-local FARTHER = { 1, 1.25, 1.5, 2 } -- times the changes that mend one row each, made together
-local LITTLE = 0.01 -- of what is lacking: a gain below it is none [-]
+local ROUNDS = 8 -- most rounds of a hunt
+local AGAIN = 2  -- repeats of reported values, if values are noisy
+local FARTHER = { 1, 1.25, 1.5, 2 } -- factors on the single changes when they are made together
+local LITTLE = 0.01 -- a gain below this share of what is lacking counts as none [-]
 
 -- --- one record ------------------------------------------------------------------------------------
 
@@ -22,7 +22,7 @@ local function margin_of(target, record) return record.results and record.result
 
 local function error_of(target, record) return record.results[target.key .. "_error"] or 0 end
 
--- What a margin lacks to what is wanted; nil where there is none.
+-- Returns what a margin lacks to the wanted one; nil without a margin.
 local function lacks(target, record)
   local margin = not target.all and margin_of(target, record)
   return margin and target.floor + error_of(target, record) - margin or nil
@@ -34,7 +34,7 @@ local function row_passes(target, record)
   return margin == nil or margin >= target.floor
 end
 
--- Do all rows pass, but those that no parameter can help?
+-- True if all rows pass, except those that no parameter can help.
 local function all_pass(self, record)
   for _, target in ipairs(self.targets) do
     if not target.all and not row_passes(target, record) then return false end
@@ -52,7 +52,7 @@ local function passes(self, target, record)
   return row_passes(target, record)
 end
 
--- Rows whose verdict is worse than now, by their names.
+-- Returns the names of rows whose verdict is worse than at present.
 local function broken(self, record)
   local list, now = {}, self.now.results
   for name, value in pairs(record.results) do
@@ -71,7 +71,7 @@ local function moved(self, i, value)
   return values
 end
 
--- The records of lists of values; what was asked for before is known.
+-- Returns the records of lists of values; each is evaluated only once.
 local function ask(self, list)
   local new, words = {}, {}
   for k, values in ipairs(list) do
@@ -86,7 +86,7 @@ local function ask(self, list)
   return words
 end
 
--- The whole of each range, and closely about the present value: lists of records by parameter, sorted.
+-- Scans each range, and closely about the present value: sets lists of records by parameter, sorted.
 local function look(self)
   local list, at = {}, {}
   for i, p in ipairs(self.own.parameters) do
@@ -116,7 +116,8 @@ local function end_of(target, i, record)
   return { value = record.values[i], lacks = record.results and lacks(target, record), record = record }
 end
 
--- From the present value outwards, the first that passes, with the one before it.
+-- Searches from the present value outwards. Returns the first value that passes with the one before it, or
+-- nil.
 local function hunt_of(self, target, i, by)
   local line, k = self.lines[i], 1
   while line[k] ~= self.now do k = k + 1 end
@@ -132,7 +133,7 @@ local function hunt_of(self, target, i, by)
   end
 end
 
--- How large a change is, as a share of the range.
+-- Returns the size of a change over the range.
 local function size_of(self, hunt)
   local p = self.own.parameters[hunt.index]
   if p.kind == "choice" then return 1 end
@@ -172,7 +173,7 @@ local function narrow(self, hunts)
   end
 end
 
--- Where values are noisy what passed once is run again, with other random numbers.
+-- If values are noisy, runs what passed once again, with other random numbers.
 local function confirm(self, hunts)
   if not self.noisy then return end
   local list = {}
@@ -188,7 +189,7 @@ local function confirm(self, hunts)
   end
 end
 
--- The nearest hunt of each row that is wanting; nil where one has none.
+-- Returns the nearest hunt of each failing row; nil if a row has none.
 local function one_of_each(self, hunts)
   local list = {}
   for _, target in ipairs(self.targets) do
@@ -203,8 +204,8 @@ local function one_of_each(self, hunts)
   return list
 end
 
--- Changes of several parameters so many times as far; nil where they are of less than two, or against each
--- other.
+-- Returns the values with several changes made `times` as far; nil if they concern fewer than two parameters,
+-- or contradict each other.
 local function several(self, chosen, times)
   local values, count = table.move(self.values, 1, #self.values, 1, {}), 0
   for _, hunt in ipairs(chosen) do
@@ -232,8 +233,8 @@ local function stands(self, record)
   return true
 end
 
--- Where no change mends all rows: those that mend one each, made together, and somewhat farther, since one
--- may work against the other. The record, where all rows pass then; false where none does.
+-- If no single change mends all rows: combines changes that mend one row each, also somewhat farther, since
+-- one may work against another. Returns the record in which all rows pass, or false.
 local function together(self, hunts)
   for _, hunt in ipairs(hunts) do
     if not hunt.unsure and all_pass(self, hunt.good.record) then return nil end
@@ -249,7 +250,7 @@ end
 
 -- --- what it comes to ------------------------------------------------------------------------------
 
--- How far the same parameters gave other margins.
+-- Returns the difference of the margins of two runs with the same parameters.
 local function noise_of(self, target)
   local a, b = margin_of(target, self.now), margin_of(target, self.again)
   return a and b and math.abs(a - b) or 0
@@ -270,7 +271,7 @@ local function slope_of(self, target, i, noise)
   return { slope = slope / each, slope_error = doubt / each, deviation = deviation }
 end
 
--- The largest margin of a parameter's line.
+-- Returns the record with the largest margin in a parameter's line.
 local function best_of(self, target, i)
   local best
   for _, record in ipairs(self.lines[i]) do
@@ -338,10 +339,10 @@ local function is_noisy(one, other)
   return one.results == nil or other.results == nil
 end
 
---- Go through it; within a coroutine. self: own (of the study), values (present), targets, count (of values
--- looked at in each range), hopeless (keys of rows that nothing can help), names (of rows by key). Gives a
--- list of { target =, parameters = { what was found } }; in self.together the record of changes of several
--- parameters that mend all.
+--- Runs the whole search; call it within a coroutine. self: own (of the study), values (present), targets,
+-- count (of values scanned in each range), hopeless (keys of rows that nothing can help), names (of rows by
+-- key). Returns a list of { target =, parameters = { what was found } }; self.together is the record of
+-- changes of several parameters that mend all rows.
 function changing.run(self)
   local first = coroutine.yield{ self.values, self.values }
   self.now, self.again, self.known = first[1], first[2], { [parameters.word(self.values)] = first[1] }

@@ -10,10 +10,10 @@ local chart = {}
 
 chart.names = { "points", "cross", "convergence", "histogram", "tornado", "front" }
 
---- The kind of a name.
+--- Returns the kind with this name.
 function chart.of(name) return require("softworld.study.chart." .. name) end
 
---- Name and unit of a parameter or a result, as an axis has them.
+--- Returns name and unit of a parameter or a result, for an axis.
 function chart.label(own, name)
   local p, unit = own.by_name[name], nil
   if p then unit = p.unit end
@@ -23,7 +23,7 @@ function chart.label(own, name)
   return unit and unit ~= "-" and unit ~= "" and ("%s [%s]"):format(name, unit) or name
 end
 
---- The axes that are logarithmic: as told, else by the parameters.
+--- Returns the logarithmic axes: as given, else by the parameters.
 function chart.log(own, o, x, y)
   if o.log then return o.log end
   local axes = ""
@@ -32,7 +32,7 @@ function chart.log(own, o, x, y)
   return axes ~= "" and axes or nil
 end
 
---- Points of x over y, those that meet the constraints apart from the others: a list of curves of sw.plot.
+--- Returns points of x over y as curves of sw.plot, those that meet the constraints apart from the others.
 function chart.points(own, x, y, list)
   local met, broken = { x = {}, y = {}, style = "points" }, { x = {}, y = {}, style = "points" }
   for _, record in ipairs(list) do
@@ -48,7 +48,7 @@ function chart.points(own, x, y, list)
   return curves
 end
 
---- Width and height as gnuplot wants them, of so many pixels: of .pdf inches, in characters 79 by 24.
+--- Returns width and height for gnuplot from a size in pixels: inches for .pdf, 79 by 24 for characters.
 function chart.size(o, width, height)
   if not o.path then return { 79, 24 } end
   if o.path:lower():find "%.pdf$" then return { width / 96, height / 96 } end
@@ -76,7 +76,7 @@ local function check_names(own, o, list)
   end
 end
 
---- Draw; o: kind, x, y, part, path, log.
+--- Draws a chart; o: kind, x, y, part, path, log.
 function chart.draw(own, o)
   if o.part and not own.asked[o.part] and not own.journal.parts[o.part] then
     error(("study:chart: there is no part %d; print(study) numbers them"):format(o.part), 0)

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Evaluations of a study on a cluster: sent as job arrays of Slurm, many in a task, and collected from the
--- files that the tasks leave. Which are lost is seen by what is missing when Slurm says that a task is over,
--- or knows nothing of it: they are sent again, in smaller tasks, twice at most. What has been sent is known
--- from files alone, so any process may go on with it.
+-- files that the tasks leave. If Slurm says that a task is over, or does not know it, its missing results are
+-- lost: these evaluations are sent again, in smaller tasks, twice at most. Files alone record what has been
+-- sent, so any process can continue.
 -- @module softworld.study.cluster
 local batch = require "softworld.study.batch"
 local core = require "softworld.core"
@@ -14,9 +14,9 @@ local slurm = require "softworld.study.slurm"
 
 local cluster = {}
 
-local SECONDS = 30 -- computing time of a task [s]
-local WORTH = 2    -- rounds of a search are sent when they would take so many tasks' time here
-local NAP, LONG_NAP = 0.1, 2 -- between two looks for results [s]
+local SECONDS = 30 -- target computing time of a task [s]
+local WORTH = 2    -- rounds of a search are sent if computing them here would take this many tasks' time
+local NAP, LONG_NAP = 0.1, 2 -- shortest and longest time between two looks for results [s]
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -32,7 +32,7 @@ end
 
 local function cancel_file(own) return sends.folder(own.file) .. "/cancel" end
 
--- Tasks that nobody collects while it is computed here.
+-- Reports tasks that nobody collects while this process computes here.
 local function tell_of_tasks(own)
   local count = 0
   for _, number in ipairs(sends.numbers(own.file)) do
@@ -45,7 +45,8 @@ local function tell_of_tasks(own)
     plural(count, "job"))
 end
 
---- Before a study is worked on: nobody else does. What release() gets; nil where no cluster is in it.
+--- Called before work on a study; makes this process the only one. Returns what release() takes; nil without
+-- a cluster.
 function cluster.claim(own)
   if not own.file then
     if own.on == "slurm" then
@@ -66,11 +67,11 @@ function cluster.claim(own)
   return hold
 end
 
---- Afterwards.
+--- Called after the work.
 function cluster.release(own, hold)
   if not hold then return end
   hold:release()
-  os.remove(sends.folder(own.file)) -- if nothing is in it
+  os.remove(sends.folder(own.file)) -- works only if it is empty
 end
 
 local function open_tasks(run)
@@ -90,7 +91,7 @@ local function detach(run)
     .. "study:cancel() to end them", run.own.name, plural(count, "task"), ids)
 end
 
--- Until nothing is left.
+-- Waits until nothing is left.
 local function wait(run)
   run.asked, run.calm = core.clock(), 0
   local nap = NAP
@@ -111,7 +112,7 @@ end
 
 -- --- a part ---------------------------------------------------------------------------------------------
 
--- All that can be done now.
+-- Returns all tasks that can be done at the moment.
 local function ask(run)
   local fresh, list = {}, {}
   for task in run.next do
@@ -122,7 +123,8 @@ local function ask(run)
   return list
 end
 
--- The first is computed here: a mistake is told at once, and how long it takes says how many make a task.
+-- Computes the first task here. This shows a mistake at once, and its time gives the number of evaluations in
+-- a task.
 local function first_here(run, list)
   if run.each or #list == 0 then return end
   local task, started = table.remove(list, 1), core.clock()
@@ -146,7 +148,7 @@ local function send_all(run, list)
   wait(run)
 end
 
--- Sends of this part are done with: their files go, unless somebody will want to see why tasks were lost.
+-- Removes the files of this part's sends, but keeps logs if tasks were lost.
 local function tidy(run)
   for _, send in ipairs(run.sends) do
     if run.kept_logs then
@@ -193,7 +195,7 @@ local function cancel(run)
   slurm.cancel(jobs)
 end
 
--- Ctrl-C: do tasks go on?
+-- After Ctrl-C: asks whether tasks go on, or cancels them.
 local function leave(run)
   local count, ids = open_tasks(run)
   if count == 0 then return end
@@ -211,9 +213,9 @@ local function leave(run)
   say(run.own, "%s cancelled (job %s)", plural(count, "task"), ids)
 end
 
---- Compute what next() gives, tasks { number =, values =, word = }, on the cluster; keep(task, status, rest)
--- for each. about: name of the part; whole: all come at once (else it is a search, whose rounds are sent
--- when they are worth it); here(next): compute in this process's workers, so many workers.
+--- Computes what next() gives, tasks { number =, values =, word = }, on the cluster; calls keep(task, status,
+-- rest) for each. about: name of the part; whole: all tasks come at once (else it is a search, whose rounds
+-- are sent if worth it); here(next): computes in this process's workers; workers: their number.
 function cluster.run(own, about)
   slurm.need(own.name)
   if not arg or not arg[-1] or not arg[0] or core.kind(arg[0]) ~= "file" then
@@ -228,8 +230,8 @@ function cluster.run(own, about)
   error(why, 0)
 end
 
---- Nothing is left to be computed of a part: what was sent of it, and not taken away by a process that was
--- killed, goes.
+--- Called when nothing is left to compute of a part: removes what was sent of it and left by a process that
+-- was killed.
 function cluster.done(own, name)
   if not own.hold then return end
   local jobs, folders = {}, {}
@@ -244,7 +246,7 @@ function cluster.done(own, name)
   for _, folder in ipairs(folders) do sends.remove(folder) end
 end
 
---- Cancel all that a study has sent, from whatever process: how many tasks were left.
+--- Cancels everything that a study has sent, from any process. Returns how many tasks were left.
 function cluster.cancel(own)
   local run, count = { sends = {} }, 0
   if not own.file or own.task then return 0 end

@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Places of the parameters' values for sweeps: on a grid, or so many that fill the ranges evenly.
+--- Places of the parameters' values for sweeps: on a grid, or points that fill the ranges evenly.
 -- @module softworld.study.design
 local core = require "softworld.core"
 local parameters = require "softworld.study.parameters"
 
 local design = {}
 
-local MOST = 10000000 -- evaluations of one sweep
+local MOST = 10000000 -- most evaluations of one sweep
 
 local function fail(text, ...) error(text:format(...), 0) end
 
--- How many values of a grid each parameter has.
+-- Returns how many values of a grid each parameter has.
 local function counts(list, what, grid, count)
   local each = {}
   for i, p in ipairs(list) do
@@ -29,7 +29,7 @@ local function counts(list, what, grid, count)
   return each
 end
 
--- The k-th of n values of a range, ends included; of one value the middle, or the start.
+-- Returns the k-th of n values of a range, ends included; of a single value the middle, or the start.
 local function on_grid(p, k, n)
   if p.kind == "choice" then return k + 1 end
   if n == 1 then return p.start or parameters.at(p, 0.5) end
@@ -39,7 +39,7 @@ local function on_grid(p, k, n)
   return parameters.at(p, k / (n - 1))
 end
 
---- A grid: how many, and a function from the number to its values. The last parameter changes first.
+--- Returns a grid: its size, and a function from the number to the values. The last parameter changes first.
 function design.grid(list, what, grid, count)
   if type(grid) == "table" then
     local names = {}
@@ -67,7 +67,7 @@ function design.grid(list, what, grid, count)
   end
 end
 
--- Random numbers of their own: xorshift64* (S. Vigna, An experimental exploration of Marsaglia's xorshift
+-- Returns a generator of its own: xorshift64* (S. Vigna, An experimental exploration of Marsaglia's xorshift
 -- generators, scrambled, 2016).
 local function generator(...)
   local state = 0
@@ -84,12 +84,13 @@ local function generator(...)
 end
 design.generator = generator
 
---- A normal number of mean 0 and deviation 1 by a function that gives even ones (Box and Muller 1958).
+--- Returns a normal number with mean 0 and deviation 1, from a function for uniform ones (Box and Muller
+-- 1958).
 function design.normal(random)
   return math.sqrt(-2 * math.log(1 - random())) * math.cos(2 * math.pi * random())
 end
 
---- Where so many searches begin: at the parameters' start or in the middle, then at points of Halton's
+--- Returns the starts of `count` searches: the parameters' start or the middle, then points of Halton's
 -- sequence; a list of lists of places.
 function design.starts(list, count)
   local n, all = #list, { {} }
@@ -99,7 +100,7 @@ function design.starts(list, count)
   return all
 end
 
---- Latin hypercube (McKay, Beckman, Conover 1979): of count equal stretches of each range each is met once.
+--- Latin hypercube (McKay, Beckman, Conover 1979): each of count equal intervals of each range is used once.
 local function latin(n, count, seed)
   local random, columns = generator(seed), {}
   for i = 1, n do
@@ -120,7 +121,7 @@ local function latin(n, count, seed)
 end
 design.places = latin
 
---- So many points of a kind, "latin", "halton" or "sobol": a function from the number to its values.
+--- Returns count points of a kind, "latin", "halton" or "sobol": a function from the number to the values.
 function design.fill(list, kind, count, seed)
   if kind == "latin" then
     local place_of = latin(#list, count, seed)

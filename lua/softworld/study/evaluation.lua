@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- One evaluation: what evaluate is given, what becomes of what it returns. A function of the parameters'
--- values, the study's seed, the method with its options and the number within it, and of nothing else.
+--- Computes one evaluation: the arguments of evaluate, and the use of its results. It depends only on the
+-- parameters' values, the study's seed, the method with its options, and the number within it.
 -- @module softworld.study.evaluation
 local check_results = require "softworld.check.results"
 local checks = require "softworld.checks"
@@ -21,19 +21,19 @@ rows.calls{
   { "evaluation.number", nil, "of the evaluation within its sweep, search or spread", "a number" },
 }
 
-local LONGEST = 300   -- of a reason [characters]
-local MOST = 2000     -- results of an evaluation
+local LONGEST = 300   -- longest reason [characters]
+local MOST = 2000     -- most results of an evaluation
 local GIVEN_UP = {}   -- raised by give_up
 
 local random, seed = math.random, math.randomseed
 
--- The generator's state at the beginning of an evaluation.
+-- Seeds Lua's generator at the start of an evaluation.
 local function seed_with(own, number)
   local mark = string.pack("<i8i8i8", own.seed, own.stream, number)
   seed(core.checksum(mark), core.checksum("softworld" .. mark))
 end
 
--- p of evaluate(p, scene).
+-- Returns p of evaluate(p, scene).
 local function given_for(own, number, values)
   local p, names = {}, { "random", "give_up", "broken", "number" }
   for i, parameter in ipairs(own.parameters) do
@@ -74,7 +74,7 @@ local function number_of(value)
   return type(value) == "number" and value + 0.0 or nil
 end
 
--- A list of numbers: results name_1, name_2, ...
+-- Adds a list of numbers as results name_1, name_2, ...
 local function add_list(own, flat, name, list)
   local count = 0
   for _ in pairs(list) do count = count + 1 end
@@ -85,7 +85,7 @@ local function add_list(own, flat, name, list)
   for i = 1, count do flat[#flat + 1] = { name .. "_" .. i, list[i] } end
 end
 
--- All results as a list { { name, value }, ... } in the order of names.
+-- Returns all results as a list { { name, value }, ... } in the order of names.
 local function flatten(own, results)
   local flat = {}
   for name, value in pairs(results) do
@@ -103,7 +103,7 @@ local function flatten(own, results)
   return flat
 end
 
--- "ok" and the results as text, or what is wrong with them.
+-- Returns "ok" and the results as text, or what is wrong with them.
 local function read(own, results, ...)
   if select("#", ...) > 0 then return wrong(own, "returned more than one value; one table is wanted") end
   if checks.kind(results) == "check" then
@@ -133,10 +133,10 @@ local function read(own, results, ...)
   return "ok", table.concat(texts, " ")
 end
 
---- What is said of an evaluation that took too much.
+--- Returns the reason of an evaluation that took too much memory.
 function evaluation.memory_reason(memory) return ("took more than %.9g B of memory"):format(memory) end
 
--- What an error means. Lua's own messages are of mistakes in the script, mostly.
+-- Returns what an error means. Lua's own messages are mostly mistakes in the script.
 local function judge(own, message)
   if type(message) == "table" and rawget(message, 1) == GIVEN_UP then return "failed", message[2] end
   local text = checks.shown(message)
@@ -149,7 +149,7 @@ local function judge(own, message)
   return mistake and "mistake" or "failed", first
 end
 
---- What is said of an evaluation that took too many steps.
+--- Returns the reason of an evaluation that took too many steps.
 function evaluation.steps_reason(steps) return ("took more than %d steps"):format(steps) end
 
 local function finish(own, fine, ...)
@@ -163,7 +163,7 @@ local function finish(own, fine, ...)
   return judge(own, ...)
 end
 
---- Before the first: the scenes that setup gave are to be as they are now at each evaluation.
+--- Called before the first evaluation: stores the scenes from setup, whose state each evaluation restores.
 function evaluation.keep(own)
   local list = {}
   for i = 1, own.built.n do
@@ -187,11 +187,11 @@ local function once(own, number, values)
   return pcall(all, own, given_for(own, number, values))
 end
 
---- Gives "ok" with results as text; "failed", "machine" or "mistake" with a reason.
+--- Returns "ok" with results as text; "failed", "machine" or "mistake" with a reason.
 function evaluation.run(own, number, values) return finish(own, once(own, number, values)) end
 
---- The same in this process, for whoever wants to look at it: status and text as run gives them, what
--- evaluate returned, or the error that it raised.
+--- Same in this process, to look at it. Returns status and text as run does, and what evaluate returned, or
+-- the error that it raised.
 function evaluation.again(own, number, values)
   local again, more = math.random(0), math.random(0)
   local fine, given = once(own, number, values)

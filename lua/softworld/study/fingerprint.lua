@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a function computes, as a number: its code without names of places, and the functions, numbers and
--- texts of the script that it uses. Comments and lines around it do not count.
+--- Returns a checksum of what a function computes: of its code without places, and of the functions, numbers
+-- and texts of the script that it uses. Comments and lines around it do not count.
 -- @module softworld.study.fingerprint
 local bytecode = require "softworld.study.bytecode"
 local core = require "softworld.core"
 
 local library = debug.getinfo(1, "S").source:match "^(.*)study/fingerprint%.lua$" or "@softworld/"
 
--- Names that Lua, its libraries and the host program bring.
+-- Names that Lua, its libraries and the host program define.
 local standard = {}
 for name in pairs(_G) do standard[name] = true end
 standard.arg = true
@@ -25,7 +25,7 @@ local function of_value(value, parts, seen)
     end
     return
   end
-  if seen[value] or getmetatable(value) ~= nil then return end -- of objects nothing is told
+  if seen[value] or getmetatable(value) ~= nil then return end -- objects do not count
   seen[value] = true
   local keys = {}
   for key in next, value do
@@ -42,7 +42,7 @@ local function of_value(value, parts, seen)
   end
 end
 
--- Names of the script's own that the code has among its constants.
+-- Adds the script's own globals whose names are among the constants of the code.
 local function of_globals(environment, code, parts, seen)
   local names = {}
   for name in next, environment do
@@ -73,7 +73,7 @@ function of_function(f, parts, seen)
   end
 end
 
---- Of functions (nil where one is not there), 16 hexadecimal digits.
+--- Returns the checksum of functions (nil for a missing one), 16 hexadecimal digits.
 return function(...)
   local parts, seen = {}, {}
   for i = 1, select("#", ...) do

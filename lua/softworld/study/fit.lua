@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The parameters with which a model gives what was measured: weighted least squares of Levenberg and
+--- Finds the parameters with which a model reproduces measurements: weighted least squares by Levenberg and
 -- Marquardt (GSL) within the ranges, from one or several starts side by side.
 --
 --     local fit = study:fit { data = { droop = { 0.12, sigma = 0.002, unit = "m" } } }
@@ -16,7 +16,7 @@ local rows = require "softworld.rows"
 
 local fit = {}
 
-local STEP, STEP_LOG = 1e-3, 2e-3 -- of differences: share of a range, change of a logarithm
+local STEP, STEP_LOG = 1e-3, 2e-3 -- of differences: over a range, of a logarithm
 
 local call = rows.call("study:fit", "{...}", "looks for the parameters with which the model gives what was "
   .. "measured", {
@@ -38,7 +38,7 @@ local call = rows.call("study:fit", "{...}", "looks for the parameters with whic
     usual = "those of the study" },
 })
 
--- Soft loss 2 (sqrt(1 + z^2) - 1): squares near 0, |z| far off.
+-- Soft loss 2 (sqrt(1 + z^2) - 1): quadratic near 0, like |z| for large z.
 local SOFT = {}
 function SOFT.psi(z) return z / math.sqrt(1 + z * z) end
 function SOFT.psi_slope(z) return (1 + z * z) ^ -1.5 end
@@ -84,7 +84,8 @@ local function searches_of(own, o)
   return list
 end
 
--- The next evaluation of a search: which of its own it is and its places; nil while it waits or has ended.
+-- Returns the next evaluation of a search: its number within the search, and its places; nil if none at the
+-- moment.
 local function next_of(search)
   if not search.queue and not search.ended then
     search.queue, search.given, search.open = search:ask(), 0, 0
@@ -96,7 +97,8 @@ local function next_of(search)
   return search.first + search.given, search.queue[search.given]
 end
 
--- Starts take turns: evaluation k of start j has number (k - 1) * starts + j.
+-- Returns the source of evaluations. Starts take turns: evaluation k of start j has number (k - 1) * starts +
+-- j.
 local function source_of(own, data, searches)
   local function next_one()
     local order = table.move(searches, 1, #searches, 1, {})
@@ -124,7 +126,7 @@ local function source_of(own, data, searches)
   return { next = next_one, done = done }
 end
 
--- The start with the smallest sum; those with derivatives first.
+-- Returns the start with the smallest sum; those with derivatives come first.
 local function best_of(searches)
   local best
   for _, search in ipairs(searches) do
@@ -144,7 +146,7 @@ local function starts_of(searches)
   return list
 end
 
---- Look for them; args as in study:fit.
+--- Runs the fit; args as in study:fit.
 function fit.run(own, args)
   local o = call:read(args == nil and {} or args)
   local data = fitdata.read(own, o.data)

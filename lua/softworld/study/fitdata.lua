@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a fit is held against: measured numbers by the names of results, and residuals of an evaluation.
+--- The data of a fit: measured numbers by the names of results, and the residuals of an evaluation.
 --
 --     data = { droop = 0.12,                                  -- one number
 --              sag = { 0.010, 0.031, 0.052, sigma = 0.001, unit = "m" } } -- a list, its standard deviation
@@ -10,7 +10,7 @@ local parameters = require "softworld.study.parameters"
 
 local fitdata = {}
 
-local MOST = 100000 -- numbers
+local MOST = 100000 -- most numbers
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -18,7 +18,7 @@ local function unit_of(item)
   return item.unit and item.unit ~= "-" and item.unit ~= "" and " " .. item.unit or ""
 end
 
--- sigma or weight: one number for all, or a list of as many as there are data.
+-- Reads sigma or weight: one number for all, or a list with one for each datum.
 local function spread_list(what, item, key, given)
   local list = {}
   if given == nil then return nil end
@@ -69,7 +69,7 @@ local function read_one(own, name, given)
   return item
 end
 
--- Either all data have a sigma, or none has.
+-- Raises an error unless all data have a sigma, or none.
 local function check_sigma(list)
   local with, without, weighed
   for _, item in ipairs(list) do
@@ -87,7 +87,8 @@ local function check_sigma(list)
   return with ~= nil
 end
 
---- The data as a list by name, { name =, unit =, values =, scale = {1 / sigma} }; count; is sigma given?
+--- Returns the data as a list by name, { name =, unit =, values =, scale = {1 / sigma} }; count; is sigma
+-- given?
 function fitdata.read(own, given)
   local list, names, count = {}, checks.sorted(given, checks.by_text), 0
   if #names == 0 then fail "study:fit: data is empty; name at least one, such as { droop = 0.12 }" end
@@ -106,7 +107,7 @@ function fitdata.read(own, given)
   return { list = list, count = count, known = known }
 end
 
---- What evaluate gave for an item, as a list; nil and the reason where it did not.
+--- Returns what evaluate gave for an item, as a list; nil and the reason if it is missing.
 function fitdata.computed(item, results)
   local n, out = #item.values, {}
   if n == 1 and results[item.name] then return { results[item.name] } end
@@ -133,7 +134,8 @@ function fitdata.computed(item, results)
     n == 1 and "" or "s", math.max(given, 1))
 end
 
---- All residuals (computed - measured) / sigma of a record's results, as one list; nil and the reason.
+--- Returns all residuals (computed - measured) / sigma of a record's results, as one list; or nil and the
+-- reason.
 function fitdata.residuals(data, results)
   local r = {}
   for _, item in ipairs(data.list) do

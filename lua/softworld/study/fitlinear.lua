@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How well residuals tell parameters: covariance from the singular values of their derivatives, and what
--- they do not tell.
+--- How well residuals determine parameters: covariance from the singular values of their derivatives, and the
+-- directions that they do not determine.
 --
 -- Derivatives are over places u from 0 to 1 in each range, residuals over their standard deviation. Each
--- column is scaled to length 1; a direction whose singular value is below 1e-4 of the largest, about ten
--- times what differences are wrong by, changes nothing that was measured.
+-- column is scaled to length 1. A direction with a singular value below 1e-4 of the largest, about ten times
+-- the error of differences, counts as without effect on the measured data.
 -- @module softworld.study.fitlinear
 local core = require "softworld.core"
 
 local fitlinear = {}
 
-local LEAST = 1e-4  -- singular value that counts, of the largest
-local SHARE = 0.01  -- part of a parameter in a direction that counts, of the largest part
+local LEAST = 1e-4  -- least singular value that counts, over the largest
+local SHARE = 0.01  -- least part of a parameter in a direction, over the largest part
 
 local function length(column)
   local sum = 0
@@ -19,8 +19,8 @@ local function length(column)
   return math.sqrt(sum)
 end
 
--- Reduce directions (a list of lists) so that each has a parameter which no other has: what belongs together
--- shows.
+-- Reduces directions (a list of lists) so that each has a parameter which no other has. This shows which
+-- parameters belong together.
 local function reduce(list, n)
   local row = 1
   for _ = 1, #list do
@@ -42,7 +42,7 @@ local function reduce(list, n)
   return list
 end
 
--- Without what is nothing but the error of differences.
+-- Removes parts that are only errors of differences.
 local function clean(direction)
   local most = 0
   for _, part in ipairs(direction) do most = math.max(most, math.abs(part)) end
@@ -66,8 +66,9 @@ local function decompose(columns)
   return norms, s, v
 end
 
---- Of columns (lists, one for each parameter, at least as many rows): covariance C[i][j] of u for residuals
--- of deviation 1 (of the directions that are told), directions that are not, as a list of lists of u.
+--- columns: lists, one per parameter, with at least as many rows. Returns the covariance C[i][j] of u for
+-- residuals of deviation 1 (of determined directions), and the undetermined directions as a list of lists of
+-- u.
 function fitlinear.covariance(columns)
   local n = #columns
   local norms, s, v = decompose(columns)
@@ -93,7 +94,7 @@ function fitlinear.covariance(columns)
   return C, lost
 end
 
---- The step of Gauss and Newton that is left, -C J' r.
+--- Returns the remaining Gauss-Newton step, -C J' r.
 function fitlinear.step(columns, r, C)
   local g, step = {}, {}
   for i, column in ipairs(columns) do

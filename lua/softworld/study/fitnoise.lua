@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Are residuals noise? Their sum of squares beside their sigma, and how often they change sign.
+--- Tests whether residuals are noise: their sum of squares over sigma, and how often they change sign.
 -- @module softworld.study.fitnoise
 local core = require "softworld.core"
 
 local fitnoise = {}
 
-local RARE = 0.01  -- chance below which something is told
-local SHORTEST = 12 -- list whose signs are counted
+local RARE = 0.01  -- chance below which a remark is made
+local SHORTEST = 12 -- shortest list whose signs are counted
 
---- Chance that so few runs of equal signs are met by chance, of a and b signs of each kind in any order
--- (A. Wald and J. Wolfowitz 1940): the sum of their probabilities up to runs.
+--- Returns the chance of so few runs of equal signs, with a and b signs of each kind in random order
+-- (A. Wald and J. Wolfowitz 1940): the sum of the probabilities up to `runs`.
 function fitnoise.runs_chance(a, b, runs)
   if a == 0 or b == 0 then return 1 end
   local function log_choose(n, k)
@@ -31,7 +31,7 @@ function fitnoise.runs_chance(a, b, runs)
   return math.min(1, chance)
 end
 
--- Runs of equal signs of residuals in their order.
+-- Returns the numbers of positive and other residuals, and of runs of equal signs.
 local function runs_of(list)
   local a, b, runs, last = 0, 0, 0, nil
   for _, x in ipairs(list) do
@@ -43,7 +43,7 @@ local function runs_of(list)
   return a, b, runs
 end
 
---- Remarks on the signs of an item's residuals, in their order; nil where there is nothing to tell.
+--- Returns a remark on the signs of an item's residuals, in their order; nil if they may be noise.
 function fitnoise.signs(name, residuals)
   if #residuals < SHORTEST then return nil end
   local a, b, runs = runs_of(residuals)
@@ -53,7 +53,7 @@ function fitnoise.signs(name, residuals)
     .. "lacks something, and intervals are too narrow"):format(name, runs - 1, #residuals, chance)
 end
 
---- Chance of a sum of squares as large, and a remark or nil.
+--- Returns the chance of a sum of squares as large, and a remark or nil.
 function fitnoise.sum(chi2, freedom)
   if freedom < 1 then return nil end
   local chance = core.chi2_above(chi2, freedom)

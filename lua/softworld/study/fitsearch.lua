@@ -1,32 +1,34 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The least squares of one start: Levenberg and Marquardt (GSL) over places from 0 to 1 in each range.
+--- Least squares from one start: Levenberg and Marquardt (GSL) over places from 0 to 1 in each range.
 --
--- Bounds by an active set: a step is cut off at them; a parameter that lies on one while the sum of squares
--- falls beyond it is held there, the search begins anew over the others, and at the end those are let go
--- beyond which it does not fall any more. Derivatives are central differences, beside a bound one-sided ones
--- of the same order, evaluated side by side. A place at which the model fails is worse than all others.
+-- Bounds use an active set: a step is cut off at them. A parameter on a bound is held there if the sum of
+-- squares falls beyond the bound. The search then starts again over the other parameters, and held parameters
+-- are released at the end if the sum does not fall beyond their bounds any more. Derivatives are central
+-- differences, or one-sided ones of the same order beside a bound, evaluated side by side. A place at which
+-- the model fails is worse than all others.
 --
--- GSL asks for one value after the other and cannot be left in between. So it is searched anew with what is
--- known, which takes no time beside an evaluation, up to what is not known: that is evaluated next.
+-- GSL asks for one value after the other and cannot be interrupted. So the search is repeated with the known
+-- values, which takes no time compared with an evaluation, until it needs an unknown value; this is evaluated
+-- next.
 -- @module softworld.study.fitsearch
 local core = require "softworld.core"
 
 local fitsearch = {}
 
-local WORSE = 1e100   -- residuals where the model failed
-local ROUNDS = 40     -- of the active set
-local SMALLER = 1 / 16 -- step of differences when both sides failed
+local WORSE = 1e100   -- residuals if the model failed
+local ROUNDS = 40     -- most rounds of the active set
+local SMALLER = 1 / 16 -- factor on the step of differences if both sides failed
 
 local ASKED, ENDED, MOVED = {}, {}, {} -- raised to leave the search
 
 local Search = {}
 Search.__index = Search
 
---- A search from places; o: steps (of differences), tolerance, most (evaluations), residuals(record) -> list
--- or nil where the evaluation failed, loss (or nil).
+--- Returns a search from places; o: steps (of differences), tolerance, most (evaluations), residuals(record)
+-- -> list or nil if the evaluation failed, loss (or nil).
 function fitsearch.new(places, o) return setmetatable({ start = places, o = o, records = {} }, Search) end
 
--- The records of places, from what is known; ASKED with those that are not.
+-- Returns the records of places if all are known; else raises ASKED and notes the unknown ones.
 local function take(self, places)
   local first = self.at + 1
   self.at = self.at + #places
@@ -50,7 +52,7 @@ local function sum_of(r)
   return sum
 end
 
--- With a loss, residuals whose squares are the loss.
+-- Returns the residuals, or with a loss numbers whose squares are the loss.
 local function for_solver(self, r)
   local loss = self.o.loss
   if not loss then return r end
@@ -59,7 +61,8 @@ local function for_solver(self, r)
   return out
 end
 
--- Residuals of a record over their scale: that of the first ones, so that no tolerance depends on units.
+-- Returns a record's residuals over the scale of the first residuals, so that tolerances do not depend on
+-- units.
 local function scaled(self, record)
   local r = self.o.residuals(record)
   if not r then return nil end
@@ -87,14 +90,14 @@ local function moved(u, i, by)
   return v
 end
 
--- Where the differences of a parameter are taken: two places, as steps from u.
+-- Returns two places for the differences of a parameter, as steps from u.
 local function sides(u, h)
   if u + h > 1 then return -h, -2 * h end
   if u - h < 0 then return h, 2 * h end
   return h, -h
 end
 
--- d r / d u_i of what is known at two places beside u, either of which may have failed.
+-- Returns d r / d u_i from two places beside u, of which either may have failed.
 local function slope(r, a, ra, b, rb)
   if not ra and not rb then return nil end
   local column = {}
@@ -123,7 +126,7 @@ local function columns_at(self, u, r, list, share)
   return columns
 end
 
--- All columns of the derivatives at the best place.
+-- Returns all columns of the derivatives at the best place.
 local function derivatives(self)
   local best, all, left = self.best, {}, {}
   if best.columns then return best.columns end
@@ -145,7 +148,7 @@ local function derivatives(self)
   return columns
 end
 
--- Half the derivative of the sum along each parameter.
+-- Returns half the derivative of the sum by each parameter.
 local function gradient(self)
   local g, r, loss = {}, self.best.r, self.o.loss
   for i, column in ipairs(self.best.columns) do
@@ -157,7 +160,7 @@ local function gradient(self)
   return g
 end
 
--- Parameters on a bound beyond which the sum falls, as a set, and the others as a list.
+-- Returns the parameters on a bound beyond which the sum falls, as a set, and the others as a list.
 local function held(self)
   local g, set, free = gradient(self), {}, {}
   for i, u in ipairs(self.best.u) do
@@ -185,7 +188,7 @@ local function flat(self, free)
   return out
 end
 
--- What GSL asks for, over the free parameters from the best place.
+-- Returns the function that GSL calls, over the free parameters from the best place.
 local function asked(self, set, free)
   local begin, known, rows = self.best.u, self.best.r, #self.best.r
   return function(place, wanted)
@@ -195,7 +198,7 @@ local function asked(self, set, free)
       u[i] = math.max(0, math.min(1, v))
       cut = cut or u[i] ~= v
     end
-    if wanted then -- it asks for them at a place that is better than all before
+    if wanted then -- at a place better than all before
       derivatives(self)
       if cut or not same(held(self), set) then error(MOVED, 0) end
       return flat(self, free)
@@ -209,10 +212,10 @@ local function asked(self, set, free)
   end
 end
 
--- One round; true when it has ended.
+-- Does one round; true when the search has ended.
 local function round(self, set, free)
   local x = {}
-  for k, i in ipairs(free) do x[k] = 1 + self.best.u[i] end -- beside 0 a share of x would be nothing
+  for k, i in ipairs(free) do x[k] = 1 + self.best.u[i] end -- offset, because steps are relative to x
   local fine, why, how = pcall(core.least_squares, x, asked(self, set, free), #self.best.r,
     self.o.tolerance, self.o.most)
   if not fine and why ~= MOVED then error(why, 0) end
@@ -247,8 +250,8 @@ local function all(self)
   self.reason = "it goes to and fro between the ends of ranges"
 end
 
---- The places that it wants to know next, or nil when it has ended: then best { u, r (over scale), sum,
--- record, columns }, scale, held, how, reason.
+--- Returns the places to evaluate next, or nil when the search has ended. Then best has { u, r (over scale),
+-- sum, record, columns }; further fields are scale, held, how, reason.
 function Search:ask()
   self.at, self.best, self.scale, self.how, self.reason, self.held = 0, nil, nil, nil, nil, {}
   local fine, why = pcall(all, self)

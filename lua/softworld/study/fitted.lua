@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a fit has found: parameters with intervals, correlations, and what is to be said of them.
+--- The result of a fit: parameters with intervals, correlations, and remarks.
 -- @module softworld.study.fitted
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -15,10 +15,10 @@ local rows = require "softworld.rows"
 
 local fitted = {}
 
-local WITHIN = 0.95     -- of cases an interval holds the truth
-local ALIKE = 0.99      -- correlation that is told
-local NEGLIGIBLE = 0.01 -- step that is left, of a standard error
-local EXACT = 1e-6      -- residuals below this share of the data are no noise to be judged
+local WITHIN = 0.95     -- share of cases in which an interval holds the truth
+local ALIKE = 0.99      -- correlation from which a remark is made
+local NEGLIGIBLE = 0.01 -- largest remaining step over a standard error
+local EXACT = 1e-6      -- residuals below this share of the data are not tested for noise
 
 rows.calls{
   { "fit.parameters", nil, "by name { value =, error =, low =, high =, unit = }: standard error, 95 % "
@@ -50,8 +50,8 @@ rows.call("fit:chart", "{...}", "draws what was measured over what is computed; 
 
 -- --- errors ------------------------------------------------------------------------------------
 
--- Variance of residuals (over scale) by which the covariance is multiplied, and degrees of freedom. With a
--- loss: P. J. Huber, Robust Statistics, 1981, 7.6.
+-- Returns the variance of residuals (over scale), by which the covariance is multiplied, and the degrees of
+-- freedom. With a loss: P. J. Huber, Robust Statistics, 1981, 7.6.
 local function variance(f, data, loss, rank)
   local n = data.count
   local freedom = n - rank
@@ -74,7 +74,7 @@ local function free_columns(search)
   return list, columns
 end
 
--- Covariance over all parameters' places and lost directions alike; held ones are 0.
+-- Returns covariance and lost directions over all parameters' places; held parameters have 0.
 local function spread_over(n, list, C, lost)
   local full, directions = {}, {}
   for i = 1, n do
@@ -92,7 +92,7 @@ local function spread_over(n, list, C, lost)
   return full, directions
 end
 
--- Everything that the derivatives at the best place say.
+-- Returns everything that follows from the derivatives at the best place.
 local function errors(own, search, data)
   local f = { r = search.best.r, sum = search.best.sum }
   local list, columns = free_columns(search)
@@ -120,7 +120,7 @@ local function at(p, u)
   return p.low + u * (p.high - p.low)
 end
 
--- Do the data not tell it?
+-- True if the data do not determine the parameter.
 local function is_lost(f, i)
   for _, direction in ipairs(f.lost) do
     if direction[i] ~= 0 then return true end
@@ -147,7 +147,7 @@ local function parameter(own, f, i, u, said)
   return q
 end
 
--- A combination that is told though its parts are not: its interval.
+-- Returns a combination that is determined although its parts are not, with its interval.
 local function combination(own, f, values, direction)
   local found = fitwords.direction(own, values, direction)
   if not found.powers or not f.times then return found end
@@ -228,7 +228,7 @@ local KNOWN = "parameters correlation unresolved remarks at_bound ok reason chi2
 local unknown
 unknown, Fit.__names = checks.fields("fit", KNOWN, "chance")
 
--- Has it converged: is the step that is left nothing beside the error, or the tolerance?
+-- Decides whether the search converged: the remaining step must be small against the error or the tolerance.
 local function judge_end(fit, f, search, said)
   fit.reason, fit.ok = search.reason, search.how == "near" or search.how == "stuck"
   for k, i in ipairs(f.list or {}) do
@@ -242,7 +242,7 @@ local function judge_end(fit, f, search, said)
   if not f.C and fit.ok then said[#said + 1] = "no parameter is free: there are no intervals" end
 end
 
---- Of the best search: a fit.
+--- Returns the fit of the best search.
 function fitted.new(own, search, data)
   local said = {}
   local best = search.best
@@ -322,7 +322,7 @@ local function chart(fit, args)
   return require("softworld.run.plot").plot(list)
 end
 
---- Draw what was measured over what is computed.
+--- Draws measured over computed values.
 function Fit:chart(args) return build.call(3, chart, self, args) end
 
 methods.guard_table("fit", Fit)

@@ -1,25 +1,25 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What data cannot tell apart, in words: "EI and weight enter as EI / weight only".
+--- Says in words what data cannot tell apart: "EI and weight enter as EI / weight only".
 --
--- A direction in which parameters change together and nothing that was measured does. Of a parameter that
--- is above 0 the change counts as a share of its value, of others as it is.
+-- In such a direction parameters change together and no measured value changes. For a parameter above 0 the
+-- change is relative to its value, for others absolute.
 -- @module softworld.study.fitwords
 local fitwords = {}
 
---- The change of a parameter, as a share of its value where that is above 0, for a change of its place by 1.
+--- Returns the change of a parameter, relative to its value if above 0, for a change of its place by 1.
 function fitwords.rate(p, value)
   if p.log then return math.log(p.high / p.low) end
   return (p.high - p.low) / (p.low > 0 and value or 1)
 end
 
--- 2, 0.5, 1.33: near to a whole or half number it is one.
+-- Formats an exponent, 2, 0.5, 1.33; one near a whole or half number is rounded to it.
 local function exponent(x)
   local half = math.floor(2 * x + 0.5) / 2
   if math.abs(x - half) < 0.02 * math.max(1, math.abs(x)) then x = half end
   return x, ("%.3g"):format(x)
 end
 
--- Two parameters above 0: a power of the one times one of the other stays.
+-- For two parameters above 0: a power of one times one of the other stays constant.
 local function product(a, b)
   if math.abs(a.change) < 0.98 * math.abs(b.change) then a, b = b, a end
   local k, text = exponent(a.change / b.change) -- a / b^k
@@ -44,8 +44,8 @@ local function several(parts)
   return table.concat(texts, ", ")
 end
 
---- What a direction of places (u) means: { parameters = names, text =, name =, powers =, value =, share = },
--- the last four where it leaves one combination of two parameters.
+--- Returns the meaning of a direction of places (u): { parameters = names, text =, name =, powers =, value =,
+-- share = }, the last four if it leaves one combination of two parameters.
 function fitwords.direction(own, values, direction)
   local parts, names = {}, {}
   for i, p in ipairs(own.parameters) do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What tasks on a cluster have found, and which of them are lost.
+--- Collects what tasks on a cluster have found, and finds out which of them are lost.
 -- @module softworld.study.gather
 local core = require "softworld.core"
 local batch = require "softworld.study.batch"
@@ -9,13 +9,13 @@ local slurm = require "softworld.study.slurm"
 
 local gather = {}
 
-local TRIES = 3   -- an evaluation is sent so often
-local SMALLER = 4 -- so many times, when it is sent again
-local LOOK, LONG_LOOK = 1, 15 -- between two questions to Slurm [s]
+local TRIES = 3   -- an evaluation is sent at most this often
+local SMALLER = 4 -- factor by which tasks get smaller when sent again
+local LOOK, LONG_LOOK = 1, 15 -- shortest and longest time between two questions to Slurm [s]
 
 local say, plural = batch.say, batch.plural
 
---- Take what tasks have found. Gives how many evaluations.
+--- Takes what tasks have found. Returns how many evaluations.
 function gather.collect(run)
   local count = 0
   for _, send in ipairs(run.sends) do
@@ -42,7 +42,7 @@ local function reason_of(send, k, state)
     words and ", its log ends with: " .. words or "")
 end
 
--- A task is over and left no result: its evaluations are sent again, or have failed.
+-- Handles a task that is over without a result: its evaluations are sent again, or have failed.
 local function lose(run, send, k, state)
   local again, given_up, reason = 0, 0, reason_of(send, k, state)
   send.open[k] = nil
@@ -83,8 +83,8 @@ local function waits_for(run, states)
   end
 end
 
---- Ask Slurm, now and then. A task is lost when it is found over and without a result twice: the file system
--- may tell of a result late.
+--- Asks Slurm now and then. A task counts as lost if it is found over and without a result twice, because the
+-- file system may show a result late.
 function gather.look(run)
   if core.clock() - run.asked < math.min(LONG_LOOK, LOOK * 1.3 ^ run.calm) then return end
   local jobs = {}

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The journal of a study: a text to which lines are added, one for each evaluation.
+--- The journal of a study: a text file to which one line is added for each evaluation.
 --
 --     softworld study 1 <sum>
 --     s "name" <key of the definition> "what it is" <sum>
@@ -9,9 +9,9 @@
 --     t <sum>
 --
 -- <sum> is the checksum of the line before it, 16 hexadecimal digits. Evaluations belong to the definition
--- that stands above them. t says that the line above was torn, by a process that was killed while it wrote;
--- other lines without a right sum are told of. A line is one write to the end of the file, by the one
--- process that has its lock, and each second the file is synced.
+-- above them. t says that the line above was torn, because a process was killed while it wrote. Other lines
+-- without a correct sum are reported. Each line is one write to the end of the file, by the one process that
+-- has its lock; the file is synced every second.
 -- @module softworld.study.journal
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -21,14 +21,14 @@ local journal = {}
 journal.__index = journal
 
 local FIRST = "softworld study 1"
-local SYNC = 1 -- between two [s]
-local MOST = 1 << 53 -- number of a part
+local SYNC = 1 -- time between two syncs [s]
+local MOST = 1 << 53 -- largest number of a part
 
 local function fail(text, ...) error(text:format(...), 0) end
 
 local function summed(body) return ("%s %016x\n"):format(body, core.checksum(body)) end
 
--- A text in quotes, on one line.
+-- Returns a text in quotes, on one line.
 local function quoted(text)
   return '"' .. text:gsub('[%c"\\]', function(c) return ("\\%03d"):format(c:byte()) end) .. '"'
 end
@@ -37,7 +37,7 @@ local function unquoted(text)
   return (text:gsub("\\(%d%d%d)", function(d) return string.char(tonumber(d) % 256) end))
 end
 
---- A journal at a path; nil path: it keeps nothing. definition: { name =, key =, text = }.
+--- Returns a journal at a path; nil path: nothing is stored. definition: { name =, key =, text = }.
 function journal.new(path, definition)
   return setmetatable({ path = path, definition = definition, size = 0, parts = {} }, journal)
 end
@@ -61,7 +61,7 @@ local function read_definition(self, body, at)
   if key ~= self.definition.key then self.other = unquoted(text) end
 end
 
--- Lines of a number: a place in the file's text or a line that was added, or a list of them.
+-- Adds a line to those of a number: a place in the file's text, or the text of an added line.
 local function put(self, part, number, line)
   local list = self.parts[part]
   if not list then
@@ -95,14 +95,14 @@ local function damaged(self, line_number)
   self.bad_at = line_number
 end
 
--- The line above was torn, and that is known.
+-- Handles a "t" line: the line above was torn and does not count as damaged.
 local function excuse(self, line_number)
   if self.bad_at ~= line_number - 1 then return end
   self.bad, self.bad_at = self.bad - 1, nil
   if self.bad == 0 then self.first_bad = nil end
 end
 
--- All lines from a place on; gives where the last whole one ends.
+-- Reads all lines from a place on; returns where the last whole one ends.
 local function read_lines(self, text, at)
   local line_number, ours, line = 1, false, core.journal_line
   while true do
@@ -138,7 +138,7 @@ local function size_of(path)
   return size
 end
 
---- Read what the file has, unless this process has read or written all of it.
+--- Reads the file, unless this process has read or written all of it.
 function journal:read()
   if not self.path or not check_kind(self) then
     if self.size > 0 then forget(self) end
@@ -169,7 +169,7 @@ local function items(text)
   return list, set
 end
 
---- What differs between two definitions, as lines.
+--- Returns the differences between two definitions, as lines.
 function journal.differences(before, now)
   local old, in_old = items(before)
   local new, in_new = items(now)
@@ -183,7 +183,7 @@ function journal.differences(before, now)
   return list
 end
 
---- What the journal has besides evaluations of this definition: a list of lines for the user.
+--- Returns lines for the user about what the journal has besides evaluations of this definition.
 function journal:remarks()
   local list = {}
   if self.others > 0 then
@@ -200,7 +200,7 @@ function journal:remarks()
   return list
 end
 
---- The values, status and the rest of a line about an evaluation, without its sum; nil: it is none.
+--- Returns values, status and rest of a line about an evaluation, without its sum; nil for other lines.
 function journal.parse(line)
   local word, status, rest = line:match "^e %d+ %d+ (%S+) (%l+) (.*)$"
   if status ~= "ok" and status ~= "failed" and status ~= "machine" then return nil end
@@ -213,8 +213,8 @@ local function parse(self, line)
   return journal.parse(line)
 end
 
---- An evaluation with these values, as a word; without, the last one of the number: status, rest, values.
--- nil where there is none.
+--- Returns status, rest and values of an evaluation with these values (a word), or without word of the last
+-- one with this number; nil if there is none.
 function journal:find(part, number, word)
   local lines = (self.parts[part] or {})[number]
   if not lines then return nil end
@@ -225,7 +225,7 @@ function journal:find(part, number, word)
   end
 end
 
---- The numbers of a part that are in the journal, as keys of a table.
+--- Returns the numbers of a part's evaluations in the journal, as keys of a table.
 function journal:numbers(part) return self.parts[part] or {} end
 
 -- --- writing -----------------------------------------------------------------------------------
@@ -236,12 +236,13 @@ local function write(self, text)
     self.size = self.size + #text
     return
   end
-  self.size = -1 -- to be read again
+  self.size = -1 -- read it again
   fail("study '%s': cannot write to %s: %s; what is in it so far stays, the same script goes on from there",
     self.definition.name, self.path, (tostring(why):gsub("^.*: ", "")))
 end
 
---- Begin to write, unless it is to be read only. Raises where another process does, or nobody can.
+--- Opens the journal for writing, unless it is read-only. Raises an error if another process writes or nobody
+-- can.
 function journal:open()
   if not self.path or self.reader then return self:read() end
   local name = self.definition.name
@@ -268,7 +269,7 @@ function journal:open()
   end
 end
 
--- The last line was torn: a file of the first line alone begins anew.
+-- Mends a torn last line; a file that has only part of its first line is completed.
 function journal:mend()
   if self.size < #summed(FIRST) then
     write(self, summed(FIRST):sub(self.size + 1))
@@ -278,7 +279,7 @@ function journal:mend()
   self.torn = false
 end
 
---- The number of a part by what its method is; a new one is put down.
+--- Returns the number of a part by the text of its method; a new part is added.
 function journal:part(text)
   if not self.names[text] then
     name_part(self, self.last + 1, text)
@@ -287,19 +288,19 @@ function journal:part(text)
   return self.names[text]
 end
 
---- The line about an evaluation, without its sum.
+--- Returns the line about an evaluation, without its sum.
 function journal.body(part, number, word, status, rest)
   return ("e %d %d %s %s %s"):format(part, number, word, status, status == "ok" and rest or quoted(rest))
 end
 
---- What the method of a part is; nil where the journal does not tell.
+--- Returns the method of a part; nil if the journal does not have it.
 function journal:name(part)
   for text, number in pairs(self.names) do
     if number == part then return text end
   end
 end
 
---- Put an evaluation down: status "ok" with results as text, or "failed" or "machine" with a reason.
+--- Adds an evaluation: status "ok" with results as text, or "failed" or "machine" with a reason.
 function journal:add(part, number, word, status, rest)
   local body = journal.body(part, number, word, status, rest)
   if self.stream then write(self, summed(body)) end
@@ -312,7 +313,7 @@ function journal:sync()
   self.synced = core.clock()
 end
 
---- End writing: another process may.
+--- Ends writing, so that another process may write.
 function journal:close()
   local stream, lock = self.stream, self.lock
   self.stream, self.lock = nil, nil
@@ -323,7 +324,7 @@ function journal:close()
   if lock then lock() end
 end
 
---- In a worker: the lock is its parent's.
+--- Called in a worker: gives up the lock, which is its parent's.
 function journal:leave()
   if self.lock then self.lock() end
 end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Does an evaluation meet the constraints, and by how much not?
+--- Decides whether an evaluation meets the constraints, and by how much.
 -- @module softworld.study.judge
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -9,7 +9,7 @@ local judge = {}
 
 local function fail(text, ...) error(text:format(...), 0) end
 
---- Constraints { name = { min =, max =, unit = } } as a list in the order of names.
+--- Returns constraints { name = { min =, max =, unit = } } as a list in the order of names.
 function judge.read(given, by_name)
   local list = {}
   for i, name in ipairs(checks.sorted(given or {}, checks.by_text)) do
@@ -32,21 +32,21 @@ function judge.read(given, by_name)
   return list
 end
 
---- Raise unless there are constraints.
+--- Raises an error unless there are constraints.
 function judge.needed(own, what)
   if #own.constraints == 0 then fail("%s: study '%s' has no constraints to be met", what, own.name) end
 end
 
 local function scale(limit) return limit ~= 0 and math.abs(limit) or 1 end
 
---- By how much a constraint is broken, as a share of its limit; below 0 it is met.
+--- Returns by how much a constraint is broken, over its limit; below 0 it is met.
 function judge.excess(c, value)
   local above = c.max and (value - c.max) / scale(c.max) or -math.huge
   local below = c.min and (c.min - value) / scale(c.min) or -math.huge
   return math.max(above, below)
 end
 
---- The sum of what breaks constraints, 0 when all are met; second, the largest, below 0 when all are met.
+--- Returns the sum of excesses above 0, which is 0 if all constraints are met, and the largest excess.
 function judge.violation(own, record)
   local sum, most = 0, -math.huge
   for _, c in ipairs(own.constraints) do
@@ -56,7 +56,7 @@ function judge.violation(own, record)
   return sum, most
 end
 
---- By how much each limit is broken, below 0 where it is kept: a max and a min are a limit each.
+--- Returns by how much each limit is broken, below 0 if it is kept; a max and a min are a limit each.
 function judge.sides(own, record)
   local list = {}
   for _, c in ipairs(own.constraints) do
@@ -67,14 +67,14 @@ function judge.sides(own, record)
   return list
 end
 
---- How many limits there are.
+--- Returns the number of limits.
 function judge.count_sides(own)
   local count = 0
   for _, c in ipairs(own.constraints) do count = count + (c.max and 1 or 0) + (c.min and 1 or 0) end
   return count
 end
 
---- The name of the first constraint that some results break, or nil; results: those that are known so far.
+--- Returns the name of the first constraint that some results break, or nil; results: those known so far.
 function judge.broken(own, results)
   if type(results) ~= "table" then
     fail("p.broken: results are wanted, such as p.broken { peak = 12 }, got %s", checks.got(results))
@@ -89,7 +89,7 @@ function judge.broken(own, results)
   end
 end
 
---- The value of a result, or of a parameter: the least force at which nothing slips; of choices the number.
+--- Returns the value of a result or of a parameter; for choices the number of the choice.
 function judge.value(own, name, record)
   for i, p in ipairs(own.parameters) do
     if p.name == name then return record.values[i] end
@@ -97,14 +97,14 @@ function judge.value(own, name, record)
   return record.results[name]
 end
 
---- nil for an evaluation that failed, else whether it meets all constraints.
+--- Returns whether an evaluation meets all constraints; nil if it failed.
 function judge.pass(own, record)
   if not record.results then return nil end
   return judge.violation(own, record) <= 0
 end
 
---- A result that is asked for has to be there: without it the evaluation has failed, and of the first one
--- it is an error.
+--- Marks an evaluation as failed if it lacks a wanted result; in the first evaluation this is an
+-- error.
 function judge.has(record, name, who)
   local results = record.results
   if not results or results[name] then return end
@@ -118,7 +118,7 @@ function judge.has(record, name, who)
   record.failed = ("evaluate returned no '%s', only: %s"):format(name, table.concat(names, " "))
 end
 
---- The same of all constraints.
+--- Same for the results of all constraints.
 function judge.complete(own, record)
   for _, c in ipairs(own.constraints) do
     judge.has(record, c.name, ("study '%s': constraints"):format(own.name))
@@ -133,7 +133,7 @@ local function sorted(records)
 end
 judge.sorted = sorted
 
---- The first that succeeds tells which results there are; others with other ones have failed.
+--- The first success defines the results; marks evaluations with other results as failed.
 function judge.alike(records)
   local names, first
   for _, record in ipairs(sorted(records)) do
@@ -148,7 +148,7 @@ function judge.alike(records)
   end
 end
 
---- Raise when none of the evaluations of a part succeeded.
+--- Raises an error if no evaluation of a part succeeded.
 function judge.some(own, records)
   judge.alike(records)
   local list = sorted(records)

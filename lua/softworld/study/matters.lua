@@ -1,20 +1,20 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Which parameter matters: what share of a result's variance goes with each parameter alone.
+--- Which parameter matters: the share of a result's variance that is due to each parameter alone.
 --
--- Sobol's first-order index Var(E(y | x)) / Var(y), from the evaluations that a spread has anyway: they are
--- sorted by the parameter and cut into groups of equal size; what a straight line through each group leaves
--- over, less what chance alone takes away, is not the parameter's (epsilon squared; T. L. Kelley 1935).
--- The standard error is by leaving out a tenth at a time (M. H. Quenouille's jackknife). Rank correlation
--- (C. Spearman 1904) tells the sign.
+-- Sobol's first-order index Var(E(y | x)) / Var(y), from the evaluations of a spread: they are sorted by the
+-- parameter and cut into groups of equal size. What a straight line through each group leaves over, corrected
+-- for chance, is not due to the parameter (epsilon squared; T. L. Kelley 1935). The standard error comes from
+-- leaving out a tenth at a time (M. H. Quenouille's jackknife). Rank correlation (C. Spearman 1904) gives the
+-- sign.
 -- @module softworld.study.matters
 local judge = require "softworld.study.judge"
 
 local matters = {}
 
 local TENTHS = 10
-local FEWEST = 20     -- evaluations: of less nothing is said
-local MOST = 5000     -- of more every second, third, ... is looked at
-local GROUPS = 20     -- at most
+local FEWEST = 20     -- least evaluations
+local MOST = 5000     -- most evaluations; of more only every second, third, ... is used
+local GROUPS = 20     -- most groups
 
 -- --- what is there -------------------------------------------------------------------------------
 
@@ -28,7 +28,7 @@ local function sorted(count, key)
   return order
 end
 
--- Ranks by an order, those of equal ones their mean.
+-- Returns ranks from an order; equal values get their mean rank.
 local function ranks_of(order, key)
   local rank, from = {}, 1
   while from <= #order do
@@ -40,7 +40,7 @@ local function ranks_of(order, key)
   return rank
 end
 
--- Values of the parameters by evaluation, their orders and ranks.
+-- Returns values of the parameters by evaluation, their orders and ranks.
 local function prepare(own, records)
   local data, every = { keys = {}, orders = {}, ranks = {}, records = {} }, math.ceil(#records / MOST)
   for k = 1, #records, every do data.records[#data.records + 1] = records[k] end
@@ -53,7 +53,7 @@ local function prepare(own, records)
   return data
 end
 
--- Values of a result less their mean, as shares of the largest; nil where it does not vary.
+-- Returns values of a result minus their mean, over the largest; nil if they do not vary.
 local function scaled(data, value)
   local y, mean, most, varies = {}, 0, 0, false
   for k, record in ipairs(data.records) do
@@ -71,7 +71,8 @@ end
 
 -- --- shares ---------------------------------------------------------------------------------------
 
--- What a straight line through a group leaves over; of choices, which have no order, what their mean does.
+-- Returns what a straight line through a group leaves over; for choices, which have no order, what the mean
+-- leaves.
 local function left_in(g, line)
   local yy = g.yy - g.y ^ 2 / g.n
   local xx, xy = g.xx - g.x ^ 2 / g.n, g.xy - g.x * g.y / g.n
@@ -88,8 +89,8 @@ local function add(groups, at, x, y)
   g.xx, g.xy, g.yy = g.xx + x * x, g.xy + x * y, g.yy + y * y
 end
 
--- Groups of the evaluations in the order of a parameter, and how many there can be; without: the tenth that
--- is left out. x of a group is the place in the order, about the group's middle.
+-- Returns groups of the evaluations in the order of a parameter, and the most there can be; without: the
+-- tenth that is left out. x in a group is the place in the order, relative to the group's middle.
 local function groups_of(data, p, i, y, without)
   local order, key, left, at, groups = data.orders[i], data.keys[i], 0, 0, {}
   for _, k in ipairs(order) do left = left + (k % TENTHS ~= without and 1 or 0) end
@@ -104,7 +105,7 @@ local function groups_of(data, p, i, y, without)
   return groups, p.kind == "choice" and #p.choices or count
 end
 
--- Share of the variance of y that goes with a parameter.
+-- Returns the share of the variance of y due to a parameter.
 local function share(data, p, i, y, without)
   local groups, count = groups_of(data, p, i, y, without)
   local line, n, sum, square, within, free = p.kind == "number", 0, 0, 0, 0, 0
@@ -138,7 +139,7 @@ local function correlation(a, b)
   return aa > 0 and bb > 0 and ab / math.sqrt(aa * bb) or 0
 end
 
--- Means of y in the lowest and the highest fifth of a parameter, of choices the extremes.
+-- Returns the means of y in the lowest and the highest fifth of a parameter; for choices the extremes.
 local function swing(data, p, i, y)
   local order, key = data.orders[i], data.keys[i]
   if p.kind == "choice" then
@@ -174,12 +175,13 @@ local function of(own, data, value)
   return list
 end
 
---- Of a result, a function of a record, how much of it goes with each parameter, the most first: a list of
--- { name =, share =, error =, rank = (of choices nil), low =, high = (means in the lowest and highest
--- fifth) }. nil where there are too few evaluations, or it does not vary.
+--- Returns how much of a result, a function of a record, is due to each parameter, the largest first: a list
+-- of { name =, share =, error =, rank = (nil for choices), low =, high = (means in the lowest and highest
+-- fifth) }. nil with too few evaluations, or if it does not vary.
 function matters.of(own, records, value) return of(own, prepare(own, records), value) end
 
---- Of all results of the records, by name, and of whether the constraints are met ("pass").
+--- Returns the same for all results of the records, by name, and for whether the constraints are met
+-- ("pass").
 function matters.all(own, list)
   local good, names, all = {}, {}, {}
   for _, record in ipairs(list) do
@@ -197,7 +199,7 @@ function matters.all(own, list)
   return all
 end
 
---- One line: "time goes with speed (76 +- 3 %, rising), force (19 +- 3 %)"; shares that may be
+--- Returns one line: "time goes with speed (76 +- 3 %, rising), force (19 +- 3 %)"; shares that may be
 -- chance are left out.
 function matters.text(name, list)
   local parts = {}

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The smallest value of a result, by one of the methods of study/search.
+--- Finds the smallest value of a result by one of the methods of study/search.
 --
--- A method is asked for places and told what came out, its starts by turns (study/turns). When all starts
--- have ended, what lies around the best place is evaluated too (study/around).
+-- A method is asked for places and gets the results; its starts take turns (study/turns). When all starts
+-- have ended, the surroundings of the best place are evaluated too (study/around).
 -- @module softworld.study.minimise
 local around = require "softworld.study.around"
 local campaign = require "softworld.study.campaign"
@@ -17,7 +17,7 @@ local minimise = {}
 
 local function fail(text, ...) error("study:minimise: " .. text:format(...), 0) end
 
--- Steps of integers and choices, by parameter.
+-- Returns the steps of integers and choices, by parameter.
 local function levels_of(own)
   local levels = {}
   for i, p in ipairs(own.parameters) do
@@ -44,7 +44,7 @@ local function outcome_of(own, result, record)
     sides = judge.sides(own, record) }
 end
 
--- Starts take turns; after them, what is around the best.
+-- Returns the source of evaluations: starts take turns; after them come the surroundings of the best place.
 local function source_of(own, result, o, runs)
   local found, highest, list = nil, 0, {}
   local function next_one()
@@ -89,7 +89,7 @@ local function check(own, name, method, o)
   end
 end
 
--- Options as the method wants them.
+-- Sets options as the method wants them.
 local function settle(own, o)
   if o.method == "auto" then
     o.method, o.why = search.auto(own.parameters, #own.constraints, o.noise)
@@ -108,12 +108,12 @@ local function settle(own, o)
   return method
 end
 
--- What tells one search from another: whatever changes its places or their numbers.
+-- Returns the options that identify a search: those that change its places or their numbers.
 local function options_of(o)
   return { workers = o.workers, method = o.method, side = o.side, step = o.step, noise = o.noise or nil }
 end
 
---- Look for it; o: method, starts, evaluations, tolerance, step, noise, around, workers.
+--- Runs the search; o: method, starts, evaluations, tolerance, step, noise, around, workers.
 function minimise.run(own, result, o)
   local runs = begin(own, o, settle(own, o))
   local _ <close> = setmetatable({}, { __close = function()

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a search has found, and how sure it is.
+--- The result of a search, and how certain it is.
 -- @module softworld.study.minimum
 local checks = require "softworld.checks"
 local judge = require "softworld.study.judge"
@@ -8,12 +8,12 @@ local parameters = require "softworld.study.parameters"
 
 local minimum = {}
 
-local NEAR = 1e-3    -- so near to a bound or a limit it is told, as a share of it
-local REASONS = 3    -- of failures that are told
-local SMALL = 0.1    -- of a direction: what is less is not told
+local NEAR = 1e-3    -- relative distance from a bound or limit below which it is reported
+local REASONS = 3    -- most reasons of failures shown
+local SMALL = 0.1    -- parts of a direction below this are not shown
 
---- The best of the records, and the one that breaks constraints the least. Of the same value the first by
--- number, in whatever order they came.
+--- Returns the best record, and the one that breaks constraints the least. Of equal values the first by
+-- number counts, in whatever order they came.
 function minimum.best(own, result, list)
   local best, least_value, nearest, least
   for _, record in ipairs(list) do
@@ -32,7 +32,7 @@ function minimum.best(own, result, list)
   return best, nearest
 end
 
---- Raise: which constraints nothing meets, with what came nearest.
+--- Raises an error with the constraints that nothing meets, and what came nearest.
 function minimum.never_met(own, list)
   local texts, _, nearest = {}, minimum.best(own, own.parameters[1].name, list)
   for _, c in ipairs(own.constraints) do
@@ -62,7 +62,7 @@ local function widen(own, box, record)
   end
 end
 
--- Reasons with how often, the first number and where: { reason =, count =, first =, where = { name = { low,
+-- Returns reasons with count, first number and place: { reason =, count =, first =, where = { name = { low,
 -- high } } }, the most common first.
 local function failures_of(own, list)
   local all, by = {}, {}
@@ -155,7 +155,7 @@ end
 
 -- --- making it ----------------------------------------------------------------------------------------
 
--- Parameters at the end of their range, and how far it is to the ends of all.
+-- Returns the parameters at an end of their range, and the distances of all to their ends.
 local function bounds_of(own, values)
   local at_bound, room = {}, {}
   for i, p in ipairs(own.parameters) do
@@ -185,7 +185,7 @@ local function starts_of(runs)
   return starts
 end
 
--- The start that found the best.
+-- Returns the start that found the best.
 local function winner(runs)
   local won = runs[1]
   for _, run in ipairs(runs) do
@@ -194,7 +194,7 @@ local function winner(runs)
   return won
 end
 
---- What a list of records, sorted by number, has of the smallest value.
+--- Returns the minimum in a list of records sorted by number.
 function minimum.of(own, result, list, runs, o)
   local best = minimum.best(own, result, list)
   if not best then minimum.never_met(own, list) end

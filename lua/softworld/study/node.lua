@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A task of a cluster: the same script, run on a node with SOFTWORLD_TASK in its environment. What the
--- script asks for before is in the journal, which is read only; when it comes to the part that the task is
--- of, the evaluations that it is to do are computed, written into its result, and the process ends.
+--- A task on a cluster: the same script, run on a node with SOFTWORLD_TASK in its environment. It reads what
+-- the script asks for earlier from the journal, which is read-only. At the task's part it computes its
+-- evaluations, writes the result, and ends the process.
 -- @module softworld.study.node
 local core = require "softworld.core"
 local evaluation = require "softworld.study.evaluation"
@@ -16,7 +16,7 @@ local function fail(text, ...) error(text:format(...), 0) end
 
 local task -- of this process: false, or { folder =, number =, about = }
 
---- The task that this process is, or nil.
+--- Returns the task of this process, or nil.
 function node.task()
   if task == nil then
     local folder = os.getenv "SOFTWORLD_TASK"
@@ -30,7 +30,7 @@ function node.task()
   return task or nil
 end
 
---- A study in such a process: it reads its journal only.
+--- Sets up a study in such a process: it only reads its journal.
 function node.study(own)
   local t = node.task()
   if not t then return end
@@ -42,7 +42,7 @@ function node.study(own)
   end
 end
 
--- What a task does is as what the study's own workers do.
+-- Computes the task like the study's own workers do.
 local function compute(own, list)
   local at, results = 0, {}
   pool.run {
@@ -68,7 +68,7 @@ local function compute(own, list)
   return results
 end
 
---- Is a part the one that this process is for? Then do it and end. build(): what setup does.
+--- If the part is the task's, does the task and ends the process. build(): calls setup.
 function node.part(own, name, build)
   local t = own.task
   local d = own.journal.definition
@@ -76,7 +76,7 @@ function node.part(own, name, build)
   if not own.file or sends.folder(own.file) ~= t.folder:match "^(.*)/%d+$" then return end
   local list = t.about.tasks[t.number]
   if not list then fail("study '%s': there is no task %d in %s", own.name, t.number - 1, t.folder) end
-  if not sends.result(t.folder, t.number, list) then -- else it has been done, and is run again
+  if not sends.result(t.folder, t.number, list) then -- else it is done, and runs again
     for _, one in ipairs(list) do
       if not parameters.values(own.parameters, one.word) then
         fail("study '%s': evaluation %d has no values of these parameters", own.name, one.number)
@@ -90,14 +90,14 @@ function node.part(own, name, build)
   os.exit(0)
 end
 
---- Something is to be computed that the task is not for: of a study with a journal it should be there.
+--- Called if the task needs something of another part, which the journal should have.
 function node.missing(own, number)
   if not own.file then return end
   fail("study '%s': evaluation %d.%d is not in %s, and this task is for another part", own.name, own.part,
     number, own.file)
 end
 
---- Processes that a study without a journal has here.
+--- Returns the number of processes that a study without a journal has here.
 function node.workers() return math.tointeger(os.getenv "SLURM_CPUS_PER_TASK") or core.processors() end
 
 return node

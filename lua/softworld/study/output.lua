@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a study shows: rows, files, a text, a chart.
+--- Shows a study: rows, files, a text, a chart.
 -- @module softworld.study.output
 local campaign = require "softworld.study.campaign"
 local checks = require "softworld.checks"
@@ -12,9 +12,9 @@ local sink = require "softworld.output.sink"
 
 local output = {}
 
-local REASONS = 5 -- of failures that are told
+local REASONS = 5 -- most reasons of failures shown
 
---- A record as a row: part, number, parameters, results, pass, failed, machine.
+--- Returns a record as a row: part, number, parameters, results, pass, failed, machine.
 function output.row(own, record)
   local row = { part = record.part, number = record.number, failed = record.failed, machine = record.machine,
     pass = judge.pass(own, record) }
@@ -23,7 +23,7 @@ function output.row(own, record)
   return row
 end
 
--- Records of a part that only the journal knows.
+-- Returns the records of a part that only the journal has.
 local function from_journal(own, part)
   local records = {}
   for number in pairs(own.journal:numbers(part)) do
@@ -51,7 +51,7 @@ local function parts_of(own)
   return list
 end
 
---- Records of one part, or of all, by their numbers.
+--- Returns the records of one part, or of all, by their numbers.
 function output.records(own, part)
   local list = {}
   for _, number in ipairs(part and { part } or parts_of(own)) do
@@ -61,14 +61,14 @@ function output.records(own, part)
   return list
 end
 
---- Rows of one part, or of all.
+--- Returns the rows of one part, or of all.
 function output.rows(own, part)
   local list = output.records(own, part)
   for i, record in ipairs(list) do list[i] = output.row(own, record) end
   return list
 end
 
--- Names of results, sorted.
+-- Returns the names of results, sorted.
 local function result_names(list)
   local names, seen = {}, {}
   for _, record in ipairs(list) do
@@ -83,7 +83,7 @@ end
 
 output.result_names = result_names
 
--- A name of a parameter or a result, or an error.
+-- Raises an error unless name is a parameter or a result.
 function output.check_name(own, what, name, list)
   local results, known = result_names(list), {}
   for i, p in ipairs(own.parameters) do known[i] = p.name end
@@ -96,7 +96,7 @@ function output.check_name(own, what, name, list)
     and ("did you mean '%s'?"):format(near) or "known are: " .. table.concat(known, " ")), 0)
 end
 
--- The record with the smallest value that meets the constraints, or nil.
+-- Returns the record with the smallest value that meets the constraints, or nil.
 local function best_of(own, name, list)
   local p, best, least = own.by_name[name], nil, nil
   for _, record in ipairs(list) do
@@ -107,7 +107,7 @@ local function best_of(own, name, list)
   return best
 end
 
---- The same as a row.
+--- Returns the same as a row.
 function output.best(own, name)
   local list = output.records(own)
   output.check_name(own, "study:best", name, list)
@@ -115,7 +115,7 @@ function output.best(own, name)
   return best and output.row(own, best)
 end
 
---- Parameters and results of a record, as text.
+--- Returns parameters and results of a record, as text.
 function output.values(own, record)
   local texts = {}
   for i, p in ipairs(own.parameters) do
@@ -143,7 +143,7 @@ local function add_part(lines, part, asked, list)
   if asked and asked.says then lines[#lines + 1] = "     " .. asked.says:gsub("\n", "\n   ") end
 end
 
--- Reasons of failures, the most common first.
+-- Adds the reasons of failures, the most common first.
 local function add_reasons(lines, list)
   local reasons, count = {}, {}
   for _, record in ipairs(list) do
@@ -167,7 +167,7 @@ local function add_reasons(lines, list)
   if #reasons > REASONS then lines[#lines + 1] = ("  and %d more reasons"):format(#reasons - REASONS) end
 end
 
---- What print shows.
+--- Returns the text for print.
 function output.text(own)
   local list = output.records(own)
   local lines = { ("study '%s': %d evaluation%s%s"):format(own.name, #list, #list == 1 and "" or "s",
@@ -194,10 +194,10 @@ local function check_path(what, path)
   end
 end
 
---- Write the table.
+--- Writes the table.
 function output.csv(own, path)
   check_path("study:csv", path)
-  if own.task then return path end -- a task of a cluster writes nothing of the study's
+  if own.task then return path end -- a task of a cluster writes no files of the study
   local list = output.records(own)
   local names, columns = { "part", "number" }, {}
   for _, p in ipairs(own.parameters) do names[#names + 1] = p.name end
@@ -214,7 +214,7 @@ function output.csv(own, path)
   return csv.write(path, names, columns)
 end
 
---- Write the table with what the study is.
+--- Writes the table with the study's definition.
 function output.json(own, path)
   check_path("study:json", path)
   if own.task then return path end

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- One process at a time works on a journal whose tasks are on a cluster, also from several machines, whose
--- locks may not know of one another. A file made by O_EXCL says who it is; he writes a new number into it
--- every few seconds. It is taken over from a process of this machine that is gone, and from another
--- machine's when the number has not changed for a while. Should two of them write all the same (the file
--- system was away for long), nothing is lost: both write the same bits, and the one that finds the other's
--- name stops.
+--- Ensures that one process at a time works on a journal with tasks on a cluster, even across machines whose
+-- locks may not see one another. A file made by O_EXCL names the owner, who writes a new number into it every
+-- few seconds. Another process takes over if the owner was a process of this machine that is gone, or if the
+-- number of another machine's owner has not changed for a while. If two processes write all the same (after
+-- the file system was away for long), nothing is lost: both write the same bits, and the one that finds the
+-- other's name stops.
 -- @module softworld.study.owner
 local core = require "softworld.core"
 local sends = require "softworld.study.sends"
@@ -12,12 +12,12 @@ local sends = require "softworld.study.sends"
 local owner = {}
 owner.__index = owner
 
-local BEAT = 5      -- between two numbers [s]
-owner.PATIENCE = 30 -- without a new number [s]
+local BEAT = 5      -- time between two numbers [s]
+owner.PATIENCE = 30 -- longest time without a new number [s]
 
 local function fail(text, ...) error(text:format(...), 0) end
 
--- When a process was begun, in the system's ticks; nil: it is gone.
+-- Returns when a process was started, in the system's ticks; nil: it is gone.
 local function birth(pid)
   local file = io.open(("/proc/%s/stat"):format(pid))
   local text = file and file:read "a"
@@ -34,14 +34,14 @@ end
 
 local function text_of(self) return ("%s %s %d\n"):format(self.who, self.born, self.beats) end
 
--- Is the one that a text tells certainly gone?
+-- True if the owner named by a text is certainly gone.
 local function is_gone(text, host)
   local his, pid, born = text:match "^(%S+)%.(%d+) (%d+) %d+\n$"
   if not his then return false end
   return his == host and birth(pid) ~= born
 end
 
--- Wait whether the number changes: true if it did not.
+-- Waits whether the number changes: true if it did not.
 local function is_silent(self, text)
   local started = core.clock()
   io.stderr:write(("study '%s': %s says that process %s works on it; looking for %d s whether it is alive\n")
@@ -53,17 +53,18 @@ local function is_silent(self, text)
   return true
 end
 
--- Put away the file of one that is gone. Another one may do the same: who renames it is the one.
+-- Renames the file of an owner that is gone. If others try the same, the one that succeeds in renaming
+-- continues.
 local function put_away(self, text)
   local aside = self.path .. "." .. self.who
   if not os.rename(self.path, aside) then return end
-  if sends.text(aside) ~= text and not core.kind(self.path) then -- a new one: it was too late
+  if sends.text(aside) ~= text and not core.kind(self.path) then -- a new owner's: too late
     os.rename(aside, self.path)
   end
   os.remove(aside)
 end
 
---- Become the owner, or raise. folder: that of the study's sends.
+--- Makes this process the owner, or raises an error. folder: that of the study's sends.
 function owner.claim(name, folder)
   local who = sends.who()
   local host, pid = who:match "^(.*)%.(%d+)$"
@@ -84,14 +85,14 @@ function owner.claim(name, folder)
       end
       put_away(self, text)
     else
-      core.ready({}, 0.2) -- it is being made, or has gone
+      core.ready({}, 0.2) -- the file is being made, or has gone
     end
   end
   fail("study '%s': cannot get hold of %s; remove it if no other process works on this study", name,
     self.path)
 end
 
---- Say that this process is alive, now and then. Raises where another one has taken over.
+--- Shows now and then that this process is alive. Raises an error if another one has taken over.
 function owner:beat()
   if core.clock() - self.at < BEAT then return end
   if sends.text(self.path) ~= text_of(self) then
@@ -102,7 +103,7 @@ function owner:beat()
   sends.put(self.path, text_of(self))
 end
 
---- Be it no more.
+--- Gives up the ownership.
 function owner:release()
   if not self.lost and sends.text(self.path) == text_of(self) then os.remove(self.path) end
 end

@@ -12,14 +12,14 @@ local parameters = {}
 local KEYS = checks.set "unit log integer start sigma choices of"
 local RESERVED = checks.set "random give_up broken number part seed failed machine pass"
 
-local LONGEST = 64 -- of a name [characters]
-local MOST = 1000  -- parameters
+local LONGEST = 64 -- longest name [characters]
+local MOST = 1000  -- most parameters
 
 local function fail(text, ...) error(text:format(...), 0) end
 
 local SI = " m s kg N Pa rad J W Hz K A V mol "
 
---- Is it a unit of the SI without prefixes: products and quotients with whole powers, or "-"?
+--- True for an SI unit without prefixes: products and quotients with whole powers, or "-".
 function parameters.is_unit(text)
   if text == "-" or text == "" then return true end
   for part in text:gmatch "[^ /]+" do
@@ -29,7 +29,7 @@ function parameters.is_unit(text)
   return text:find "%S" ~= nil
 end
 
---- Raise unless unit is a text that names one.
+--- Raises an error unless unit is such a text.
 function parameters.check_unit(what, unit)
   if unit == nil then return end
   if type(unit) ~= "string" or not parameters.is_unit(unit) then
@@ -38,7 +38,7 @@ function parameters.check_unit(what, unit)
   end
 end
 
---- Raise unless it is a name that a parameter or a result can have.
+--- Raises an error unless it is a valid name of a parameter or a result.
 function parameters.check_name(what, name)
   if type(name) ~= "string" or not name:find "^%a[%w_]*$" then
     fail("%s %s: a name begins with a letter and has letters, digits and _ only", what, checks.got(name))
@@ -112,7 +112,7 @@ local function read_range(what, given)
     high = given.integer and math.tointeger(high) or high + 0.0 }
 end
 
--- A quantity of the catalogue: its value and its bounds.
+-- Reads a quantity of the catalogue: its value and its bounds.
 local function of_catalogue(what, given)
   local low, high = checks.field(given, "low"), checks.field(given, "high")
   if low == nil or high == nil then
@@ -143,7 +143,7 @@ local function read_one(name, given)
   return p
 end
 
---- The list of parameters that a script's table tells, by name.
+--- Returns the list of parameters in a script's table, by name.
 function parameters.read(given)
   local list, names = {}, checks.sorted(given, checks.by_text)
   for i, name in ipairs(names) do
@@ -164,7 +164,7 @@ local function between(p, u)
   return p.low + u * (p.high - p.low)
 end
 
---- The value at a place u from 0 to 1 of a parameter's range; of choices the number of one.
+--- Returns the value at a place u from 0 to 1 of a parameter's range; for choices the number of a choice.
 function parameters.at(p, u)
   if p.kind == "choice" then return math.min(#p.choices, 1 + math.floor(u * #p.choices)) end
   if u <= 0 then return p.low elseif u >= 1 then return p.high end
@@ -173,18 +173,18 @@ function parameters.at(p, u)
   return math.min(p.high, p.low + math.floor(u * (p.high - p.low + 1)))
 end
 
---- The place of a value of a range.
+--- Returns the place of a value in a range.
 function parameters.place(p, value)
   if p.log then return math.log(value / p.low) / math.log(p.high / p.low) end
   return (value - p.low) / (p.high - p.low)
 end
 
---- The place of a parameter's start; nil where it has none.
+--- Returns the place of a parameter's start; nil without a start.
 function parameters.start(p)
   return p.start and math.max(0, math.min(1, parameters.place(p, p.start)))
 end
 
---- A list of values at a list of places.
+--- Returns the values at a list of places.
 function parameters.all_at(list, places, from)
   local values = {}
   for i, p in ipairs(list) do values[i] = parameters.at(p, places[(from or 0) + i]) end
@@ -193,21 +193,21 @@ end
 
 -- --- text --------------------------------------------------------------------------------------
 
---- A number as text that reads back to the same bits and the same type.
+--- Returns a number as text that reads back to the same bits and the same type.
 function parameters.text(x)
   local text = sink.number(x)
   if math.type(x) == "float" and not text:find "[%.en]" then text = text .. ".0" end
   return text
 end
 
---- Values as one word.
+--- Returns values as one word.
 function parameters.word(values)
   local texts = {}
   for i, value in ipairs(values) do texts[i] = parameters.text(value) end
   return table.concat(texts, ",")
 end
 
---- The values of a word; nil where it is none of these parameters.
+--- Returns the values of a word; nil if it does not fit these parameters.
 function parameters.values(list, word)
   local values = {}
   for text in word:gmatch "[^,]+" do
@@ -220,13 +220,13 @@ function parameters.values(list, word)
   return #values == #list and values or nil
 end
 
---- What a script is given for a value: of choices the choice.
+--- Returns what a script gets for a value: for choices the choice itself.
 function parameters.shown(p, value)
   if p.kind == "choice" then return p.choices[value] end
   return value
 end
 
---- One line on a parameter: exact, so the same for the same definition only, or for people.
+--- Returns one line about a parameter: exact, so that it identifies the definition, or for people.
 function parameters.describe(p, for_people)
   local shown = for_people and function(x) return ("%.9g"):format(x) end or parameters.text
   if p.kind == "choice" then

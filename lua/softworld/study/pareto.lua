@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Two or three results that cannot all be smallest at once: the front of evaluations of which none is better
--- in all of them.
+--- Pareto front of two or three results that cannot all be smallest at once: the evaluations of which none is
+-- better in all of them.
 -- @module softworld.study.pareto
 local campaign = require "softworld.study.campaign"
 local checks = require "softworld.checks"
@@ -14,9 +14,9 @@ local turns = require "softworld.study.turns"
 
 local pareto = {}
 
-local SHOWN = 8 -- rows of a front that are printed
+local SHOWN = 8 -- rows of a front that print shows
 
---- The names of args[1], args[2] and maybe args[3], and the rest of args.
+--- Returns the names args[1], args[2] and perhaps args[3], and the rest of args.
 function pareto.names(what, args)
   local names, rest = {}, {}
   if type(args) ~= "table" then
@@ -48,7 +48,7 @@ local function outcome_of(own, names, record)
   return { values = values, broken = judge.violation(own, record) }
 end
 
--- Is a nowhere above b?
+-- True if a is not above b in any value.
 local function covers(a, b)
   for k, v in ipairs(a) do
     if v > b[k] then return false end
@@ -56,8 +56,8 @@ local function covers(a, b)
   return true
 end
 
--- Records that meet the constraints and that no other one beats, by the first result. Of
--- two results the last of the front so far has the smallest second one.
+-- Returns the records that meet the constraints and that no other one dominates, by the first result. With
+-- two results, the last record of the front so far has the smallest second one.
 local function front_of(own, names, records)
   local list, front = {}, {}
   for _, record in ipairs(records) do
@@ -83,7 +83,8 @@ local function front_of(own, names, records)
   return front
 end
 
--- The one farthest from the straight line (or plane) through the ends, in shares of the front's extent.
+-- Returns the one farthest from the straight line (or plane) through the ends, relative to the front's
+-- extent.
 local function knee_of(front)
   local low, high = {}, {}
   for _, one in ipairs(front) do
@@ -108,7 +109,7 @@ local Front = { __name = "front" }
 local unknown = checks.fields("front", "names rows knee evaluations failed")
 
 function Front.__index(f, key)
-  if key == "knee" then return nil end -- of an empty one
+  if key == "knee" then return nil end -- of an empty front
   return unknown(f, key)
 end
 
@@ -129,7 +130,7 @@ function Front.__tostring(f)
   return table.concat(lines, "\n")
 end
 
---- The front of records.
+--- Returns the front of records.
 function pareto.of(own, names, records)
   local front, failed, rows, knee = front_of(own, names, records), 0, {}, nil
   for _, record in ipairs(records) do failed = failed + (record.results and 0 or 1) end
@@ -144,7 +145,7 @@ function pareto.of(own, names, records)
     Front)
 end
 
---- The front of all that the study has.
+--- Returns the front of everything that the study has.
 function pareto.front(own, names)
   local list = output.records(own)
   for _, name in ipairs(names) do output.check_name(own, "study:front", name, list) end
@@ -153,7 +154,7 @@ end
 
 -- --- the search ----------------------------------------------------------------------------------
 
--- The first generation: the parameters' start, then so many that fill the ranges.
+-- Returns the first generation: the parameters' start, then points that fill the ranges.
 local function first_of(own, o)
   local places = design.places(#own.parameters, o.population, own.seed)
   return function(k)
@@ -165,7 +166,7 @@ local function first_of(own, o)
   end
 end
 
---- Look for it; o: evaluations, population, workers.
+--- Runs the search; o: evaluations, population, workers.
 function pareto.run(own, names, o)
   o.population = o.population or 20 * #names
   o.evaluations = o.evaluations or 40 * o.population

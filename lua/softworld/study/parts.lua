@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Parts of a study: each call of a method is one, known by the method, those of its options that say what
--- it is, and how many such ones were before it in the script. So another call between them changes nothing
--- of what the others have computed, nor their random numbers. How many evaluations are wanted, how exactly
--- and who computes them is not in the name: what is there then still counts.
+--- Parts of a study. Each call of a method is a part, identified by the method, the options that define it,
+-- and how many equal calls came before it in the script. So another call between them changes neither what
+-- the others have computed nor their random numbers. The number of evaluations, the accuracy and the place of
+-- computing are not part of the name, so existing evaluations still count.
 -- @module softworld.study.parts
 local core = require "softworld.core"
 local parameters = require "softworld.study.parameters"
@@ -10,8 +10,8 @@ local parameters = require "softworld.study.parameters"
 local parts = {}
 
 local LEFT_OUT = { workers = true, count = true, evaluations = true, each = true, tolerance = true }
-local LONG = 120 -- characters, beyond which a checksum stands for it
-local DEEP = 8   -- tables within tables
+local LONG = 120 -- longest text [characters]; a checksum replaces longer ones
+local DEEP = 8   -- deepest nesting of tables
 
 local shown
 
@@ -28,7 +28,7 @@ local function of_table(value, depth)
   return "{" .. table.concat(texts, " ") .. "}"
 end
 
--- A value as text, the same for the same value; of functions and objects their kind.
+-- Returns a value as text, equal for equal values; for functions and objects their kind.
 function shown(value, depth)
   if type(value) == "number" then return parameters.text(value) end
   if type(value) == "table" and getmetatable(value) == nil and depth < DEEP then
@@ -38,7 +38,7 @@ function shown(value, depth)
   return type(value)
 end
 
---- The name of a method's call without its place in the script: "sweep kind=sobol".
+--- Returns the name of a method's call without its place in the script: "sweep kind=sobol".
 function parts.text(method, options)
   local left = {}
   for key, value in pairs(options) do
@@ -49,17 +49,17 @@ function parts.text(method, options)
   return text == "" and method or method .. " " .. text
 end
 
---- The name of the call that comes now.
+--- Returns the name of the next call.
 function parts.name(own, method, options)
   local text = parts.text(method, options)
   local count = (own.counts[text] or 0) + 1
   return { text = text, count = count, full = count == 1 and text or ("%s #%d"):format(text, count) }
 end
 
---- The stream of random numbers that a part has by its name.
+--- Returns the stream of random numbers of a part, from its name.
 function parts.stream(full) return core.checksum(full) end
 
---- Begin it: its number, in own.part; random numbers are those of own.stream.
+--- Begins a part: sets own.part to its number, and own.stream for its random numbers.
 function parts.begin(own, name, method, records)
   own.counts[name.text] = name.count
   own.before = own.part
@@ -68,7 +68,7 @@ function parts.begin(own, name, method, records)
   return own.part
 end
 
---- It was broken off, and may be asked for again.
+--- Called when a part was interrupted, so that it can be asked for again.
 function parts.leave(own, name)
   own.counts[name.text] = name.count - 1
   own.part = own.before

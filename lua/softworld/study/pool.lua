@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Processes that evaluate. Each is a fork with all that setup has built; what it is to do and what came
--- out are texts. One that ends is one failed evaluation, and another takes its place.
+--- Worker processes that evaluate. Each is a fork with everything that setup has built; tasks and results are
+-- texts. If a worker ends, one evaluation has failed, and another worker takes its place.
 -- @module softworld.study.pool
 local core = require "softworld.core"
 
 local pool = {}
 
 local LOOK = 0.1       -- longest wait without a look for Ctrl-C [s]
-local AGAIN = 1        -- an evaluation is sent again so often when somebody killed its worker
+local AGAIN = 1        -- how often an evaluation is sent again if somebody killed its worker
 local SIGINT, SIGKILL, SIGPROF, SIGTERM, SIGHUP = 2, 9, 27, 15, 1
 local OTHERS = { [SIGINT] = true, [SIGKILL] = true, [SIGTERM] = true, [SIGHUP] = true }
 local NAMES = { [4] = "illegal instruction", [6] = "aborted", [7] = "bus error", [8] = "arithmetic error",
   [9] = "killed", [11] = "segmentation fault", [15] = "terminated" }
 
---- In a worker: answer until there is nothing more to do. answer(text) -> text.
+--- In a worker: answers until there is nothing more to do. answer(text) -> text.
 local function serve(channel, options)
   while true do
     local text = channel:receive()
@@ -38,7 +38,7 @@ local function fork(self)
   return worker
 end
 
--- Status and reason of an evaluation whose worker has ended; second, whether to send it again.
+-- Returns status and reason of an evaluation whose worker has ended, and whether to send it again.
 local function ended(options, how, number)
   if how == "exit" then return "failed", ("evaluate ended its process (exit code %d)"):format(number) end
   if number == SIGPROF then return "machine", pool.cpu_reason(options.cpu or 0) end
@@ -47,13 +47,13 @@ local function ended(options, how, number)
   return OTHERS[number] and "machine" or "failed", text, OTHERS[number]
 end
 
---- What is said of an evaluation that took too long.
+--- Returns the reason of an evaluation that took too long.
 function pool.cpu_reason(cpu) return ("took more than %.9g s of computing time"):format(cpu) end
 
 local function send(self, slot, task)
   slot.task = task
   if slot.worker:send(task.text) then return end
-  slot.worker:stop() -- it was killed while it waited: another one does it
+  slot.worker:stop() -- killed while it waited: another one does the task
   slot.worker = fork(self)
   if not slot.worker:send(task.text) then error("a worker ends as soon as it begins", 0) end
 end
@@ -71,7 +71,7 @@ local function take(self, slot)
   send(self, slot, task)
 end
 
--- One round: who has nothing to do gets something, who has done it is heard. False when all is done.
+-- Does one round: gives tasks to idle workers and reads results. False when all is done.
 local function round(self)
   local busy, at = {}, {}
   for _, slot in ipairs(self.slots) do
@@ -91,9 +91,10 @@ local function all(self)
   while round(self) do end
 end
 
---- Do all that options.next() gives, tasks { text = }, nil when there is none now; done(task, status, text)
--- is called for each as they come. workers: how many; begin(): called in each worker; answer(text) -> text;
--- cpu [s] and memory [B] of one evaluation, nil = any. No worker is left, however this ends.
+--- Does everything that options.next() gives, tasks { text = }, nil if there is none at the moment; calls
+-- done(task, status, text) for each as they come. workers: how many; begin(): called in each worker;
+-- answer(text) -> text; cpu [s] and memory [B]: limits for one evaluation, nil = none. No worker is left,
+-- however this ends.
 function pool.run(options)
   local self = { options = options, slots = {} }
   local fine, why = pcall(all, self)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How far a method of a study is, on one line of a terminal; nothing elsewhere, and nothing of what is done
--- within a second.
+--- Shows the progress of a study's method on one line of a terminal; nothing elsewhere, and nothing for
+-- methods that end within a second.
 --
 --     grip: minimise time  120 of at most 400  best 1.234 (no. 87), 3 failed, 52/s, left 5 s
 -- @module softworld.study.progress
@@ -12,12 +12,12 @@ local number = require "softworld.output.number"
 local progress = {}
 progress.__index = progress
 
-local AFTER = 1  -- before anything is shown [s]
-local GAP = 0.1  -- between two drawings [s]
-local WIDTH = 2  -- between two looks at the terminal's width [s]
+local AFTER = 1  -- time before anything is shown [s]
+local GAP = 0.1  -- time between two drawings [s]
+local WIDTH = 2  -- time between two queries of the terminal's width [s]
 
---- Of a method of a study. o: total (evaluations), most (true: at most so many), result (that is looked for);
--- stream, terminal, clock, width for specs.
+--- Returns a progress line. o: total (evaluations), most (true: at most this many), result (that is
+-- minimised); stream, terminal, clock, width for specs.
 function progress.new(own, method, o)
   local self = setmetatable({ own = own, method = method, total = o.total, most = o.most, result = o.result,
     stream = o.stream or io.stderr, terminal = o.terminal, clock = o.clock or core.clock,
@@ -39,7 +39,7 @@ local function facts(self, now)
   elseif self.result and #self.own.constraints > 0 then parts[1] = "none meets the constraints yet"
   elseif #self.own.constraints > 0 and not self.result then parts[1] = ("%d pass"):format(self.passed) end
   if self.failed > 0 then parts[#parts + 1] = ("%d failed"):format(self.failed) end
-  -- of a cluster the first says nothing: it was computed here
+  -- on a cluster the first says nothing: it was computed here
   if self.computed > (self.own.on == "slurm" and 1 or 0) and elapsed > 0 then
     local rate = self.computed / elapsed
     parts[#parts + 1] = rate >= 1 and ("%.3g/s"):format(rate) or ("%.3g/min"):format(60 * rate)
@@ -50,7 +50,7 @@ local function facts(self, now)
   return parts
 end
 
---- The line as it is now, of so many columns at most: the last facts are left away first.
+--- Returns the line in at most `columns`; the last facts are left out first.
 function progress:line(now, columns)
   local of = self.total and (self.most and " of at most %d" or " of %d"):format(self.total) or ""
   local head = ("%s: %s  %d%s"):format(self.own.name:gsub("%c", " "), self.method, self.count, of)
@@ -63,7 +63,7 @@ function progress:line(now, columns)
   return head:sub(1, (utf8.offset(head, columns) or #head + 1) - 1)
 end
 
---- Count a record, if one is given, and show what there is. known: it was in the journal.
+--- Counts a record, if one is given, and shows the line. known: it was in the journal.
 function progress:update(record, known)
   if record then
     self.count = self.count + 1
@@ -85,7 +85,7 @@ function progress:update(record, known)
   self.shown, self.drawn = now, true
 end
 
---- Take the line away, so that something else can be told.
+--- Removes the line, so that something else can be printed.
 function progress:clear()
   if not self.drawn then return end
   self.stream:write "\r\27[K"

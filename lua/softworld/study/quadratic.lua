@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A polynomial of degree 2 through values at places, by least squares.
+--- Fits a polynomial of degree 2 through values at places, by least squares.
 -- @module softworld.study.quadratic
 local core = require "softworld.core"
 
 local quadratic = {}
 
-local RIDGE = 1e-12 -- against directions of which the values tell nothing, as a share of the largest
+local RIDGE = 1e-12 -- regularisation of directions that the values do not determine, over the largest
 
--- 1, coordinates, their products.
+-- Returns 1, the coordinates, and their products.
 local function terms(x)
   local row = { 1 }
   for i = 1, #x do row[#row + 1] = x[i] end
@@ -17,10 +17,10 @@ local function terms(x)
   return row
 end
 
---- How many coefficients it has in n dimensions.
+--- Returns the number of coefficients in n dimensions.
 function quadratic.count(n) return (n + 1) * (n + 2) // 2 end
 
--- Solve a symmetric matrix, positive but for chance, by its eigenvectors.
+-- Solves with a symmetric matrix, positive except for rounding, by its eigenvectors.
 local function solve(matrix, n, right)
   local values, vectors = core.eigen(matrix, n)
   local x = {}
@@ -34,7 +34,7 @@ local function solve(matrix, n, right)
   return x
 end
 
---- Coefficients; places: lists of coordinates, values: numbers, weights: of each, 1 without.
+--- Returns the coefficients; places: lists of coordinates, values: numbers, weights: one each, default 1.
 function quadratic.fit(places, values, weights)
   local n = quadratic.count(#places[1])
   local matrix, right = {}, {}
@@ -51,14 +51,14 @@ function quadratic.fit(places, values, weights)
   return solve(matrix, n, right)
 end
 
---- The polynomial's value at a place.
+--- Returns the polynomial's value at a place.
 function quadratic.at(coefficients, place)
   local sum = 0
   for i, t in ipairs(terms(place)) do sum = sum + coefficients[i] * t end
   return sum
 end
 
---- Where it is smallest; nil where it has no smallest value.
+--- Returns the place of the smallest value; nil if there is none.
 function quadratic.lowest(coefficients, n)
   local matrix, at = {}, n + 1
   for i = 1, n do

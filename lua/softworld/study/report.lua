@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The page of a study: one HTML file with a table and cross plots, in which an evaluation is chosen by a
--- click; it opens the player's page of that one, where it was made, or tells the lines that make it. Sources
--- are in lua/softworld/study/page.
+--- Writes the page of a study: one HTML file with a table and cross plots. A click on an evaluation opens its
+-- player's page if that was made, or shows the lines that make it. The sources are in
+-- lua/softworld/study/page.
 -- @module softworld.study.report
 local again = require "softworld.study.again"
 local build = require "softworld.scene.build"
@@ -20,8 +20,8 @@ local folder = here:match "^(.*)report%.lua$" .. "page/"
 
 local report = {}
 
-local MOST = 20000 -- evaluations in a page
-local NULL = 0 / 0  -- JSON writes null for it
+local MOST = 20000 -- most evaluations in a page
+local NULL = 0 / 0  -- written as null in JSON
 
 local MOST_PLAYED = 200
 
@@ -46,7 +46,7 @@ local function columns_of(own, list)
   return parameters, results
 end
 
--- Which records are shown: all, or so many of them, evenly.
+-- Returns the records to show: all, or evenly chosen ones.
 local function few(list)
   if #list <= MOST then return list end
   local some = {}
@@ -54,7 +54,7 @@ local function few(list)
   return some, ("Shown are %d of %d evaluations."):format(MOST, #list)
 end
 
--- The evaluations to be played, each once.
+-- Returns the evaluations to play, each once.
 local function wanted(own, play)
   if play == nil then return {} end
   local list = play
@@ -69,7 +69,7 @@ local function wanted(own, play)
   return list
 end
 
--- Pages of the players, beside the study's: name of the file by "part.number".
+-- Writes the players' pages beside the study's; returns file names by "part.number".
 local function players(self, own, path, play)
   local files = {}
   for _, one in ipairs(wanted(own, play)) do
@@ -136,7 +136,7 @@ local function do_report(self, path, args)
   if own.task then return path end
   local files = players(self, own, path, o.play)
   local data = json.encode(data_of(own, files)):gsub("[<>&]", { ["<"] = "\\u003c", [">"] = "\\u003e",
-    ["&"] = "\\u0026" }) -- nothing within can end the script, or open a comment in it
+    ["&"] = "\\u0026" }) -- no text can end the script element, or open a comment in it
   local parts = { title = letters.xml(own.name), STYLES = sink.read_file(folder .. "style.css"),
     SCRIPTS = sink.read_file(folder .. "study.js"),
     data = '<script type="application/json" id="data">' .. data .. "</script>" }

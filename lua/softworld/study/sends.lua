@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What a study sends to a cluster, as files in a folder beside its journal that all nodes see. Each job
+--- What a study sends to a cluster: files in a folder beside its journal that all nodes see. Each job
 -- array has a folder of its own:
 --
 --     grip.study.tasks/3/list      which evaluations each of its tasks is to do, lines as in a journal
@@ -8,8 +8,8 @@
 --     grip.study.tasks/3/out.0     what task 0 found
 --     grip.study.tasks/3/log.0     what task 0 wrote to its standard output and error
 --
--- Every file is written aside and renamed, and nothing is locked: on shared file systems locks may be those
--- of one machine alone. A result counts when all lines of its task are there, each with a right sum.
+-- Every file is written under another name and renamed, and nothing is locked: on shared file systems locks
+-- may hold for one machine only. A result counts if all lines of its task are there, each with a correct sum.
 -- @module softworld.study.sends
 local core = require "softworld.core"
 local journal = require "softworld.study.journal"
@@ -28,13 +28,13 @@ local function first_line(path)
   return line
 end
 
---- This machine's name and this process's number: who.
+--- Returns this machine's name and this process's number as one word.
 function sends.who()
   local stat = first_line "/proc/self/stat" or "0"
   return (first_line "/proc/sys/kernel/hostname" or "?"):gsub("[^%w.-]", "_") .. "." .. stat:match "^%d+"
 end
 
---- Write a file aside and give it its name.
+--- Writes a file under a temporary name and renames it.
 function sends.put(path, text)
   local aside = path .. "." .. sends.who()
   local file, why = io.open(aside, "wb")
@@ -50,16 +50,16 @@ function sends.put(path, text)
   if not fine then fail("cannot write %s: %s", path, problem) end
 end
 
---- The folder of all that a study with this journal has sent.
+--- Returns the folder of everything that a study with this journal has sent.
 function sends.folder(file) return file .. ".tasks" end
 
---- The text of a file, or nil where there is none.
+--- Returns the text of a file, or nil if there is none.
 function sends.text(path)
   local fine, text = pcall(sink.read_file, path)
   return fine and text or nil
 end
 
---- The numbers of what has been sent and is not done with.
+--- Returns the numbers of sends that still exist.
 function sends.numbers(file)
   local list, folder = {}, sends.folder(file)
   if core.kind(folder) ~= "folder" then return list end
@@ -71,7 +71,7 @@ function sends.numbers(file)
   return list
 end
 
--- Lines with right sums: an iterator over body, and part and number of those about evaluations.
+-- Returns an iterator over lines with correct sums: body, and part and number of lines about evaluations.
 local function lines(text)
   local at = 1
   return function()
@@ -83,7 +83,7 @@ local function lines(text)
   end
 end
 
---- Put down what is to be sent: tasks, lists of { number =, word =, tries = }. about: name, key, text, part
+--- Writes what is to be sent: tasks, lists of { number =, word =, tries = }. about: name, key, text, part
 -- and the job's name.
 function sends.write(folder, about, tasks)
   local texts = { journal.summed(FIRST), journal.summed(("s %s %s %s"):format(journal.quoted(about.name),
@@ -99,8 +99,8 @@ function sends.write(folder, about, tasks)
   sends.put(folder .. "/list", table.concat(texts))
 end
 
---- What a folder is about: name, key, text, part, job, tasks (lists of { number =, word =, tries = }); only
--- one of the tasks where its number is given. nil where its list is not whole.
+--- Returns what a folder is about: name, key, text, part, job, tasks (lists of { number =, word =, tries =
+-- }); with `only` just this task. nil if the list is not whole.
 function sends.read(folder, only)
   local text = sends.text(folder .. "/list")
   if not text then return nil end
@@ -124,7 +124,7 @@ function sends.read(folder, only)
   return whole and about.part and about.key and about.job and about or nil
 end
 
---- What a task found, as text: lines { number =, word =, status =, rest = }.
+--- Returns what a task found, as text: lines { number =, word =, status =, rest = }.
 function sends.result_text(k, list)
   local texts = {}
   for i, r in ipairs(list) do
@@ -134,7 +134,7 @@ function sends.result_text(k, list)
   return table.concat(texts)
 end
 
---- The same back: a list, or nil where the file is not there; false where it is not whole, or of another
+--- Reads this text back: a list; nil if there is no file; false if it is not whole, or of another
 -- task.
 function sends.result(folder, k, wanted)
   local text = sends.text(("%s/out.%d"):format(folder, k - 1))
@@ -154,7 +154,7 @@ function sends.result(folder, k, wanted)
   return list
 end
 
---- The numbers of tasks in a folder that have written a result, as keys of a table.
+--- Returns the numbers of tasks in a folder that have written a result, as keys of a table.
 function sends.finished(folder)
   local set = {}
   local _, text = sink.run("ls -1 " .. sink.quote(folder .. "/"))
@@ -165,19 +165,19 @@ function sends.finished(folder)
   return set
 end
 
---- The last words in a task's log, or nil.
+--- Returns the last words in a task's log, or nil.
 function sends.words(folder, k)
   local text = sends.text(("%s/log.%d"):format(folder, k - 1)) or ""
   return text:sub(-2000):gsub("%s+$", ""):match "[^\n]+$"
 end
 
---- Only its logs are to stay.
+--- Removes everything in a folder except its logs.
 function sends.forget(folder)
   sends.put(folder .. "/kept", "logs of tasks that were lost; nothing needs them\n")
   sink.run(("cd %s && rm -f list job.sh id cancelled out.*"):format(sink.quote(folder)))
 end
 
---- Remove a folder with its files.
+--- Removes a folder with its files.
 function sends.remove(folder)
   local files = "list list.* job.sh job.sh.* id id.* kept cancelled cancelled.* out.* log.*"
   sink.run(("cd %s && rm -f %s"):format(sink.quote(folder), files))

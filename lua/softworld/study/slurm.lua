@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Slurm, by its commands: https://slurm.schedmd.com/archive/slurm-22.05.8/ (sbatch, squeue, scancel).
+--- Calls Slurm's commands: https://slurm.schedmd.com/archive/slurm-22.05.8/ (sbatch, squeue, scancel).
 -- @module softworld.study.slurm
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -13,7 +13,7 @@ local OWN = checks.set [[array job-name output error input open-mode parsable wr
 
 local function fail(text, ...) error(text:format(...), 0) end
 
---- Raise unless Slurm's commands are there.
+--- Raises an error unless Slurm's commands exist.
 function slurm.need(name)
   for _, command in ipairs(COMMANDS) do
     if not sink.run("command -v " .. command .. " >/dev/null") then
@@ -24,7 +24,7 @@ function slurm.need(name)
   end
 end
 
---- Options for sbatch, { partition = "short", cpus_per_task = 4 }, as a sorted list of words.
+--- Returns options for sbatch, { partition = "short", cpus_per_task = 4 }, as a sorted list of words.
 function slurm.options(what, given)
   local words = {}
   for key, value in pairs(given or {}) do
@@ -46,13 +46,13 @@ function slurm.options(what, given)
   return words
 end
 
--- Words of Slurm's commands without their own name, on one line.
+-- Returns the words of Slurm's commands without the commands' names, on one line.
 local function plain(text)
   text = text:gsub("sbatch: ", ""):gsub("slurm_load[%w_]* ", ""):gsub("error: ", "")
   return (text:gsub("%s+$", ""):gsub("\n", "; "))
 end
 
---- The most tasks of an array. Raises where Slurm does not answer.
+--- Returns the most tasks of an array. Raises an error if Slurm does not answer.
 function slurm.largest(name)
   local fine, text = sink.run "scontrol show config"
   if not fine then fail("study '%s': Slurm does not answer: %s", name, plain(text)) end
@@ -65,7 +65,8 @@ local function hint(text)
   return fine and "; partitions are: " .. names:gsub("%s+", " "):gsub(" $", "") or ""
 end
 
---- Send an array of count tasks: the job's number; or nil and why, when there is no room for it now.
+--- Sends an array of count tasks. Returns the job's number; or nil and why, if there is no room at the
+-- moment.
 function slurm.send(name, job, script, log, count, options)
   local words = { "sbatch", "--parsable", "--array=0-" .. count - 1, "--job-name=" .. job,
     "--open-mode=append", "--output=" .. log }
@@ -79,8 +80,8 @@ function slurm.send(name, job, script, log, count, options)
   fail("study '%s': Slurm takes no tasks: %s%s", name, plain(text), hint(text))
 end
 
---- The states of all tasks of jobs with these names: { [name] = { [number within the array] = { state =,
--- reason =, id = } } }; nil and why, when Slurm does not answer.
+--- Returns the states of all tasks of jobs with these names: { [name] = { [number within the array] = { state
+-- =, reason =, id = } } }; nil and why, if Slurm does not answer.
 function slurm.states(names)
   local found = {}
   for _, name in ipairs(names) do found[name] = {} end
@@ -99,17 +100,17 @@ end
 local OVER = checks.set [[COMPLETED FAILED CANCELLED TIMEOUT NODE_FAIL OUT_OF_MEMORY BOOT_FAIL DEADLINE
   REVOKED PREEMPTED SPECIAL_EXIT]]
 
---- Is a task in this state over? nil: Slurm knows nothing of it any more.
+--- True if a task in this state is over. nil: Slurm does not know it any more.
 function slurm.over(state) return state == nil or OVER[state.state] == true end
 
---- Cancel jobs with these names.
+--- Cancels jobs with these names.
 function slurm.cancel(names)
   if #names == 0 then return true end
   for _, name in ipairs(names) do sink.run("scancel -n " .. sink.quote(name)) end
   return true
 end
 
---- A name for a job that no other one has, of the study's name and a text.
+--- Returns a unique name for a job, from the study's name and a text.
 function slurm.job(name, text)
   return ("softworld-%s-%016x"):format(name:gsub("[^%w]", "_"):sub(1, 40), core.checksum(text))
 end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How often a model meets its constraints when its parameters vary: drawn at random, evenly over their
--- ranges (of log ones over the logarithm), or normally about start where sigma is given, within the range.
+--- How often a model meets its constraints when its parameters vary: drawn at random, uniformly over their
+-- ranges (log ranges over the logarithm), or normally about start if sigma is given, within the range.
 -- @module softworld.study.spread
 local checks = require "softworld.checks"
 local core = require "softworld.core"
@@ -12,10 +12,10 @@ local parameters = require "softworld.study.parameters"
 
 local spread = {}
 
-local Z = 1.959963984540054 -- of the normal distribution, 97.5 % lie below it
+local Z = 1.959963984540054 -- 97.5 % point of the normal distribution
 local SETS = 8              -- of Sobol's sequence
-local STUDENT = 2.3646242515927844 -- of the t distribution of SETS - 1, 97.5 % lie below it
-local WORST = 5             -- rows that are told
+local STUDENT = 2.3646242515927844 -- 97.5 % point of the t distribution with SETS - 1 degrees of freedom
+local WORST = 5             -- rows shown
 local TRIES = 1000          -- for a normal number within the range
 
 local function draw(p, random)
@@ -28,7 +28,7 @@ local function draw(p, random)
   return mean
 end
 
---- A function from the number of an evaluation to its values, which depend on nothing else.
+--- Returns a function from the number of an evaluation to its values, which depend on nothing else.
 function spread.drawing(own)
   return function(number)
     local random, values = design.generator(own.seed, own.stream, number), {}
@@ -37,19 +37,19 @@ function spread.drawing(own)
   end
 end
 
--- The value at a share of the distribution.
+-- Returns the value at a share of the distribution.
 local function value_at(p, share)
   if not p.sigma then return parameters.at(p, share) end
   local mean = p.start or 0.5 * (p.low + p.high)
   local low = core.normal_below((p.low - mean) / p.sigma)
   local high = core.normal_below((p.high - mean) / p.sigma)
   share = low + share * (high - low)
-  if share <= 0 or share >= 1 then return mean end -- the range lies far out in a tail
+  if share <= 0 or share >= 1 then return mean end -- the range is far out in a tail
   return math.max(p.low, math.min(p.high, mean + p.sigma * core.normal_at(share)))
 end
 
---- The same by Sobol's sequence, SETS times, each shifted by random numbers (R. Cranley, T. N. L. Patterson
--- 1976): evaluation k is of set (k - 1) % SETS.
+--- Same by Sobol's sequence, SETS times, each shifted by random numbers (R. Cranley, T. N. L. Patterson
+-- 1976): evaluation k is in set (k - 1) % SETS.
 function spread.filling(own, count)
   local n, shifts, each = #own.parameters, {}, math.ceil(count / SETS)
   local flat, random = core.quasi("sobol", n, each), design.generator(own.seed, 1976)
@@ -63,8 +63,8 @@ function spread.filling(own, count)
   end
 end
 
--- The interval of a probability from the shares of the sets, which are independent (Student's t). nil where
--- they are all alike, or a set is empty.
+-- Returns the interval of a probability from the shares of the independent sets (Student's t). nil if all are
+-- equal, or a set is empty.
 local function of_sets(own, list)
   local passed, count, sum, square = {}, {}, 0, 0
   for set = 1, SETS do passed[set], count[set] = 0, 0 end
@@ -85,8 +85,8 @@ local function of_sets(own, list)
   return math.max(0, sum - half), math.min(1, sum + half)
 end
 
---- The interval that holds a probability in 95 of 100 cases, when passed of count trials passed (E. B. Wilson
--- 1927): low, high.
+--- Returns the 95 % interval of a probability after `passed` of `count` trials (E. B. Wilson 1927): low,
+-- high.
 function spread.wilson(passed, count)
   if count == 0 then return 0, 1 end
   local share, z2 = passed / count, Z * Z / count
@@ -111,7 +111,7 @@ function Spread.__tostring(s)
   return table.concat(lines, "\n")
 end
 
--- The rows that come nearest to the limits or break them most, worst first.
+-- Returns the rows that come nearest to the limits or break them most, worst first.
 local function worst_of(own, list)
   local order = {}
   for _, record in ipairs(list) do
@@ -129,7 +129,7 @@ local function worst_of(own, list)
   return worst
 end
 
---- What the records say. Those that failed did not pass; what the machine ended says nothing.
+--- Returns the result of the records. Failed ones did not pass; those ended by the machine do not count.
 function spread.result(own, records, how)
   local list = judge.sorted(records)
   local s = { passed = 0, broken = 0, failed = 0, left_out = 0 }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Studies: one script's model evaluated many times, on all processors, with a journal that nothing is lost
--- from.
+--- Studies: evaluate one script's model many times, on all processors, with a journal that loses
+-- nothing.
 --
 --     local study = sw.study { name = "grip", file = "grip.study",
 --       parameters = { force = { 0.5, 20, unit = "N", log = true } },
@@ -185,7 +185,7 @@ study.study = build.placed(make)
 
 -- --- methods -----------------------------------------------------------------------------------
 
--- Evaluate count points of a function from their number.
+-- Evaluates count points given by a function of their number.
 local function points(own, method, options, count, values_of)
   local at = 0
   return campaign.run(own, method, options, { whole = true, count = count, next = function()
@@ -263,7 +263,7 @@ local function do_json(self, path) return output.json(fields(self), path) end
 
 local function do_chart(self, args) return chart.draw(fields(self), draw:read(args)) end
 
--- Calls in tail position: levels of errors count as if they were not here.
+-- Tail calls keep error levels the same as without these functions.
 function Study:sweep(args) return build.call(3, do_sweep, self, args) end
 function Study:minimise(result, args) return build.call(3, do_minimise, self, result, args) end
 function Study:fit(args) return build.call(3, do_fit, self, args) end

@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Runs of search methods, which take turns: each is asked for places and told what came out.
+--- Runs of search methods that take turns: each is asked for places and gets the results.
 --
--- Evaluation k of run j of so many side by side has number (k - 1) * side + j: so which evaluations there are
--- depends on nothing but the values, and a journal goes on.
+-- Evaluation k of run j of `side` runs has number (k - 1) * side + j. So the evaluations depend only on the
+-- values, and a journal can be continued.
 -- @module softworld.study.turns
 local parameters = require "softworld.study.parameters"
 
 local turns = {}
 
---- A run of a method: see study/search for ask and tell.
+--- Returns a run of a method: see study/search for ask and tell.
 function turns.run(number, method) return { number = number, search = method, asked = 0, told = 0 } end
 
--- Tell a run its values and ask for more, once all that it asked for are known.
+-- Gives a run its values and asks for more, once everything that it asked for is known.
 local function refill(run, each)
   if run.told < run.asked then return end
   if run.places then
@@ -24,7 +24,7 @@ local function refill(run, each)
   if not places then run.ended, run.ok = why, ok or false end
 end
 
--- The next place of a run: number, values; nil when it waits or has ended.
+-- Returns the next place of a run: number, values; nil if it waits or has ended.
 local function next_of(own, o, run)
   if run.ended then return nil end
   refill(run, o.each)
@@ -34,8 +34,8 @@ local function next_of(own, o, run)
   return (run.asked - 1) * o.side + run.number, parameters.all_at(own.parameters, place)
 end
 
---- The next evaluation of any run: number, values; nil when all wait or have ended. o: side = how many runs,
--- each = evaluations of one at most.
+--- Returns the next evaluation of any run: number, values; nil if all wait or have ended. o: side = number of
+-- runs, each = most evaluations of one.
 function turns.next(own, o, runs)
   local order = table.move(runs, 1, #runs, 1, {})
   table.sort(order, function(a, b)
@@ -48,7 +48,7 @@ function turns.next(own, o, runs)
   end
 end
 
---- Is there one that has not ended?
+--- True if a run has not ended.
 function turns.wait(runs)
   for _, run in ipairs(runs) do
     if not run.ended then return true end
@@ -56,7 +56,7 @@ function turns.wait(runs)
   return false
 end
 
---- What came out of an evaluation; gives its run.
+--- Takes the outcome of an evaluation; returns its run.
 function turns.hear(runs, o, number, outcome)
   local run = runs[(number - 1) % o.side + 1]
   local k = (number - run.number) // o.side + 1

@@ -3,9 +3,10 @@
 -- method for handling uncertainty in evolutionary optimization, 2009).
 -- @module softworld.study.unrest
 
-local THETA = 0.2 -- share of random changes of order that are borne
+local THETA = 0.2 -- share of random changes of order that is tolerated
 
--- Share (THETA / 2) of |1 - rank|, |2 - rank|, ...: what a random order changes, at least.
+-- Returns the tolerated change: the (THETA / 2) quantile of |1 - rank|, |2 - rank|, ..., as for a random
+-- order.
 local function borne(rank, size)
   local list = {}
   for k = 1, 2 * size - 1 do list[k] = math.abs(k - rank) end
@@ -13,7 +14,8 @@ local function borne(rank, size)
   return list[math.max(1, math.ceil(THETA * 0.5 * #list))]
 end
 
---- Above 0: the order of values changes more than is borne when the first ones are evaluated again.
+--- Returns a number above 0 if the order of values changes more than tolerated when the first ones are
+-- repeated.
 return function(values, again)
   local size, sum = #values, 0
   local all = table.move(values, 1, size, 1, {})

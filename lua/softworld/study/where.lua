@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Where a study is computed: in processes of this machine, or in tasks of a cluster.
+--- Decides where a study is computed: in processes of this machine, or in tasks of a cluster.
 -- @module softworld.study.where
 local build = require "softworld.scene.build"
 local checks = require "softworld.checks"
@@ -30,7 +30,7 @@ rows.calls{
     "how many there were" },
 }
 
--- Where the environment wants it.
+-- Returns the place that the environment asks for.
 local function usual()
   local on = os.getenv "SOFTWORLD_ON"
   if on == nil or on == "" then return "here" end
@@ -38,7 +38,7 @@ local function usual()
   return on
 end
 
---- A new study's place, if it does not say.
+--- Sets the place of a new study that does not give one.
 function where.of_study(own) own.on = own.on or usual() end
 
 local function do_run(self, args)

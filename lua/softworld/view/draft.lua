@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A scene that is put together by forms: a list of objects and of steps, each of which is one line of Lua.
--- These lines, in a script, are what is built, run, shown and saved; every change makes a new list, so that
--- going back is to take an older one.
+--- A scene that forms put together: a list of objects and steps, each of which is one line of Lua. The script
+-- of these lines is what is built, run, shown and saved. Every change makes a new list, so that undoing takes
+-- an older one.
 --
 -- A list: { scene = values, run = values, items = { { id =, kind =, name =, values =, process = } } }.
 -- @module softworld.view.draft
@@ -23,10 +23,10 @@ local MOST_UNDONE = 200
 
 local function fail(text, ...) error(text:format(...), 0) end
 
---- Was it Ctrl-C that raised this? What raises it may have taken the mark back already.
+--- True if Ctrl-C raised this error, see checks.is_interrupt.
 draft.is_interrupt = checks.is_interrupt
 
---- An empty scene; may: pages may type Lua functions.
+--- Returns an empty scene; may: pages may type Lua functions.
 function draft.new(may)
   return setmetatable({ may = may or false, places = {},
     now = { scene = { name = "scene" }, run = {}, items = {} },
@@ -35,12 +35,13 @@ end
 
 -- --- the script ------------------------------------------------------------------------------------
 
---- The script that builds the scene.
+--- Returns the script that builds the scene.
 function Draft:script() return self.text end
 
 -- --- building --------------------------------------------------------------------------------------
 
--- Remarks are for the page; each build has another name, so that they are told again.
+-- Calls f and returns its remarks as well, for the page. Each build has another chunk name, so that remarks
+-- come again.
 local function with_remarks(f)
   local said, write = {}, remarks.write
   remarks.write = function(_, text) said[#said + 1] = text end
@@ -51,7 +52,8 @@ end
 
 local function plain(message) return (build.plain(message):gsub("^scene%d+:%d+: ", "")) end
 
---- An error of a run: the line is that of the script as it is shown, and of a function that was typed in.
+--- Returns the text of a run's error with lines as the page shows them: of the script, or of a typed
+-- function.
 function Draft:plain(message)
   return (tostring(message):gsub("scene%d+:(%d+): ", function(number)
     for _, place in ipairs(self.places) do
@@ -64,7 +66,7 @@ function Draft:plain(message)
   end))
 end
 
--- The scene of a script; raises a text without a place.
+-- Builds the scene of a script. Errors are texts without a place.
 local function build_text(self, text)
   self.builds = self.builds + 1
   local names = functions.names()
@@ -78,14 +80,14 @@ local function build_text(self, text)
   return scene, said
 end
 
---- The scene as it is at its start, made anew.
+--- Builds the scene anew, in its state at the start.
 function Draft:build()
   local scene, said = build_text(self, self.text)
   self.remarks = said
   return scene
 end
 
--- Take a list, if a scene can be built of it; else all stays, and the text of the error is raised.
+-- Takes a list if a scene can be built from it; else everything stays, and the error is raised.
 local function try(self, now)
   local text, texts, places = written.script(now)
   local scene, said = build_text(self, text)
@@ -124,7 +126,7 @@ local function is_taken(now, but)
   end
 end
 
--- The name in the values, or a new one; forces have none.
+-- Returns the name in the values, or a new one; nil for forces, which have none.
 local function named(now, kind, values, but)
   if not fill.has_name(kind) then return nil end
   if values.name == nil or values.name == "" then
@@ -153,7 +155,7 @@ end
 
 local change = {}
 
---- { class =, kind =, values =, process = }: one more.
+--- { class =, kind =, values =, process = }: adds an item.
 function change.add(self, now, m)
   if #now.items >= MOST_ITEMS then fail("there are %d things already", MOST_ITEMS) end
   local kind, values = read(self, m)
@@ -164,7 +166,7 @@ function change.add(self, now, m)
   now.items[#now.items + 1] = item
 end
 
--- What spoke of an object speaks of it by its new name.
+-- Replaces an object's old name by the new one in items that refer to it.
 local function rename(now, old, new)
   if not old or old == new then return end
   for i, item in ipairs(now.items) do
@@ -180,7 +182,7 @@ local function rename(now, old, new)
   end
 end
 
---- { id =, class =, kind =, values = }: another one in its place.
+--- { id =, class =, kind =, values = }: replaces an item.
 function change.change(self, now, m)
   local at, old = place_of(now, m.id)
   local kind, values = read(self, m)
@@ -191,7 +193,7 @@ function change.change(self, now, m)
   rename(now, old.name, item.name)
 end
 
---- { id =, values = }: some values only, such as a place.
+--- { id =, values = }: changes some values only, such as a place.
 function change.put(self, now, m)
   local at, old = place_of(now, m.id)
   local _, given = fill.read(old.kind.class, old.kind.kind, m.values, self.may)
@@ -204,7 +206,7 @@ function change.put(self, now, m)
   rename(now, old.name, item.name)
 end
 
---- { id = }: it goes, and what speaks of it.
+--- { id = }: removes an item and the items that refer to it.
 function change.remove(_, now, m)
   local at = place_of(now, m.id)
   local gone = { table.remove(now.items, at) }
@@ -226,7 +228,7 @@ function change.remove(_, now, m)
     or nil
 end
 
---- { id =, by = 1 or -1 }: a step later or earlier in its process.
+--- { id =, by = 1 or -1 }: moves a step later or earlier in its process.
 function change.shift(_, now, m)
   local at, item = place_of(now, m.id)
   if m.by ~= 1 and m.by ~= -1 then fail "by must be 1 or -1" end
@@ -238,18 +240,18 @@ function change.shift(_, now, m)
   now.items[at], now.items[to] = now.items[to], now.items[at]
 end
 
---- { values = { name =, gravity = } }: the scene itself.
+--- { values = { name =, gravity = } }: changes the scene itself.
 function change.scene(_, now, m)
   local _, values = fill.read("scene", "scene", m.values)
   if not values.name or values.name == "" then values.name = now.scene.name end
   now.scene = values
 end
 
---- Is it a change of the list?
+--- True if the word is a change of the list.
 function Draft.knows(word) return change[word] ~= nil or word == "undo" or word == "redo" end
 
---- Do a change; returns the scene as it is then at its start, and what is to be said of it. Raises a text
--- without a place when it cannot be; all is then as before.
+--- Makes a change. Returns the new scene at its start, and words about the change. If it fails, everything
+-- stays as before, and a text without a place is raised.
 function Draft:change(m)
   local word = m.what
   if word == "undo" or word == "redo" then
@@ -266,7 +268,7 @@ function Draft:change(m)
   return commit(self, now), words
 end
 
---- How it is to run: { duration =, dt =, ... }. Returns the table of scene:run.
+--- Sets the arguments of the run: { duration =, dt =, ... }. Returns the table of scene:run.
 function Draft:set_run(values)
   local kind, given = fill.read("run", "run", values)
   fill.check(kind, given)
@@ -280,7 +282,7 @@ local function plain_copy(values)
   return copy
 end
 
---- The list of the checks that runs are judged by, as source; nil: there are none.
+--- Returns the list of checks of the runs, as source; nil: there are none.
 function Draft:checks()
   local list = {}
   for _, item in ipairs(self.now.items) do
@@ -289,7 +291,7 @@ function Draft:checks()
   return #list > 0 and "{\n" .. table.concat(list) .. "}" or nil
 end
 
---- What pages show of it.
+--- Returns what pages show of the list.
 function Draft:shown()
   local items = {}
   for i, item in ipairs(self.now.items) do
@@ -300,7 +302,7 @@ function Draft:shown()
     undo = #self.past > 0, redo = #self.future > 0, remarks = self.remarks, processes = written.processes }
 end
 
---- The table of the scene:run that is meant; nil when it would have no end.
+--- Returns the table of scene:run; nil if the run would have no end.
 function Draft:run()
   local ends = self.now.run.duration ~= nil
   for _, item in ipairs(self.now.items) do ends = ends or item.kind.class == "step" end
@@ -309,7 +311,7 @@ end
 
 local unbuilt = draft.new
 
---- The same, ready to be shown.
+--- Returns an empty scene with its script, ready to be shown.
 function draft.new(may)
   local self = unbuilt(may)
   self.text, self.texts, self.places = written.script(self.now)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Forms that were filled in: from what a page says to a line of Lua. What comes out is made of numbers that
--- were checked, words of a list of choices, and texts in quotes; nothing else of a message gets into it, but
--- for bodies of functions where the view's user allows them.
+--- Turns a filled-in form from a page into a line of Lua. The line consists of checked numbers, words from
+-- lists of choices, and texts in quotes. Nothing else of a message gets into it, except function bodies if
+-- the view's user allows them.
 -- @module softworld.view.fill
 local checks = require "softworld.checks"
 local functions = require "softworld.view.functions"
@@ -10,9 +10,9 @@ local literal = require "softworld.scene.literal"
 
 local fill = {}
 
-local LONGEST = 200 -- text [B]
-local MOST = 2000 -- numbers or points in a list
-local MOST_SEGMENTS = 20000 -- of a wire that is made by a form
+local LONGEST = 200 -- longest text [B]
+local MOST = 2000 -- most numbers or points in a list
+local MOST_SEGMENTS = 20000 -- most segments of a wire made by a form
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -65,7 +65,7 @@ function read.text(what, _, value)
   return value
 end
 
--- A name without a folder, so that no other place can be reached.
+-- Reads a file name without a folder, so that no other place can be reached.
 function read.file(what, field, value)
   value = read.text(what, field, value)
   if not value:find "^[%w_][%w_ .-]*$" then
@@ -120,8 +120,8 @@ read["table"] = function(what, field, value)
   return read_all(what, known, value)
 end
 
---- The kind of a message and a checked copy of its values; raises a text without a place. may: Lua functions
--- are taken.
+--- Returns the kind of a message and a checked copy of its values. Errors are texts without a place. may: Lua
+-- functions are accepted.
 function fill.read(class, name, values, may)
   local kind = kinds.of(class, name)
   if not kind then fail("there is no %s '%s'", checks.shown(class), checks.shown(name)) end
@@ -133,7 +133,7 @@ function fill.read(class, name, values, may)
   return kind, read_all(kind.kind, known, values)
 end
 
---- Raise unless numbers and words are in their ranges, as the object itself would say it.
+--- Raises an error unless numbers and words are in their ranges, with the words of the object itself.
 function fill.check(kind, values, prefix)
   for _, field in ipairs(kind.fields or kind.rows) do
     local value, what = values[field.name], ("%s: %s"):format(prefix or kind.kind, field.name)
@@ -148,7 +148,7 @@ function fill.check(kind, values, prefix)
   end
 end
 
---- Names of the objects that values speak of: { name, ... }.
+--- Returns the names of the objects that values refer to: { name, ... }.
 function fill.names(kind, values)
   local names = {}
   if kind.on then names[#names + 1] = values._on end
@@ -159,7 +159,7 @@ function fill.names(kind, values)
   return names
 end
 
---- The same values with one name in the place of another.
+--- Returns the values with one name replaced by another.
 function fill.renamed(kind, values, old, new)
   local copy = {}
   for key, value in pairs(values) do
@@ -172,7 +172,7 @@ end
 
 -- --- writing ---------------------------------------------------------------------------------------
 
-local Word = {} -- of source that stands as it is
+local Word = {} -- source text that is inserted as it is
 
 local function flat(points)
   local all = {}
@@ -186,8 +186,8 @@ end
 
 fill.source = source
 
---- The line of Lua that makes or does it. word(name): source of the object of that name; gives a text without
--- `local name =`. p: the process.
+--- Returns the line of Lua that makes the object or does the step, without `local name =`. word(name): source
+-- of the object with this name. p: the process.
 function fill.line(kind, values, word)
   if kind.write then
     return kind.write(values, function(name) return setmetatable({ text = word(name) }, Word) end, source)
@@ -215,14 +215,14 @@ function fill.line(kind, values, word)
   return ("%s %s"):format(call, source(args))
 end
 
---- A name for an object that has none: its kind and a number; taken(name): is it one already?
+--- Returns a name for an object without one: its kind and a number; taken(name): true if the name exists.
 function fill.name(kind, taken)
   local word, count = kind.class == "wire" and "wire" or kind.kind, 1
   while taken(word .. count) do count = count + 1 end
   return word .. count
 end
 
---- Has the kind a name?
+--- True if objects of the kind have a name.
 function fill.has_name(kind) return kind.known.name ~= nil end
 
 return fill

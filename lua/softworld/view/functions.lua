@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Forms with a Lua function in them: its body is typed, its arguments are given. A view takes such forms
--- only where its user has said so (softworld --view --functions, scene:view { functions = true }): who types
--- a function can do whatever the user of the program can.
+--- Forms with a Lua function: its body is typed, its arguments are given. A view accepts such forms only if
+-- its user allows them (softworld --view --functions, scene:view { functions = true }): who types a function
+-- can do whatever the user of the program can.
 -- @module softworld.view.functions
 local checks = require "softworld.checks"
 
 local functions = {}
 
-local LONGEST = 20000 -- of a body [B]
+local LONGEST = 20000 -- longest body [B]
 
 local function fail(text, ...) error(text:format(...), 0) end
 
@@ -16,14 +16,14 @@ functions.REFUSED = "this view takes no Lua functions from pages: begin it with 
 
 -- --- bodies ------------------------------------------------------------------------------------------
 
--- A copy, so that a function cannot change what others use.
+-- Returns a copy, so that a function cannot change the library for others.
 local function copy_of(library)
   local copy = {}
   for key, value in pairs(library) do copy[key] = value end
   return copy
 end
 
---- What functions see beside their arguments and what the script has: a new table each time.
+--- Returns what functions see besides their arguments and the script's names: a new table each time.
 function functions.names()
   local names = { math = copy_of(math), string = copy_of(string), table = copy_of(table) }
   for word in ("assert error ipairs next pairs pcall print select tonumber tostring type"):gmatch "%a+" do
@@ -32,14 +32,14 @@ function functions.names()
   return names
 end
 
---- A body that was typed in, checked: a text without a place is raised, with the line of the body.
+--- Checks a typed body. Errors are texts without a place, with the line of the body.
 function functions.read(what, field, body)
   if type(body) ~= "string" or #body > LONGEST or body:find "\0" then
     fail("%s must be the body of a Lua function, of %d bytes at most", what, LONGEST)
   end
   body = body:gsub("\r\n?", "\n"):gsub("%s+$", "")
   if not body:find "%S" then fail("%s: the body of the function is missing", what) end
-  -- alone first, so that it cannot end the function and go on outside of it
+  -- alone first, so that the body cannot end the function and continue outside of it
   local head = field.args == "" and "" or ("local %s; "):format(field.args)
   local chunk, why = load(head .. body, "=line", "t", {})
   local before = chunk and 1 or 0 -- lines of the head
@@ -48,7 +48,7 @@ function functions.read(what, field, body)
   fail("%s: %s", what, (why:gsub("^line:(%d+):", function(n) return ("line %d:"):format(n - before) end)))
 end
 
---- The function as source. The first line of the body is the line after its head.
+--- Returns the function as source. The first line of the body is the line after the head.
 function functions.source(field, body)
   return ("function(%s)\n%s\nend"):format(field.args, body)
 end
@@ -114,7 +114,7 @@ end
 
 local ending = " Objects by their names: scene:find \"name\"."
 
---- The kinds, as special.kinds; `lua`: of views that take functions.
+--- The kinds, as special.kinds; `lua`: only in views that accept functions.
 functions.kinds = {
   { class = "force", kind = "function", method = "force", write = write_force, first = "on func",
     lua = true, doc = "a force of your own, computed by a Lua function at every evaluation." .. ending,
@@ -142,7 +142,7 @@ functions.kinds = {
       row("max", "number", "-", "the value must not be above it") } },
 }
 
---- What new forms have in them.
+--- Initial values of new forms.
 functions.starts = {
   ["force function"] = { func = "-- a swinging push along z, on the first node\n"
     .. "f[3] = f[3] + 0.01 * math.sin(20 * t)" },
@@ -155,7 +155,7 @@ functions.starts = {
 
 -- --- checks ------------------------------------------------------------------------------------------
 
--- Lines of the list become those of the function that they are in.
+-- Replaces lines of the list by lines of the function that they are in.
 local function own_lines(message, text)
   return (tostring(message):gsub("checks:(%d+): ", function(number)
     local count, head = 0, 0
@@ -167,8 +167,8 @@ local function own_lines(message, text)
   end))
 end
 
---- Judge a run by a list of checks, given as source: { verdict, rows = { { name, value, unit, verdict,
--- note } } }.
+--- Judges a run by a list of checks, given as source. Returns { verdict, rows = { { name, value, unit,
+-- verdict, note } } }.
 function functions.judge(run, text)
   local names = functions.names()
   names.scene = run.scene

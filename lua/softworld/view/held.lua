@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A run as a view holds it: paused, slowed down, changed and stopped from the page, between two steps.
+--- Holds a run for a view: it is paused, slowed down, changed and stopped from the page, between two steps.
 -- @module softworld.view.held
 local core = require "softworld.core"
 local returning = require "softworld.view.returning"
@@ -7,10 +7,10 @@ local sealed = require "softworld.sealed"
 local show = require "softworld.view.show"
 local work = require "softworld.view.work"
 
---- gap: between two looks, idle: longest wait for a message, on the clock [s].
+--- gap: time between two looks, idle: longest wait for a message, on the clock [s].
 local held = { gap = 1 / 30, idle = 0.1 }
 
--- For how long it is to be held now [s].
+-- Returns how long to hold the run at this moment [s].
 local function holding(own)
   if own.stopped then return 0 end
   if own.paused then
@@ -21,11 +21,11 @@ local function holding(own)
   local clock = core.clock()
   own.base = own.base or { time = own.scene.time, clock = clock }
   local ahead = (own.scene.time - own.base.time) / own.speed - (clock - own.base.clock)
-  if ahead < -0.5 then own.base = nil end -- it cannot go so fast: nothing is to be made up for
+  if ahead < -0.5 then own.base = nil end -- it cannot keep up: do not catch up later
   return math.max(0, ahead)
 end
 
---- Show and listen as long as the run is held. Returns whether something is to be changed.
+--- Shows the scene and listens as long as the run is held. Returns true if a change is waiting.
 function held.hold(own)
   while true do
     work.hear(own)
@@ -47,7 +47,7 @@ local function end_run(own)
   return "stopped from the page"
 end
 
--- Between two steps, while the run is held by this: changes, as long as there are some.
+-- Between two steps: makes changes as long as there are some, and holds the run.
 local function change(own, observer)
   repeat work.inside(own) until own.wants_again or not held.hold(own)
   if own.wants_again then
@@ -57,13 +57,13 @@ local function change(own, observer)
   end
 end
 
---- Going back to a state has ended; why it failed, or nil.
+--- Called when going back to a state has ended; why: the reason if it failed, or nil.
 function held.told_again(own, why)
   local ask, words = returning.finish(own, why)
   show.answer(own, ask, not why, words)
 end
 
--- In a run that is done again up to a time nothing is waited for.
+-- Looks at a run that is repeated up to a time, without waiting for anything.
 local function look_again(own, observer)
   sealed.fields(observer).each = true
   if core.clock() >= own.again.looked then
@@ -87,7 +87,7 @@ local function look_again(own, observer)
   end
 end
 
---- Between two steps: what pages ask for, and whether the run is to stop.
+--- Called between two steps: does what pages ask for, and stops the run if they ask for it.
 function held.look(own, observer)
   if own.again then return look_again(own, observer) end
   if own.wants_again then return observer:stop "gone back from the page" end
@@ -95,7 +95,7 @@ function held.look(own, observer)
   local o = sealed.fields(observer)
   if own.stopped and not changes then observer:stop(end_run(own)) end
   if changes then observer:change(function() change(own, observer) end) end
-  -- each step counts while it is held or goes slowly
+  -- look after each step while it is held or slow
   o.every = own.speed and own.speed * held.gap or nil
   o.each = own.paused or nil
 end

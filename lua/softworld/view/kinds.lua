@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What forms can make: every kind of object, and every step of a process, with the fields of its form. All
--- of it comes from the rows that check and describe the same calls in a script; only what rows cannot tell
--- (which list of numbers is a list of points) is said here.
+--- What forms can make: every kind of object, and every step of a process, with the fields of its form. They
+-- come from the rows that check and describe the same calls in a script. Only what rows cannot tell is
+-- written here, such as which list of numbers is a list of points.
 --
--- A kind: class, kind, doc, method, fields; `on`: the first argument of its call is an object of this class;
--- `set`: what its table has besides. A field is a row with the type that a form shows: number, integer,
+-- A kind: class, kind, doc, method, fields; `on`: class of the object that is the first argument of its call;
+-- `set`: further fields of its table. A field is a row with the type that a form shows: number, integer,
 -- boolean, text, file, choice, vector, rotation, points, numbers, object (of = class or kind), table (rows).
 -- @module softworld.view.kinds
 local core = require "softworld.core"
@@ -18,7 +18,7 @@ local kinds = {}
 
 local MESH_FILE = "a mesh file in the folder where the program runs"
 
--- Rows that the core only calls "other", or that the Lua side reads; false: of no use in a form.
+-- Types of rows that the core calls "other", or that the Lua side reads; false: not shown in a form.
 local told = {
   wire = { path = { type = "points" }, model = false },
   hull = { points = { type = "points", flat = true } },
@@ -30,7 +30,7 @@ local told = {
   run = { progress = false, save = false, resume = false, frames = false },
 }
 
--- In front of the rows; what is used most comes first, the rest is folded away.
+-- Fields shown first, by class, because they are used most; the others are folded away.
 local first = {
   wire = "name cable from to radius E density",
   obstacle = "name at friction", force = "", gripper = "name at", hold = "s name",
@@ -39,7 +39,7 @@ local first = {
   fixing = "name at s to to_wire to_s points", contact = "friction",
 }
 
--- What a new form has in it, so that there is something to see at once.
+-- Initial values of a new form, so that something is visible at once.
 local starts = {
   wire = { cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } },
   sphere = { radius = 0.05, at = { 0.25, 0, 0 } },
@@ -61,7 +61,7 @@ local bodies = "wire particles"
 
 local function finite(x) return x and x > -1e300 and x < 1e300 and x or nil end
 
--- A default that stands for "none was given" is no number to show.
+-- Returns a default to show; not a number that stands for "none was given".
 local function shown_default(row)
   local value = row.default
   if row.type == "number" or row.type == "numbers" then return finite(value) end
@@ -88,7 +88,7 @@ local function field_of(row, own)
   return field.type and field or nil
 end
 
--- Fields of lists of rows, each name once; those of `words` first.
+-- Returns the fields of lists of rows, each name once; those in `words` first.
 function fields_of(lists, own, words)
   local list, known, place = {}, {}, {}
   for _, given in ipairs(lists) do
@@ -159,7 +159,7 @@ local function holds(r)
   end
 end
 
--- Forces of a script: not those that wires have by themselves, nor those that scene:clip and scene:tie make.
+-- Forces that forms do not make, because scene:clip and scene:tie make them.
 local made_by_others = { clip = true, snap = true, tether = true }
 
 local function forces(r)
@@ -200,7 +200,7 @@ end
 local function load_all()
   if list then return end
   list, by_name = {}, {}
-  require "softworld" -- all of it has rows
+  require "softworld" -- loads all rows
   rows.load()
   local r = core.registry()
   wires(r)
@@ -219,13 +219,13 @@ local function load_all()
   add({ class = "scene", kind = "scene", doc = "the scene itself", method = "scene" }, { r.params.scene })
 end
 
---- A kind, or nil.
+--- Returns a kind, or nil.
 function kinds.of(class, kind)
   load_all()
   return type(class) == "string" and type(kind) == "string" and by_name[class .. " " .. kind] or nil
 end
 
--- Entries of the catalogue with the values of their sheets and where these are from.
+-- Returns the entries of the catalogue with the values of their sheets and their sources.
 local function cables()
   local all = {}
   for _, name in ipairs(cable.list()) do
@@ -242,7 +242,7 @@ local function cables()
   return all
 end
 
---- All kinds, and the catalogue of cables, as plain tables for pages; may: with Lua functions.
+--- Returns all kinds, and the catalogue of cables, as plain tables for pages; may: with Lua functions.
 function kinds.all(may)
   load_all()
   local all = {}

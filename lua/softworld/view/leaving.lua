@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What pages of a live view can take out of a scene, by which line, and the line that makes it anew where
--- there is no way back to the state before. The script's own forces have numbers: scene:forces().
+--- What pages of a live view can remove from a scene: the line that removes it, and the line that makes it
+-- again if the state before cannot be restored. The script's own forces have numbers: scene:forces().
 -- @module softworld.view.leaving
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -17,7 +17,7 @@ local function source(value, refer)
   return literal.of(value, refer or function() fail "this cannot be written" end, "value")
 end
 
--- How each goes; all else by scene:remove.
+-- Methods that remove objects; all others are removed by scene:remove.
 local verbs = { obstacle = "remove", clamp = "release", join = "release", tie = "release", clip = "release",
   channel = "release" }
 
@@ -30,14 +30,14 @@ local function text_of(value)
   return value
 end
 
--- A force of the script by its number, or an error.
+-- Returns a force of the script by its number, or raises an error.
 local function force_of(scene, number)
   local force = math.type(number) == "integer" and scene:forces()[number]
   if not force or not force.held then fail "there is no such force any more" end
   return force
 end
 
---- The line that takes away { object = name }, { made = serial of a force } or { force = number }.
+--- Returns the line that removes { object = name }, { made = serial of a force } or { force = number }.
 function leaving.line(scene, m)
   if m.made ~= nil then
     if math.type(m.made) ~= "integer" then fail "made is no number" end
@@ -62,7 +62,7 @@ function leaving.line(scene, m)
   return ("scene:remove %s"):format(source(name))
 end
 
---- What an order takes away, for people.
+--- Returns the name of what an order removes, for people.
 function leaving.name(scene, m)
   if m.made ~= nil then return "a force" end
   if m.force ~= nil then return ("the force '%s'"):format(force_of(scene, m.force).kind) end
@@ -71,14 +71,14 @@ end
 
 -- --- making it anew ------------------------------------------------------------------------------------
 
--- The call of the script that made an object, or nil.
+-- Returns the call of the script that made an object, or nil.
 local function call_of(scene, object)
   for _, call in ipairs(record.of(scene)) do
     if call.results[1] == object and core.type(call.self) == "scene" then return call end
   end
 end
 
--- A name that nothing has.
+-- Returns an unused name.
 local function free_name(scene, name)
   local taken, count = {}, 2
   for _, one in ipairs(scene:names()) do taken[one] = true end
@@ -93,7 +93,7 @@ local function refer(object)
   return ("scene:find(%s)"):format(source(name))
 end
 
--- What an obstacle is now over what it was made with; its name stays taken, for its series has it.
+-- Returns the line that makes an obstacle as it is now. Its old name stays taken, because its series has it.
 local function obstacle_line(scene, object, call)
   local args = {}
   for key, value in pairs(call.args[1]) do args[key] = value end
@@ -104,10 +104,11 @@ local function obstacle_line(scene, object, call)
   return ("scene:obstacle %s"):format(source(args, refer))
 end
 
---- Before it goes: the line that makes it anew as it is, for where a process that is under way bars the way
--- back; nil where only the state before has it. serial: of a new force.
+--- Called before a removal. Returns the line that makes the object again as it is, for the case that a
+-- process under way prevents going back; nil if only the state before can bring it back. serial: of a new
+-- force.
 function leaving.again(scene, m, serial)
-  if m.made ~= nil then return nil end -- who made it has its line
+  if m.made ~= nil then return nil end -- its own line makes it again
   local object = m.force and force_of(scene, m.force) or m.object and scene:find(m.object)
   local call = object and call_of(scene, object)
   local fine, line = pcall(function()
@@ -129,8 +130,8 @@ local function add_forces(scene, list, hidden)
   end
 end
 
---- What is in a scene by name: { { name, class, kind, leaves = can it go, force = its number } }. made:
--- forces that were added by hand, which are listed by themselves; hand: the one that pulls.
+--- Returns what is in a scene by name: { { name, class, kind, leaves = it can be removed, force = its number
+-- } }. made: forces added by hand, which are listed separately; hand: the force that pulls.
 function leaving.objects(scene, made, hand)
   local data, list, grips, hidden = build.data(scene), {}, {}, { [hand or false] = true }
   local function add(name, kind, class)

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What pages of a live view may ask for. A change is made into the line of Lua that does it; this line is
--- what is run, shown and saved. Nothing of a message ever becomes Lua but numbers, and names in quotes.
+--- The orders that pages of a live view may give. Each change becomes a line of Lua; this line is what is
+-- run, shown and saved. Only numbers, names in quotes, and function bodies that the view's user allows get
+-- from a message into it.
 -- @module softworld.view.orders
 local core = require "softworld.core"
 local checks = require "softworld.checks"
@@ -29,7 +30,7 @@ end
 
 local registry
 
--- Rows of what an object's set takes.
+-- Returns the rows of an object's set.
 local function rows_of(object)
   registry = registry or core.registry()
   local kind = core.type(object)
@@ -52,7 +53,7 @@ local function value_of(row, value)
   return nil
 end
 
---- What can be changed in a scene: { { name, kind, rows = { { name, unit, doc, type, min, max, above,
+--- Returns what can be changed in a scene: { { name, kind, rows = { { name, unit, doc, type, min, max, above,
 -- choices, value } } } }; the scene itself has the name "".
 function orders.forms(scene)
   local list = {}
@@ -113,7 +114,7 @@ local function object_of(scene, name)
   return scene:find(name)
 end
 
--- As the object itself would say it; but asking that would mean to leave the run.
+-- Checks a value with the words of the object itself. Asking the object would leave the run.
 local function check_range(name, row, value)
   if row.type == "vector" then
     if type(value) ~= "table" or #value ~= 3 then fail("%s must be 3 numbers", name) end
@@ -143,7 +144,8 @@ local function same(a, b)
   return true
 end
 
--- The line that gives back what a change has changed, one thing by another too; nil: nothing.
+-- Returns a function for the line that restores what a change has changed, side effects included; it may give
+-- nil.
 local function undoing(name, object, known, before)
   return function()
     local now, differs = object:get(), {}
@@ -180,7 +182,7 @@ function make.pull(scene, m)
     source(positive("force", m.force)), source(positive("stiffness", m.stiffness)))
 end
 
---- { to = }: the hand goes there.
+--- { to = }: moves the hand.
 function make.reach(_, m) return ("hand:set { to = %s }"):format(source(vector_of("to", m.to))) end
 
 --- The hand lets go.
@@ -201,7 +203,7 @@ local function is_taken(scene)
   return function(name) return known[name] end
 end
 
---- { class =, kind =, values =, serial = }: one more object, by a form; serial: a number that no other has.
+--- { class =, kind =, values =, serial = }: adds an object by a form; serial: a unique number.
 function make.add(scene, m, may)
   local kind, values = fill.read(m.class, m.kind, m.values, may)
   if checks.set "step run scene observer check"[kind.class] then
@@ -226,7 +228,7 @@ function make.add(scene, m, may)
   return line, inverse and function() return inverse end
 end
 
---- { object = name }, { made = serial of a force } or { force = number of the script's }: it goes.
+--- { object = name }, { made = serial of a force } or { force = number of the script's }: removes it.
 function make.remove(scene, m) return leaving.line(scene, m) end
 
 -- --- grippers that are led by hand --------------------------------------------------------------------
@@ -240,7 +242,7 @@ local function gripper_of(scene, m)
   return gripper
 end
 
---- { gripper =, to =, speed = }: it goes there on a straight way, no faster than that.
+--- { gripper =, to =, speed = }: moves it there on a straight line, at most at this speed.
 function make.lead(scene, m)
   local to, speed = vector_of("to", m.to), positive("speed", m.speed)
   local here, way = gripper_of(scene, m):position() or fail("gripper '%s' is nowhere yet", m.gripper), 0
@@ -250,19 +252,19 @@ function make.lead(scene, m)
     source(speed))
 end
 
---- { gripper = }: it stays where it is.
+--- { gripper = }: stops it where it is.
 function make.leave(scene, m)
   gripper_of(scene, m)
   return ("%s:stop()"):format(reference(m.gripper))
 end
 
---- The line of an order, and what gives the one that undoes it once it is done, or nil; raises a text without
--- a place. may: Lua functions are taken.
+--- Returns the line of an order, and a function (or nil) that gives the line to undo it once it is done.
+-- Errors are texts without a place. may: Lua functions are accepted.
 function orders.line(scene, m, may)
   return (make[m["do"]] or fail("there is no order '%s'", tostring(m["do"])))(scene, m, may)
 end
 
---- Is it an order that changes the scene?
+--- True if the order changes the scene.
 function orders.changes(m) return make[m["do"]] ~= nil end
 
 -- --- saving ------------------------------------------------------------------------------------------
@@ -297,7 +299,7 @@ local function changes_of(lines)
   return table.concat(list, "\n") .. "\n" .. follow
 end
 
--- The lines of the runs; nil when one has arguments that cannot be written.
+-- Returns the lines of the runs; nil if one has arguments that cannot be written.
 local function runs_of(runs, judged)
   local list = {}
   for i, args in ipairs(runs) do
@@ -314,17 +316,17 @@ local function runs_of(runs, judged)
   return table.concat(list)
 end
 
--- The script that builds the scene; nil when it cannot be written.
+-- Returns the script that builds the scene; nil if it cannot be written.
 local function head_of(scene)
   if build.data(scene).process_count or record.has_late(scene) then return nil end
   local fine, text = pcall(scene.script, scene)
   return fine and text:gsub("\n*return scene%s*$", "\n") or nil
 end
 
---- A script that does the runs again with what was changed by hand; of a scene whose processes are functions,
--- which cannot be written, the part that is to be run before scene:run.
--- lines: { { time =, text = or nil: the run was ended } }; runs: arguments of scene:run; head: the script
--- that built the scene, where it is known; judged: source of the list that the run is judged by, or nil.
+--- Returns a script that repeats the runs with the changes made by hand. If processes are functions, which
+-- cannot be written, it is only the part to run before scene:run. lines: { { time =, text = or nil: the run
+-- was ended } }; runs: arguments of scene:run; head: the script that built the scene, if known; judged:
+-- source of the list of checks of the run, or nil.
 function orders.script(scene, lines, runs, head, judged)
   head = head or head_of(scene)
   local tail = #runs > 0 and runs_of(runs, judged)

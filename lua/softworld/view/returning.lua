@@ -1,12 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Going back in a live view: to a state that was kept, or to just before something was taken away. A
--- snapshot brings back the scene, but no Lua function that has gone on since. Where a process has, a scene
--- that forms put together is built anew and run again up to there, which gives the same bits; the scene of a
--- script cannot be.
+--- Going back in a live view: to a stored state, or to just before something was removed. A snapshot restores
+-- the scene, but no Lua function that has run since. If a process has gone on, a scene made by forms is built
+-- again and run up to the state, which gives the same bits; the scene of a script cannot go back then.
 --
--- A state: { time =, snapshot = or nil, inside = a run is under way, processes = how far they were,
--- what = what was taken away just after, lines =, runs =, shown = those that held then }. The lists are its
--- own: when it is gone back to, others may have come in their place.
+-- A state: { time =, snapshot = or nil, inside = a run is under way, processes = how far they were, what =
+-- what was removed just after, lines =, runs =, shown = those valid at that time }. The lists are copies,
+-- because the view's own lists may change before the state is restored.
 -- @module softworld.view.returning
 local build = require "softworld.scene.build"
 local process = require "softworld.run.process"
@@ -15,7 +14,7 @@ local record = require "softworld.scene.record"
 local returning = {}
 
 local MOST_SNAPSHOTS = 20
-local MOST_WAYS_BACK = 20 -- states from before something was taken away
+local MOST_WAYS_BACK = 20 -- most states from before something was removed
 
 -- --- states ------------------------------------------------------------------------------------------
 
@@ -30,7 +29,7 @@ local function state_of(own, what)
     shown = shown }
 end
 
---- Keep the scene as it is, to be gone back to.
+--- Stores the present state of the scene.
 function returning.keep(own)
   own.count = own.count + 1
   local state = state_of(own)
@@ -40,8 +39,8 @@ function returning.keep(own)
   if #own.snapshots > MOST_SNAPSHOTS then table.remove(own.snapshots, 2) end -- the first one stays
 end
 
---- The state before something is taken away, to which undoing goes back; snapshots of the oldest ones are
--- forgotten.
+--- Returns the state before something is removed, to which undoing goes back. The snapshots of the oldest
+-- such states are dropped.
 function returning.before(own, what)
   local state, ways = state_of(own, what), own.ways
   ways[#ways + 1] = state
@@ -51,8 +50,8 @@ end
 
 -- --- ways ----------------------------------------------------------------------------------------------
 
---- How it can be gone back to a state: "same": processes are where they were; "again": by running again;
--- "ended": all processes have ended, and stay so; or nil, and why not.
+--- Returns how the scene can go back to a state: "same": processes are where they were; "again": by running
+-- again; "ended": all processes have ended, and stay so; or nil, and why not.
 function returning.how(own, state)
   if state.snapshot and process.is_at(own.scene, state.processes) then return "same" end
   if own.draft and not own.unsaved then return "again" end
@@ -61,7 +60,7 @@ function returning.how(own, state)
     or "too much was taken away since: this state is not kept any more"
 end
 
--- The runs that a script has to do after it: one that was left early ends there.
+-- Restores the runs that a script must repeat; a run that was left early ends there.
 local function back_in_runs(own, state)
   local count = #own.runs
   if own.running and (count ~= #state.runs or own.runs[count] ~= state.runs[count]) then
@@ -77,8 +76,8 @@ local function words_of(state)
     state.what and (", before %s was removed"):format(state.what) or "")
 end
 
--- What was done since has not been done any more, and what was undone since has; where going back was given
--- up early, as far as it came.
+-- Marks which changes hold: those made since the state are undone, those undone since are valid again. If
+-- going back was given up early, only up to the time reached.
 local function tell(own, state, words)
   for _, line in ipairs(own.shown) do line.undone = true end
   local time = own.scene.time
@@ -98,13 +97,13 @@ local function restore(own, state, how)
   return words
 end
 
--- Without their snapshots, which are of a scene that is no more.
+-- Drops the snapshots of states, because their scene does not exist any more.
 local function without_snapshots(list)
   for _, state in ipairs(list) do state.snapshot = nil end
   return list
 end
 
--- It is done when no run is under way, see returning.begin. ask: who is told when it is.
+-- Asks for running again; it starts when no run is under way, see returning.begin. ask: who gets the answer.
 local function want(own, state, ask)
   local r = { state = state, ask = ask, next = 1, lines = state.lines, runs = {}, shown = own.shown,
     paused = own.paused, snapshots = without_snapshots(own.snapshots), serial = own.serial,
@@ -118,7 +117,7 @@ local function want(own, state, ask)
   own.wants_again = r
 end
 
---- Go back; returns words of what was done, or nil where that is still to be done: it is then answered.
+--- Goes back. Returns words about it, or nil if it must be done later; the answer comes then.
 function returning.go(own, state, ask)
   local how, why = returning.how(own, state)
   if not how then error(why, 0) end
@@ -128,7 +127,7 @@ end
 
 -- --- running again ---------------------------------------------------------------------------------------
 
---- The scene has been built anew: from now on it is run up to the state that was asked for, by its own lines.
+--- Called when the scene was built again: from here on it is run up to the wanted state, with its own lines.
 function returning.begin(own)
   local r = own.wants_again
   own.wants_again, own.again = nil, r
@@ -136,15 +135,15 @@ function returning.begin(own)
   return r
 end
 
---- Run a line by hand.
+--- Runs a line by hand.
 function returning.line(own, text)
   local chunk = assert(load(text, "=by hand", "t", own.names))
-  record.quietly(chunk) -- it is in the lines
+  record.quietly(chunk) -- the lines record it
   local made = text:match "^made%[(%d+)%] = "
   if made then own.made_text[math.tointeger(made)] = text end
 end
 
---- Is something to be done now, or the end reached? "stop": the run was ended here.
+--- True if a line is due, or the end is reached. "stop": the run was ended here.
 function returning.due(own)
   local r = own.again
   local line = r.lines[r.next]
@@ -155,7 +154,7 @@ function returning.due(own)
   return line.text and true or "stop"
 end
 
---- The lines of this time. Returns true at the end, where the view goes on as before.
+--- Runs the lines of this time. Returns true at the end, from where the view goes on as before.
 function returning.lines(own)
   local r = own.again
   while returning.due(own) == true do
@@ -167,13 +166,13 @@ function returning.lines(own)
   return false
 end
 
---- The run was ended by hand here.
+--- Called when the repeated run reaches the place where it was ended by hand.
 function returning.stopped(own)
   local r = own.again
   own.lines[#own.lines + 1], r.next = r.lines[r.next], r.next + 1
 end
 
---- It is there; or was given up, why. Returns who is to be told, and words.
+--- Ends going back; why: the reason if it was given up, or nil. Returns who gets the answer, and words.
 function returning.finish(own, why)
   local r = own.again
   own.again, own.paused = nil, own.paused or r.paused

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What pages of a live view see: what is in the scene, frames, the state of the run, changes made by hand,
--- forms and events, each in a slot of the server that holds the latest only.
+--- Sends pages of a live view what they show: the scene, frames, the state of the run, changes made by hand,
+-- forms and events, each in a slot of the server that holds only the latest.
 -- @module softworld.view.show
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -13,14 +13,14 @@ local runfiles = require "softworld.run.files"
 
 local show = {}
 
-local SHOWN = 200 -- changes in a page
+local SHOWN = 200 -- most changes in a page
 local ANSWERS_KEPT = 30
 -- Slots of the server.
 local FRAME, SCENE, STATE, LINES, FORMS, EVENTS, DRAFT, ANSWERS = 0, 1, 2, 3, 4, 5, 6, 7
 
 local function put(own, slot, value) own.server:put(slot, json.encode(value)) end
 
--- Changes when something was made or taken away, or a gripper took hold.
+-- Returns a text that changes when something was made or removed, or a gripper took hold.
 local function signature(scene)
   local data, parts = build.data(scene), {}
   for i, name in ipairs(build.lists) do parts[i] = #data[name] end
@@ -34,7 +34,7 @@ local function signature(scene)
   return table.concat(parts, " ")
 end
 
--- How hard a hand pulls that takes hold: a few times the weight of all wires, over a tenth of their length.
+-- Returns the pull of a hand: three times the weight of all wires, reached over a twentieth of the longest.
 local function hand_of(scene)
   local weight, length = 0, 0
   for _, w in ipairs(build.data(scene).wires) do
@@ -66,7 +66,7 @@ local function show_forms(own)
     made = show.made(own) })
 end
 
---- Forces that were added by hand and are there still: { { made = number, text = line } }.
+--- Returns the forces that were added by hand and still exist: { { made = number, text = line } }.
 function show.made(own)
   local list = {}
   for number, force in pairs(own.names.made) do
@@ -78,7 +78,7 @@ function show.made(own)
   return list
 end
 
--- What the forms have put together.
+-- Sends what the forms have put together.
 local function show_draft(own)
   if not own.draft_due or not own.draft then return end
   own.draft_due = nil
@@ -93,7 +93,7 @@ local function show_answers(own)
   put(own, ANSWERS, { kind = "answers", answers = own.answers })
 end
 
---- Tell the page that asked with this mark what came of it.
+--- Sends an answer to the page that asked with this mark.
 function show.answer(own, mark, ok, text)
   if type(mark) ~= "number" and type(mark) ~= "string" then return end
   own.answers[#own.answers + 1] = { ask = mark, ok = ok, text = text }
@@ -101,7 +101,7 @@ function show.answer(own, mark, ok, text)
   own.answers_due = true
 end
 
---- How many processes of the scene have not ended.
+--- Returns how many processes of the scene have not ended.
 function show.alive(scene)
   local count = 0
   for _, p in ipairs(build.data(scene).processes) do
@@ -126,7 +126,7 @@ local function show_state(own)
   own.server:put(STATE, text)
 end
 
--- Arguments of the runs that a script has to do: of those that were done, or of the one that is meant.
+-- Returns the arguments of the runs that a script must do: of those done, or of the one set in the form.
 local function runs_of(own)
   if not own.draft or #own.runs > 0 then return own.runs end
   local meant = own.draft:run()
@@ -163,7 +163,7 @@ local function show_events(own)
   put(own, EVENTS, { kind = "events", events = list })
 end
 
---- Send what has changed, and the state of the scene to those who wait for it.
+--- Sends what has changed, and the state of the scene to pages that wait for it.
 function show.all(own)
   local pages, waiting = own.server:pages()
   if pages == 0 then return end
@@ -179,7 +179,7 @@ function show.all(own)
   if mark == own.frame then return end
   own.frame = mark
   local fine, film, frames = pcall(core.film_now, own.scene, true)
-  if not fine and not own.failed then error(film, 0) end -- what has failed may have no state to be seen
+  if not fine and not own.failed then error(film, 0) end -- a failed run may have no state to show
   if fine and frames > 0 then own.server:put(FRAME, ("<I4I4"):pack(own.outline, own.session) .. film) end
 end
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Forms whose line is not their fields as they stand: joins and ties of wires, objects of particles, and
--- waiting for a read-out. Each has rows for its fields, and write(values, refer, source): its line;
--- refer(name): the object of that name, for source.
+--- Forms whose line is not simply their fields: joins and ties of wires, objects of particles, and waiting
+-- for a read-out. Each has rows for its fields, and write(values, refer, source), which returns its line;
+-- refer(name): the object with this name, for source.
 -- @module softworld.view.special
 local special = {}
 
@@ -12,7 +12,7 @@ local function need(values, kind, name, what)
   return values[name]
 end
 
--- Some of the values, by their names.
+-- Returns some of the values, by their names.
 local function some(values, names)
   local args = {}
   for name in names:gmatch "%S+" do args[name] = values[name] end
@@ -71,7 +71,7 @@ local MOST_IN_SHEET = 900
 
 local function short(x) return tonumber(("%.12g"):format(x)) end
 
--- Rows of particles, linked to their neighbours and, if that is wanted, across.
+-- Writes a sheet: rows of particles, linked to their neighbours and, if wanted, diagonally.
 local function write_sheet(values, _, source)
   local args, n, m = some(values, "name masses radius"), values.columns or 6, values.rows or 6
   if n < 2 or m < 2 or n * m > MOST_IN_SHEET then
@@ -203,11 +203,11 @@ special.kinds = {
     { from = solids, to = solids }),
 }
 
---- What the form of ties has besides its rows.
+--- Further rows of the form of ties.
 special.tie = { write = write_tie, rows = { thing("to_wire", "another wire, instead of a place"),
   length("to_s", "where on that wire") } }
 
---- What new forms have in them.
+--- Initial values of new forms.
 special.starts = {
   sheet = { at = { 0, 0, 0.2 }, along = { 0.2, 0, 0 }, across = { 0, 0.2, 0 }, columns = 6, rows = 6,
     masses = 5e-4, k = 100, shear = 20 },

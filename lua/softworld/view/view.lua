@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- scene:view and `softworld --view`: the player's page, fed while a scene runs. An observer looks 30 times a
--- second, sends the state to pages that wait for it, and takes what they ask for: between two steps.
+-- second, sends the state to pages that wait for it, and takes their orders between two steps.
 -- @module softworld.view.view
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -53,7 +53,7 @@ local POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsaf
   .. "img-src data: blob:; media-src blob:; connect-src ws://127.0.0.1:%d ws://localhost:%d; "
   .. "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 
--- The page has a policy of its own, for files; here the server's is the one, which is as narrow.
+-- Sets the page. Its own policy is for files; here the server's replaces it and is as strict.
 local function page_of(own)
   local html = report.live(own.scene.name, { session = own.session, draft = own.draft ~= nil,
     forms = kinds.all(own.functions), functions = own.functions })
@@ -62,7 +62,7 @@ local function page_of(own)
   own.server:page(html, POLICY:format(own.port, own.port))
 end
 
--- Show this scene, to which nothing was done yet.
+-- Shows this scene, which has no changes yet.
 local function attach(own, scene)
   own.outline = own.outline + 1
   if own.scene and of_scene(own.scene) then views[build.data(own.scene)] = nil end
@@ -76,7 +76,7 @@ local function attach(own, scene)
   own.base, own.stopped, own.ok, own.reason, own.args, own.ended = nil, nil, nil, nil, nil, nil
 end
 
--- Another scene: pages begin anew.
+-- Shows another scene: pages start again.
 local function attach_another(own, scene)
   own.session = own.session + 1
   attach(own, scene)
@@ -112,7 +112,7 @@ local function name_of(scene) return scene.name end
 --- scene:view{ port =, open = }: see help "scene:view".
 function view.view(scene, args)
   if core.type(scene) ~= "scene" then error("scene:view is a method: call it with a colon", 2) end
-  build.call(3, name_of, scene) -- raises when it has been closed
+  build.call(3, name_of, scene) -- raises if the scene is closed
   if of_scene(scene) then return of_scene(scene) end
   return build.call(3, serve, scene, args)
 end
@@ -161,7 +161,7 @@ function follower.finish(scene, ok, reason)
   if own.server then pcall(show.all, own) end
 end
 
--- A run that a page asks for; its line is shown. Returns whether it began, and why not.
+-- Starts a run that a page asks for, and shows its line. Returns whether it began, and why not.
 local function run_now(own, args)
   if not own.again then
     own.shown[#own.shown + 1] = { time = own.scene.time, ok = true, count = 1,
@@ -172,14 +172,14 @@ local function run_now(own, args)
   local fine, run = pcall(own.scene.run, own.scene, args)
   if not fine and draft.is_interrupt(run) then error(run, 0) end
   local begun = #own.runs > before
-  if fine then fine = run.ok end -- a run that failed was looked at
+  if fine then fine = run.ok end -- reading ok counts as the look at a failure
   local judged = fine and own.draft and own.draft:checks()
   own.check = judged and functions.judge(run, judged) or nil
   own.failed, own.lines_due = begun and not fine or own.failed, true
   return begun or fine, run
 end
 
--- Without the place of who waits for the view.
+-- Returns the message without the place of the caller that waits for the view.
 local function plain(message) return (build.plain(message):gsub("^[^\n:]+:%d+: ", "")) end
 
 local function run_on(own)
@@ -206,20 +206,20 @@ local function run_draft(own)
   show.answer(own, ask, fine, not fine and plain(message) or nil)
 end
 
--- Back by running again from the start, up to the state that was asked for; the last of the runs goes on.
+-- Goes back by running again from the start up to the wanted state; the last of the runs continues.
 local function run_again(own)
   work.again(own)
   local r = returning.begin(own)
   for _, args in ipairs(r.runs) do
     local _, result = run_now(own, args)
-    if not own.again then return end -- it is there, or was given up
+    if not own.again then return end -- it has arrived, or was given up
     if type(result) == "string" then return held.told_again(own, plain(result)) end
   end
   returning.lines(own)
   held.told_again(own, r.state.inside and "the run ended before it was there" or nil)
 end
 
--- Between runs: what pages ask for is done at once.
+-- Between runs: does what pages ask for at once.
 local function idle(own, due)
   repeat
     work.hear(own)
@@ -234,7 +234,7 @@ local function idle(own, due)
   until core.clock() >= due
 end
 
---- Show the scene as it is until Ctrl-C, or for so long [s].
+--- Shows the scene as it is until Ctrl-C, or for a time [s].
 function View:wait(seconds)
   if seconds ~= nil then checks.number("view:wait: seconds", seconds, 0, " s", 2) end
   local own = fields(self)
@@ -243,7 +243,7 @@ function View:wait(seconds)
   build.call(3, idle, own, seconds and core.clock() + seconds or math.huge)
 end
 
---- Pages are told nothing more.
+--- Closes the view; pages get nothing more.
 function View:close()
   local own = fields(self)
   if own.observer then own.observer:remove() end
@@ -254,7 +254,7 @@ end
 
 local names = { "address", "pages", "scene", "wait", "close" }
 
---- Names of methods and fields, for completion at the prompt.
+--- Returns the names of methods and fields, for completion at the prompt.
 function View.__names() return table.move(names, 1, #names, 1, {}) end
 
 function View:__index(key)
@@ -275,17 +275,17 @@ end
 
 methods.guard_table("view", View)
 
---- `softworld --view script.lua`: every scene that runs is shown, one after the other, from now on.
+--- `softworld --view script.lua`: shows every scene that runs from here on, one after the other.
 function view.all(args) shared = { args = args } end
 
--- Show the scene until Ctrl-C.
+-- Shows the scene until Ctrl-C.
 local function stay(self)
   local fine, message = pcall(idle, fields(self), math.huge)
   self:close()
   if not fine and not tostring(message):find "interrupted" then error(message, 0) end
 end
 
---- Then, when the script has come to its end: show the last scene until Ctrl-C.
+--- Called at the end of the script: shows the last scene until Ctrl-C.
 function view.stay()
   local own = shared and shared.view and fields(shared.view)
   if not own or not own.server then
@@ -296,13 +296,13 @@ function view.stay()
   stay(shared.view)
 end
 
---- A view of a scene that has nothing yet, for forms to put one together.
+--- Returns a view of an empty scene, for forms to put one together.
 function view.nothing(args)
   local from = draft.new(args and args.functions)
   return serve(from:build(), args, from)
 end
 
---- `softworld --view` alone: the same until Ctrl-C.
+--- `softworld --view` without a script: shows an empty scene until Ctrl-C.
 function view.begin(args)
   local self = view.nothing(args)
   io.stderr:write "Ctrl-C ends the view\n"

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What pages of a live view ask for, and the doing of it: orders are heard, checked, and done by their
--- lines, which are kept. `own` is what a view has, see softworld.view.view.
+--- Does what pages of a live view ask for: orders are heard, checked, and done by their lines, which are
+-- stored. `own` holds the fields of a view, see softworld.view.view.
 -- @module softworld.view.work
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
@@ -13,12 +13,12 @@ local show = require "softworld.view.show"
 
 local work = {}
 
-local MOST_LINES = 5000   -- changes that are kept
+local MOST_LINES = 5000   -- most stored changes
 local TOO_MANY = ("more than %d changes were made by hand"):format(MOST_LINES)
 
 -- --- what they ask for ---------------------------------------------------------------------------
 
--- What a hand moves by one order after the other, of which one line is shown.
+-- Returns what a hand moves by the line, or nil. Successive moves of the same object are shown as one line.
 local function led(text)
   return text:find "^hand:set" and "hand" or text:match '^(scene:find%b()):move { .* law = "linear" }$'
 end
@@ -38,7 +38,7 @@ end
 
 local function do_line(own, text, inverse, before)
   local time = own.scene.time
-  local fine, message = pcall(returning.line, own, text) -- what is shown is what was done
+  local fine, message = pcall(returning.line, own, text) -- the shown line is what is run
   if not fine and draft.is_interrupt(message) then error(message, 0) end
   if not fine then message = build.plain(message):gsub("^by hand:%d+: ", "") end
   if fine then
@@ -54,7 +54,7 @@ local function do_line(own, text, inverse, before)
   return fine, message
 end
 
---- Show that something cannot be, and why.
+--- Shows that an order was refused, and why.
 function work.refused(own, message)
   own.lines_due = true
   own.shown[#own.shown + 1] = { time = own.scene.time, text = "", ok = false, error = build.plain(message),
@@ -76,7 +76,7 @@ local function back(own, m)
   end
 end
 
--- How it can be undone: the way back to the state before, or the line that undoes it; or nil, and why not.
+-- Returns how a line can be undone: "back" to the state before, or by a "line"; or nil, and why not.
 local function how_undone(own, line)
   local way, why
   if line.before then way, why = returning.how(own, line.before) end
@@ -85,7 +85,7 @@ local function how_undone(own, line)
   return nil, why and ("%s was removed: %s"):format(line.before.what, why)
 end
 
--- What can be undone last, and how; or nil, and why what was done last cannot.
+-- Returns the last line that can be undone, and how; or nil, and why the last change cannot be undone.
 local function last_done(own)
   local why
   for i = #own.shown, 1, -1 do
@@ -114,7 +114,7 @@ local function undo(own, m)
   show.answer(own, m.ask, fine, fine and words or build.plain(message))
 end
 
--- What pulls a wire goes with it.
+-- Forgets the hand if the wire it pulled is gone.
 local function let_gone(own)
   if own.names.hand and not own.names.hand.held then
     own.names.hand, own.hand, own.pulled = nil, nil, nil
@@ -139,7 +139,7 @@ local function told(own, m)
   end
 end
 
--- An order that is no way back: its line is made, done, and told.
+-- Does an order that does not go back: makes its line, runs it, and reports it.
 local function obey(own, m)
   if m["do"] == "pull" and own.names.hand then do_line(own, "hand:release()") end
   local fine, text, inverse = pcall(orders.line, own.scene, m, own.functions)
@@ -159,7 +159,7 @@ local function obey(own, m)
   end
 end
 
---- Orders that change the scene, one after the other; it may be changed now.
+--- Does the queued orders that change the scene, one after the other. Call it only while changes are allowed.
 function work.all(own)
   local queue = own.queue
   own.queue = {}
@@ -170,7 +170,7 @@ function work.all(own)
   end
 end
 
---- The same while a run goes on: where it was left counts for its rounding, even if nothing came of it.
+--- Same during a run. The place where the run was left is stored too, because it affects rounding.
 function work.inside(own)
   work.all(own)
   local last = own.lines[#own.lines]
@@ -185,7 +185,7 @@ end
 
 -- --- a scene that forms put together ------------------------------------------------------------
 
--- Show another scene in the place of the one before.
+-- Shows another scene in place of the old one.
 local function replace(own, scene)
   local old = own.scene
   own.attach(own, scene)
@@ -206,16 +206,16 @@ local function change_draft(own, m)
   return words
 end
 
---- Back to the start of what forms have put together.
+--- Goes back to the start of what forms have put together.
 function work.again(own) replace(own, own.draft:build()) end
 
--- It is answered when the run has ended, or could not begin.
+-- Asks for a run; the answer comes when it has ended, or could not begin.
 local function start(own, m)
   own.wants_start = { args = own.draft:set_run(m.values), ask = m.ask }
   m.ask = nil
 end
 
-local now = {} -- orders that are done at once: nothing of the scene changes by them
+local now = {} -- orders done at once: they change nothing in the scene
 
 function now.pause(own) own.paused = true end
 function now.go(own) own.paused, own.base = false, nil end
@@ -236,7 +236,7 @@ end
 
 -- --- hearing ---------------------------------------------------------------------------------------
 
---- Is there something to be undone now? And if not, why not, where that is worth a word.
+--- True if something can be undone at this moment. If not, also returns why, if worth telling.
 function work.has_undo(own)
   local line, _, why = last_done(own)
   return line ~= nil, why
@@ -258,7 +258,7 @@ local function has_way_back(own, m)
   return false
 end
 
--- Will something come of an order? To leave a run for nothing would change the last bits of its steps.
+-- True if an order will have an effect. Leaving a run for nothing would change the last bits of its steps.
 local function is_good(own, m)
   local word = m["do"]
   if word == "undo" then
@@ -288,7 +288,7 @@ end
 
 local MOST_AT_ONCE = 500
 
---- Take what pages have said; what changes the scene waits in the queue.
+--- Takes the orders of pages; those that change the scene wait in the queue.
 function work.hear(own)
   for _ = 1, MOST_AT_ONCE do
     local text = own.server:take()
@@ -301,7 +301,7 @@ function work.hear(own)
       if not done then work.refused(own, message) end
     elseif type(word) == "string" and (orders.changes(m) or word == "undo" or word == "back") then
       if is_good(own, m) then own.queue[#own.queue + 1] = m end
-    end -- all else is nobody's business
+    end -- other messages are ignored
   end
 end
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The script of a scene that is put together by forms: a line of Lua for each item of the list, see
+--- Writes the script of a scene that forms put together: a line of Lua for each item of the list, see
 -- softworld.view.draft.
 -- @module softworld.view.written
 local checks = require "softworld.checks"
@@ -8,12 +8,12 @@ local fill = require "softworld.view.fill"
 local functions = require "softworld.view.functions"
 local literal = require "softworld.scene.literal"
 
---- processes: so many at the most.
+--- processes: most processes of a script.
 local written = { processes = 6 }
 
 local MOST_LOCALS = 120 -- of the 200 that Lua allows
 
---- Items come in this order; rank: by class.
+--- Classes in the order of their lines; rank: the place of a class.
 local order = { "obstacle", "wire", "particles", "gripper", "hold", "fixing", "force", "contact", "observer",
   "step", "check" }
 written.rank = {}
@@ -21,11 +21,11 @@ for i, class in ipairs(order) do written.rank[class] = i end
 
 local function fail(text, ...) error(text:format(...), 0) end
 
--- Not of objects: what the script and functions that are typed in speak of.
+-- Names that objects cannot have as variables, because the script and typed functions use them.
 local taken_words = checks.set "scene sw p run require _ENV"
 for word in pairs(functions.names()) do taken_words[word] = true end
 
--- Words of the objects that others speak of: { [name] = word }, and which of them are locals.
+-- Returns the variables of objects that other items refer to: { [name] = word }.
 local function words_of(items)
   local needed, words, used, count = {}, {}, {}, 0
   for _, item in ipairs(items) do
@@ -63,7 +63,7 @@ local function word_in(words, items)
   end
 end
 
--- Where functions are in the script: { from, to = lines of the script, what }.
+-- Returns where functions are in the script: { from, to = lines of the script, what }.
 local function places_of(lines, owners)
   local places, at = {}, 1
   for i, text in ipairs(lines) do
@@ -98,7 +98,7 @@ local function steps_of(items, lines, word, texts, owners)
   end
 end
 
---- The script that builds what a list says; by id the line of each item; where its functions are.
+--- Returns the script of a list, the line of each item by id, and where its functions are.
 function written.script(now)
   local owners, texts, lines = {}, {}, { "-- Written by SoftWorld " .. core.version .. ".",
     'local sw = require "softworld"', "", "local scene = sw.scene " .. fill.source(now.scene) }

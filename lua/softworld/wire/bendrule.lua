@@ -2,7 +2,7 @@
 --- How tightly a cable may be bent: a multiple of its outer diameter, by use.
 --
 -- IEC 62440:2008, guide to use of cables up to 450/750 V, for circular flexible
--- thermoplastic cables at (20 +- 10) degC. Its radius is that of the inside of the
+-- thermoplastic cables at (20 +- 10) degC. Its radius is at the inside of the
 -- bend; the centre line, which wire:min_bend_radius() measures, is half a diameter
 -- farther out.
 -- @module softworld.wire.bendrule
@@ -25,7 +25,7 @@ bendrule.table = {
   pulleys = { 10, 10, 10, 10 },
 }
 
---- The multiple for a use and an outer diameter [m].
+--- Returns the multiple for a use and an outer diameter [m].
 function bendrule.factor(use, diameter)
   local column = 1
   while bendrule.steps[column] and diameter > bendrule.steps[column] * (1 + 1e-9) do
@@ -34,7 +34,7 @@ function bendrule.factor(use, diameter)
   return bendrule.table[use][column]
 end
 
---- nil when the use is known, else a message.
+--- Returns nil if the use is known, else a message.
 function bendrule.unknown(use)
   if bendrule.table[use] then return nil end
   local near = type(use) == "string" and core.nearest(use, bendrule.uses)

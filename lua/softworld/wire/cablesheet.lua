@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The sheet of a cable, as a script or the catalogue writes it: read, checked, completed from the
+--- The sheet of a cable, as a script or the catalogue writes it: read, checked, and completed from the
 -- construction. See softworld.cable.
 -- @module softworld.wire.cablesheet
 local core = require "softworld.core"
@@ -10,11 +10,11 @@ local material = require "softworld.wire.material"
 local breaking = require "softworld.run.breaking"
 local stranding = require "softworld.wire.stranding"
 
---- flags: how well a value is known; twist_ratio: GJ over EI where nothing is known of GJ [-].
+--- flags: how well a value is known; twist_ratio: GJ over EI if GJ is not known [-].
 local sheet = { flags = { "measured", "computed", "guessed" }, twist_ratio = 1.25 }
 
--- Values of an entry in the order of its sheet; those with limits [unit] that no
--- cable exceeds, so that mm taken for m and the like are told.
+-- Values of an entry in the order of its sheet, with limits [unit] that no cable
+-- exceeds. They detect wrong units such as mm for m.
 local quantities = {
   { key = "outer_diameter", unit = "m", least = 1e-4, most = 0.2 },
   { key = "mass_per_length", unit = "kg/m", least = 1e-6, most = 200 },
@@ -23,10 +23,10 @@ local quantities = {
   { key = "GJ", unit = "N m2", least = 0, most = 1e6 },
   { key = "friction", unit = "-", least = 0, most = 3 },
 }
---- Those that every cable has.
+--- The values that every cable has.
 sheet.required = quantities
 local breaking_load = { key = "breaking_load", unit = "N", least = 0, most = 1e8 } -- may be unknown
---- The same, and the one that may be unknown: { { key =, unit =, ... } }.
+--- The same with the one that may be unknown: { { key =, unit =, ... } }.
 sheet.quantities = table.move(quantities, 1, #quantities, 1, {})
 sheet.quantities[#quantities + 1] = breaking_load
 local densities = { 300, 12000 } -- mean over the section: foam, lead [kg/m3]
@@ -37,14 +37,14 @@ local function set(list)
   return s
 end
 
---- Raise, with the cable's name and without a place.
+--- Raises an error with the cable's name and without a place.
 function sheet.fail(name, format, ...)
   error(("cable '%s': %s"):format(name, format:format(...)), 0)
 end
 
 local fail = sheet.fail
 
---- What an unknown word may have meant.
+--- Returns a hint what an unknown word may have meant.
 function sheet.did_you_mean(word, list)
   local near = type(word) == "string" and core.nearest(word, list)
   return near and ("did you mean '%s'?"):format(near) or "known are " .. table.concat(list, " ")
@@ -79,7 +79,7 @@ local function source_of(name, key, source)
   return source
 end
 
--- A value as the user wrote it (a number or a table), completed by the entry's flag, source and spread.
+-- Returns a value (a number or a table) completed by the entry's flag, source and spread.
 local function read_quantity(name, spec, given, entry)
   local key, unit = spec.key, spec.unit
   if type(given) == "number" then given = { value = given } end
@@ -148,8 +148,8 @@ local function read_construction(name, given, entry, diameter)
   return c
 end
 
--- EI and GJ of the construction: the spread is from strands that slip, of the
--- softest materials, to strands that stick, of the stiffest.
+-- Returns EI or GJ of the construction. The spread goes from slipping strands of the
+-- softest materials to sticking strands of the stiffest.
 local function computed(entry, key, by_parts)
   local c = entry.construction
   local value, source = by_parts.value, ("%d strands of %.3g mm %s, %s"):format(c.strands,
@@ -181,7 +181,7 @@ local function add_bounds(name, entry, by_parts)
   end
 end
 
--- Values that no cable can have, whatever it is made of.
+-- Raises an error for values that no cable of any material can have.
 local function check_consistency(name, e)
   local R = e.outer_diameter.value / 2
   local density = e.mass_per_length.value / (math.pi * R ^ 2)
@@ -246,7 +246,7 @@ local function read_bend(name, given, entry)
   return bend
 end
 
--- S-N curves as the user wrote them, else those of the strands; nil where nothing is known of them.
+-- Returns the S-N curves given by the user, else those of the strands; nil if these are not known.
 local function read_fatigue(name, given, entry, construction)
   if given == nil then return construction and lifecurve.of(construction) end
   check_keys(name, "fatigue", given, { "curve", "bending", "spread", "flag", "source" })
@@ -270,7 +270,7 @@ end
 local fields = { "name", "description", "outer_diameter", "mass_per_length", "EA", "EI", "GJ", "friction",
   "breaking_load", "fatigue", "temperature", "bend", "construction", "source", "flag", "spread" }
 
--- What every cable has: given, or computed from the construction.
+-- Reads the values that every cable has: given, or computed from the construction.
 local function read_quantities(name, entry, given, by_parts)
   for i = 2, #quantities do
     local spec = quantities[i]
@@ -289,7 +289,7 @@ local function read_quantities(name, entry, given, by_parts)
   end
 end
 
--- What may be unknown.
+-- Reads the values that may be unknown.
 local function read_breaking_load(name, entry, given)
   local load = given.breaking_load or entry.construction and breaking.load(entry.construction)
   if not load then return end
@@ -297,7 +297,7 @@ local function read_breaking_load(name, entry, given)
   check_range(name, breaking_load, entry.breaking_load)
 end
 
---- The checked fields of an entry; errors have no place.
+--- Returns the checked fields of an entry; errors have no place.
 function sheet.read(given)
   if type(given) ~= "table" then
     error(("cable.define takes one table of fields, got %s"):format(type(given)), 0)
@@ -325,7 +325,8 @@ function sheet.read(given)
   return entry
 end
 
---- Entries are plain to read and to print, so a script can also write into them: what it spoilt is told.
+--- Returns the entry, or raises an error if a script has written a wrong value into it; entries are plain
+-- tables.
 function sheet.whole(entry)
   for _, spec in ipairs(quantities) do
     local q = entry[spec.key]

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Springs for a mesh of particles that is to be a given wire.
+--- Finds the springs with which a mesh of particles has the stiffness of a given wire.
 --
 --     local c = sw.calibrate { mesh = "tube", EA = 5000, EI = 0.05, GJ = 0.04, radius = 0.005 }
 --     print(c)                       -- springs, residuals
@@ -8,28 +8,28 @@
 --       build(l.from, l.to, l.slices, l.weight * c.springs[l.group])
 --     end
 --
--- EA, EI and GJ of an endless mesh of springs are known exactly (softworld.wire.calibrate.cell): a slice that
--- repeats is strained, bent and twisted while its particles find their places, and its resistance is
--- measured. The springs are searched until EA, EI and GJ are those of the wire. body = "solid" fills the
--- mesh with solid elements of one modulus instead, and adds springs only for the rest of EA, EI and GJ.
--- help "calibrate" lists the parameters.
+-- EA, EI and GJ of an endless mesh of springs are computed exactly (softworld.wire.calibrate.cell): a slice
+-- that repeats is strained, bent and twisted while its particles find their places, and its resistance is
+-- measured. The springs are varied until EA, EI and GJ are those of the wire. body = "solid" fills the mesh
+-- with solid elements of one modulus instead, and adds springs only for the rest of EA, EI and GJ. help
+-- "calibrate" lists the parameters.
 --
 -- A composite is a tube of rings as shell around cores, each a line of particles, layers or
--- voxels. Bonded, springs (group "bond") hold its parts together and the whole has EA, EI and GJ.
--- Sliding (`bonded = false`), EA, EI and GJ are the sums over the parts, each core bending about
--- its own axis, as strands do that are laid round; links with `slide` then name the particles that
--- face each other, for a law of contact. They have no stiffness. Of one core all of it also holds
--- for the cell of the mesh as a whole; of cores off the axis that cell, whose sections stay plane,
--- has their EA times distance^2 more of EI.
+-- voxels. Bonded: springs (group "bond") hold its parts together, and the whole has EA, EI and GJ.
+-- Sliding (`bonded = false`): EA, EI and GJ are the sums over the parts, each core bending about
+-- its own axis, as stranded wires do. Links with `slide` then name the particles that face each
+-- other, for a law of contact; they have no stiffness. With one core the same values hold for the
+-- cell of the whole mesh. With cores off the axis the cell, whose sections stay plane, has a higher
+-- EI, by EA times distance^2 of the cores.
 --
 -- With body = "solid" a composite is one core bonded to the shell, in one mesh of layers with the face at
 -- the core's radius. E, nu and density are the shell's, core_E, core_nu and core_density the core's, and
 -- EA = sum of E_i A_i, EI = sum of E_i I_i, GJ = sum of G_i J_i. All three and the ratio of the moduli are
--- exact, in spite of corners and of the stiffness that parts with different nu add by pressing on one
--- another: the section is scaled (`scale`, with the face in it), both moduli by one factor, and both nu
--- are shifted alike. From EA, EI and GJ: the moduli that have EA and EI, and nu that makes GJ, unless
--- core_E, core_EA or nu are given. Where that does not do it springs are added, moduli are searched too,
--- and EA, EI and GJ are exact.
+-- exact, although the mesh has corners and parts with different nu press on one another and add stiffness:
+-- the section is scaled (`scale`, with the face in it), both moduli by one factor, and both nu are shifted
+-- alike. From EA, EI and GJ: the moduli follow from EA and EI, and nu from GJ, unless core_E, core_EA or
+-- nu are given. If that is not possible, springs are added, the moduli are varied too, and EA, EI and GJ
+-- are exact.
 --
 --     local c = sw.calibrate { mesh = "composite", core = "radial", cores = 3, bonded = false,
 --       EA = 5000, EI = 0.02, GJ = 0.015, radius = 0.005 }
@@ -79,14 +79,14 @@ function Calibration.__tostring(c)
   return table.concat(lines, "\n")
 end
 
---- What the core gives of a calibration, with the mesh's name, made to print.
+--- Returns the core's calibration with the mesh's name; it prints as a table.
 function calibrate.named(c, mesh)
   if type(c) ~= "table" then error("calibrate.named: a calibration is wanted, got " .. type(c), 2) end
   c.mesh = mesh
   return setmetatable(c, Calibration)
 end
 
--- A copy of the arguments, completed by the cable's values.
+-- Returns a copy of the arguments, completed by the cable's values.
 local function with_cable(args)
   local entry = cable.get(args.cable)
   for _, key in ipairs { "E", "nu", "density" } do
@@ -104,7 +104,7 @@ local function with_cable(args)
   return all
 end
 
--- section = "solid" and "springs" say the same as body; other sections are shapes of a cubic mesh.
+-- Turns section = "solid" or "springs" into body; other sections are shapes of a cubic mesh.
 local function with_body(args)
   if args.section ~= "solid" and args.section ~= "springs" then return args end
   local all = {}
@@ -113,27 +113,27 @@ local function with_body(args)
   return all
 end
 
---- Springs of a mesh whose EA, EI and GJ, and squeeze stiffness when that is asked for, are
--- those of a wire; with body = "solid" elements and springs. An error tells what to change when
--- there are none of the mesh.
+--- Returns the springs of a mesh whose EA, EI and GJ, and squeeze stiffness if asked for, are
+-- those of a wire; with body = "solid" elements and springs. If the mesh has no such springs, the
+-- error tells what to change.
 -- @tparam table args `mesh` = "tube", "radial", "cubic" or "composite", EA, EI, GJ (or E, nu), radius, or
 -- `cable` = "name" for them, and what help "calibrate" lists
 -- @treturn table `springs` by group [N/m], which `weight` of a link multiplies; `links` {from,
 -- to, slices, group, weight, bend} and `particles` {x, y, z} [m] of one slice, `spacing` [m];
--- `count` of links by group; `shares` of the slice's mass, and `mass` [kg] when a mass per length
+-- `count` of links by group; `shares` of the slice's mass, and `mass` [kg] if a mass per length
 -- or density was given; EA, EI, EI2, GJ and `squeeze` reached, `residuals` (reached/wanted - 1),
 -- `matrix`, the stiffness against stretch, curvatures about x and y, and twist. With body =
 -- "solid" (or section = "solid") also `elements` {particles, slices (0 or 1)} of one slice, their
--- `modulus` [Pa] and `nu`, and `scale`, how many times as far out as the wire's section its
--- particles are, so that EA and EI are exact in spite of corners; GJ of elements alone is then
--- within 2 %; of a composite `modulus` and `nu` are the shell's, `core_modulus` and `core_nu` the
--- core's, and each of `elements` has its own. Of a composite
--- also `part` of each particle (0: the shell, else the core's number), `shell` and `core`, each
--- { EA, EI, GJ } of that part by itself, core that of each of them; `centres` {x, y, z} of the
--- cores, `bore`, `core_radius` and `ring_radius` of the shell's particles [m]; without bonds, links
--- with `slide` = true, `gap` between the bodies [m] and `direction`, a unit vector. Two bonded
--- cores lie along x: EI is that of their plane, EI2 is less. Bending is alike in all planes where
--- ring and cores look alike after a third of a turn or less; EI2 tells
+-- `modulus` [Pa] and `nu`, and `scale`, the factor by which particles lie farther out than in the
+-- wire's section, so that EA and EI are exact in spite of corners; GJ of elements alone is then
+-- within 2 %. For a solid composite `modulus` and `nu` are the shell's, `core_modulus` and `core_nu`
+-- the core's, and each of `elements` has its own. For a composite also `part` of each particle (0: the
+-- shell, else the core's number), `shell` and `core`, each { EA, EI, GJ } of that part alone, core
+-- that of each core; `centres` {x, y, z} of the cores, `bore`, `core_radius` and `ring_radius` of the
+-- shell's particles [m]; without bonds, links with `slide` = true, `gap` between the bodies [m] and
+-- `direction`, a unit vector. Two bonded cores lie along x: EI is that of their plane, EI2 is less.
+-- Bending is equal in all planes if ring and cores look the same after a third of a turn or less;
+-- EI2 shows it
 local function run(args)
   if type(args) == "table" then args = with_body(args) end
   if type(args) == "table" and args.cable ~= nil then args = with_cable(args) end
@@ -142,7 +142,7 @@ local function run(args)
   return setmetatable(c, Calibration)
 end
 
--- Errors name the line of the script.
+-- Calls f; errors name the line of the script.
 local function call(f, ...)
   local result = table.pack(pcall(f, ...))
   if result[1] then return table.unpack(result, 2, result.n) end
@@ -187,8 +187,8 @@ local function flat_links(links, names)
   return flat
 end
 
--- 6 or 8, and as many particles, of each element, its group and nu. Moduli become more groups of
--- stiffness.
+-- Returns for each element 6 or 8, its particles, its group and nu, in one list. Moduli become further groups
+-- of stiffness.
 local function flat_elements(args, stiffness)
   local flat, groups = {}, {}
   for i, e in ipairs(args.elements or {}) do
@@ -205,7 +205,7 @@ local function flat_elements(args, stiffness)
     if not group then
       stiffness[#stiffness + 1] = modulus
       group = #stiffness
-      if modulus == modulus then groups[modulus] = group end -- what is no number is told by the core
+      if modulus == modulus then groups[modulus] = group end -- the core reports a NaN
     end
     flat[#flat + 1] = group
     flat[#flat + 1] = number("nu", args.nu or e.nu)
@@ -249,7 +249,7 @@ local function cell(args)
   return core.cell(number("spacing", args.spacing), places, links, stiffness, elements)
 end
 
---- The beam that an endless mesh of springs is, exactly: any mesh whose slices repeat along z.
+--- Returns the beam that an endless mesh of springs is, exactly: any mesh whose slices repeat along z.
 -- @tparam table args `spacing` of slices [m]; `particles`, a list of {x, y, z} [m]; `links`, a
 -- list of { from =, to = particles' numbers, slices = how many slices further `to` is, group =,
 -- weight = 1 }, or { from = i, to = i, slices = 1, bend = true, group = } for a spring against the

@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- S-N curves: how many cycles of a range of tension or of curvature a wire endures.
 --
--- Where nobody gives those of a cable, there are those of its copper strands. Cycles N against the range of
+-- If no curves of a cable are given, those of its copper strands are used: cycles N against the range of
 -- strain by the method of universal slopes (S. S. Manson, Fatigue: a complex subject, Experimental Mechanics
 -- 5, 1965):
 --
 --     range = 3.5 (Su / E) N^-0.12 + D^0.6 N^-0.6
 --
 -- with tensile strength Su, Young's modulus E and ductility at fracture D of soft-annealed copper. A range of
--- curvature strains the outermost fibre of a strand of diameter d by d/2 times that where strands slip on one
--- another, and that of the conductor of diameter Dc by Dc/2 where they stick; a range of tension strains the
--- strands by that over E A.
+-- curvature strains the outermost fibre of a strand of diameter d by d/2 times the range if strands slip on
+-- one another, and that of the conductor of diameter Dc by Dc/2 times the range if they stick. A range of
+-- tension F strains the strands by F / (E A).
 --
--- How far this may be wrong: life by a factor of 5 either way (assumed: scatter of tests, D from 0.6 to 1.6);
--- on the short side strands stick, and half of them carry the tension, as in the spread of EA; on the long
+-- Uncertainty: life by a factor of 5 either way (assumed: scatter of tests, D from 0.6 to 1.6). On the
+-- short side strands also stick, and half of them carry the tension, as in the spread of EA. On the long
 -- side the elastic line goes through 76 MPa at 1e8 cycles, which handbooks give for annealed copper C11000.
 -- @module softworld.wire.lifecurve
 local checks = require "softworld.checks"
@@ -23,15 +23,16 @@ local stranding = require "softworld.wire.stranding"
 local lifecurve = {}
 
 local STRENGTH, DUCTILITY = 220e6, 1.0   -- of annealed copper [Pa], [-]
-local ENDURED, CYCLES = 76e6, 1e8        -- amplitude of stress, and cycles of it [Pa], [-]
+local ENDURED, CYCLES = 76e6, 1e8        -- amplitude of stress, and its cycles [Pa], [-]
 local ELASTIC, PLASTIC = -0.12, -0.6     -- slopes [-]
-local SCATTER = 5                        -- of life [-]
-local LOOSE = 2                          -- by this the tension of a strand may be larger than the mean [-]
-local DECADES, PER_DECADE = 12, 4        -- points of a curve: from 1 cycle on
+local SCATTER = 5                        -- factor of life [-]
+local LOOSE = 2                          -- largest tension of a strand over the mean [-]
+local DECADES, PER_DECADE = 12, 4        -- points of a curve, from 1 cycle on
 
 lifecurve.source = "literature, not of this cable: annealed copper by universal slopes, Manson 1965"
 
---- Points { range [unit], cycles } of which ranges rise and cycles fall: a copy, or an error without a place.
+--- Returns a copy of points { range [unit], cycles } with rising ranges and falling cycles, or raises an
+-- error without a place.
 function lifecurve.read(what, curve, unit)
   if checks.kind(curve) ~= "table" then
     error(("%s must be points { range [%s], cycles }, got %s"):format(what, unit, checks.got(curve)), 0)
@@ -55,13 +56,13 @@ function lifecurve.read(what, curve, unit)
   return copy
 end
 
---- The range of strain of annealed copper that is endured for so many cycles [-].
+--- Returns the range of strain that annealed copper endures for a number of cycles [-].
 function lifecurve.strain(cycles, elastic)
   elastic = elastic or 3.5 * STRENGTH / material "copper".E.value
   return elastic * cycles ^ ELASTIC + DUCTILITY ^ 0.6 * cycles ^ PLASTIC
 end
 
--- Points { range, cycles }: a range of 1 strains by `strain`; life is `times` as long.
+-- Returns points { range, cycles }: a range of 1 strains by `strain`; life is `times` as long.
 local function curve_of(strain, times, elastic)
   local list = {}
   for k = DECADES * PER_DECADE, 0, -1 do
@@ -71,8 +72,9 @@ local function curve_of(strain, times, elastic)
   return list
 end
 
---- Of a construction of copper { curve =, bending = (points), low =, high = (the same, of the least and the
--- most damage), strain = { slip, stick } [m]: strain over curvature, source =, flag = }; nil for others.
+--- Returns the curves of a copper construction { curve =, bending = (points), low =, high = (the same, for
+-- the least and the most damage), strain = { slip, stick } [m]: strain over curvature, source =, flag = };
+-- nil for others.
 function lifecurve.of(construction)
   if construction.conductor ~= "copper" then return nil end
   local E = material "copper".E.value

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Materials of cables, with the range over which a material of that name varies.
+--- Materials of cables, with the range over which materials of that name vary.
 --
 --     local copper = sw.material "copper"
 --     print(copper.E.value, copper.E.low, copper.E.high)   -- [Pa]
@@ -51,7 +51,7 @@ for i, entry in ipairs(known) do by_name[entry.name], names[i] = entry, entry.na
 
 local material = { names = names }
 
---- The material by its name, or nil and a message.
+--- Returns the material by its name, or nil and a message.
 function material.find(name)
   local entry = by_name[name]
   if entry then return entry end

@@ -18,7 +18,7 @@ Section.__index = Section
 
 local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 
---- How wide it is between two planes across a direction, of which the part across the wire counts.
+--- Returns the width between two planes across a direction; only its component across the wire counts.
 -- @tparam {x,y,z} direction
 -- @treturn number [m]
 function Section:width(direction)
@@ -41,7 +41,7 @@ function Section:width(direction)
   return high - low + 2 * self.skin
 end
 
---- Draw its outline, and those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
+--- Draws its outline, with those of others over it: { path = "x.svg" | ".png" | ".pdf", name =,
 -- with = { { name, section }, ... }, title = }. Returns the path.
 function Section:chart(options)
   if type(checks.field(options, "path")) ~= "string" then
@@ -77,18 +77,17 @@ function Section:__tostring()
 end
 
 local section = class.wire.section
---- A section of a wire that is a mesh of particles (model = "tube", "radial", "cubic", ...), as it
--- is now, at arc length s.
+--- Returns a section of a wire that is a mesh of particles (model = "tube", "radial", "cubic", ...),
+-- in its present state, at arc length s.
 -- @tparam number s [m]
--- @treturn table `outline`, points of the surface in their order {x, y, z}, and `particles`, those
--- that lie `skin` inside of them [m]; `middle` [m], `tangent`, `axis` (where the section's own x
--- has turned to); `least_width` and `largest_width` between two parallel plates [m], with
--- `least_direction` and `largest_direction`; `width(direction)`; `height`, the width upwards [m];
--- `ovalisation`, (largest - least)/(largest + least) of widths as in API RP 1111 (other rules take
--- twice that), for round sections of the smooth curve through the particles, so that an
--- undeformed one has none; `area` within the surface [m2]; `torsion`, the section's turn about
--- the tangent since the wire's start, beyond that of a line that is bent only [rad], and
--- `twist_rate` [rad/m], both of the shape as it lies; of each of the `particles` `axial_strain`
+-- @treturn table `outline`, points of the surface in order {x, y, z}, and `particles`, which lie
+-- `skin` inside of them [m]; `middle` [m], `tangent`, `axis` (direction of the section's own x);
+-- `least_width` and `largest_width` between two parallel plates [m], with `least_direction` and
+-- `largest_direction`; `width(direction)`; `height`, the width upwards [m]; `ovalisation`, (largest -
+-- least)/(largest + least) of widths as in API RP 1111 (other rules take twice that), for round sections of
+-- the smooth curve through the particles, so that an undeformed one has none; `area` within the surface [m2];
+-- `torsion`, the section's turn about the tangent since the wire's start, beyond that of a line that is only
+-- bent [rad], and `twist_rate` [rad/m], both of the present shape; for each of the `particles` `axial_strain`
 -- and `hoop_strain`, and `stress` = E times axial strain, an estimate [Pa]
 function class.wire.section(wire, s)
   return setmetatable(build.call(3, section, wire, s), Section)
@@ -100,7 +99,7 @@ for _, name in ipairs { "width", "contact_pressure", "von_mises", "max_ovalisati
 end
 
 local calibration = class.wire.calibration
---- The springs of a wire that is a mesh, as sw.calibrate gives them.
+--- Returns the springs of a wire that is a mesh, as sw.calibrate gives them.
 function class.wire.calibration(wire)
   local c = build.call(3, calibration, wire)
   return require("softworld.wire.calibrate").named(c, wire.model)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- What an insulated stranded conductor weighs and how stiff it is, from its parts.
+--- Mass and stiffness of an insulated stranded conductor, from its parts.
 --
 -- n strands of diameter d are bunched to a conductor of diameter
 -- Dc = d sqrt(n / fill), fill = 0.75 (seven touching strands fill 0.778, nineteen
@@ -10,14 +10,14 @@
 --     EA = E_c A cos^3 b + E_i pi (D^2 - Dc^2) / 4         [N]
 --
 -- with the mean lay angle b of strands laid with a pitch of 15 Dc: tan b =
--- 2 pi / 45. Bending, with the strands free to slip on one another, and stuck to
--- one another like a solid section of the same metal area:
+-- 2 pi / 45. Bending, with strands that slip freely on one another, and with strands
+-- that stick to one another like a solid section of the same metal area:
 --
 --     EI slip  = n E_c pi d^4 / 64         + E_i pi (D^4 - Dc^4) / 64
 --     EI stick = fill E_c pi Dc^4 / 64     + E_i pi (D^4 - Dc^4) / 64
 --
--- Torsion the same with G and twice the section moment. In reality little bending
--- finds the strands stuck and much of it makes them slip.
+-- Torsion is the same with G and twice the section moment. In reality strands stick
+-- in slight bending and slip in strong bending.
 -- @module softworld.wire.stranding
 local material = require "softworld.wire.material"
 
@@ -26,16 +26,16 @@ local stranding = { fill = 0.75, pitch = 15 }
 local pi = math.pi
 local lay_angle = math.atan(2 * pi / (3 * stranding.pitch))
 
---- Diameter of the bunched strands [m].
+--- Returns the diameter of the bunched strands [m].
 function stranding.conductor_diameter(c)
   if c.strands == 1 then return c.strand_diameter end
   return c.strand_diameter * math.sqrt(c.strands / stranding.fill)
 end
 
---- Area of the metal [m2].
+--- Returns the area of the metal [m2].
 function stranding.metal_area(c) return c.strands * pi * c.strand_diameter ^ 2 / 4 end
 
--- With one of "value", "low", "high" of every material. D: outer diameter [m].
+-- Computes with "value", "low" or "high" of every material. D: outer diameter [m].
 local function with(which, c, D)
   local metal, cover = material(c.conductor), material(c.insulation)
   local n, d, Dc = c.strands, c.strand_diameter, stranding.conductor_diameter(c)
@@ -53,17 +53,17 @@ local function with(which, c, D)
   }
 end
 
---- mass_per_length, EA, EI and GJ of a construction { strands =, strand_diameter =
--- [m], conductor =, insulation = (names of materials) } of the outer diameter
--- { value =, low =, high = } [m]. Each as { value, low, high }; EI and GJ with
--- slip and stick as well, whose lowest and highest values the spread covers.
+--- Returns mass_per_length, EA, EI and GJ of a construction { strands =, strand_diameter =
+-- [m], conductor =, insulation = (names of materials) } with the outer diameter
+-- { value =, low =, high = } [m]. Each is { value, low, high }; EI and GJ also have
+-- slip and stick, and their spread covers the lowest and highest values of these.
 function stranding.compute(c, D)
   local Dc = stranding.conductor_diameter(c)
   local usual = with("value", c, D.value)
   local least, most = with("low", c, math.max(D.low, Dc)), with("high", c, D.high)
   local out = {
     mass_per_length = { value = usual.mass, low = least.mass, high = most.mass },
-    -- strands that lie loosely carry only half of it until they have straightened
+    -- loose strands carry only half of it until they have straightened
     EA = { value = usual.EA, low = least.ring_EA + (least.EA - least.ring_EA) / 2, high = most.EA },
   }
   for _, key in ipairs { "EI", "GJ" } do

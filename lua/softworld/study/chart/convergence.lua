@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The best so far over the number of evaluations, with each of them.
+--- The best value so far over the number of evaluations, with each evaluation.
 -- @module softworld.study.chart.convergence
 local chart = require "softworld.study.chart"
 local judge = require "softworld.study.judge"
 
--- Each evaluation that meets the constraints, and a stair of the best so far.
+-- Returns each evaluation that meets the constraints, and the best so far as a step curve.
 local function curves_of(own, y, list)
   local each = { x = {}, y = {}, name = "each evaluation", style = "points" }
   local best = { x = {}, y = {}, name = "best so far", style = "line" }

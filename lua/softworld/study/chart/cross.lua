@@ -5,8 +5,8 @@ local chart = require "softworld.study.chart"
 local parts = require("softworld.output.chart").parts
 local gnuplot = require "softworld.output.gnuplot"
 
-local ACROSS, MOST = 3, 12 -- charts in a row, and of all
-local TICS = 5             -- along each, about
+local ACROSS, MOST = 3, 12 -- charts in a row, and at most
+local TICS = 5             -- on each axis, about
 
 local function block_of(script, curve)
   local rows = {}
@@ -14,7 +14,7 @@ local function block_of(script, curve)
   return script.data(rows)
 end
 
--- 1, 2 or 5 times a power of ten, not below a width.
+-- Returns 1, 2 or 5 times a power of ten, at least `width`.
 local function step_of(width)
   local power = 10 ^ math.floor(math.log(width, 10))
   for _, k in ipairs { 1, 2, 5 } do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Two results over one another, with the front of those that no other one beats.
+--- Two results over one another, with the Pareto front.
 -- @module softworld.study.chart.front
 local chart = require "softworld.study.chart"
 local pareto = require "softworld.study.pareto"
@@ -7,7 +7,7 @@ local pareto = require "softworld.study.pareto"
 local function draw(own, o, list)
   local args, front = chart.points(own, o.x, o.y, list), { x = {}, y = {}, name = "front", style = "line" }
   for i, row in ipairs(pareto.of(own, { o.x, o.y }, list).rows) do
-    if i > 1 then -- a step: what lies beyond is beaten
+    if i > 1 then -- a step: the region beyond is dominated
       front.x[#front.x + 1], front.y[#front.y + 1] = row[o.x], front.y[#front.y]
     end
     front.x[#front.x + 1], front.y[#front.y + 1] = row[o.x], row[o.y]

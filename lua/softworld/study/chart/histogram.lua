@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- How often which values are.
+--- A histogram of values.
 -- @module softworld.study.chart.histogram
 local chart = require "softworld.study.chart"
 local gnuplot = require "softworld.output.gnuplot"
@@ -7,7 +7,7 @@ local judge = require "softworld.study.judge"
 
 local MOST, FEWEST = 60, 5 -- bins
 
--- Ranges of equal width: twice the interquartile range over the cube root of the count (D. Freedman,
+-- Returns bins of equal width: twice the interquartile range over the cube root of the count (D. Freedman,
 -- P. Diaconis 1981).
 local function bins_of(values)
   table.sort(values)
@@ -19,7 +19,7 @@ local function bins_of(values)
   return { low, (high - low) / count, count }
 end
 
--- How many values are in each bin.
+-- Returns how many values are in each bin.
 local function counts_of(values, bins)
   local low, width, count = bins[1], bins[2], bins[3]
   local counts = {}
@@ -39,7 +39,7 @@ local function rows_of(values, bins)
   return rows
 end
 
--- Limits of the constraint on the result, as lines.
+-- Adds limits of the constraint on the result, as lines.
 local function add_limits(script, own, name)
   for _, c in ipairs(own.constraints) do
     for _, key in ipairs(c.name == name and { "min", "max" } or {}) do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- One thing over another, what meets the constraints apart.
+--- One quantity over another; evaluations that meet the constraints are marked apart.
 -- @module softworld.study.chart.points
 local chart = require "softworld.study.chart"
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Which parameter moves a result how far: its mean in the lowest and in the highest fifth of each.
+--- How far each parameter moves a result: the result's mean in the lowest and in the highest fifth of each.
 -- @module softworld.study.chart.tornado
 local chart = require "softworld.study.chart"
 local gnuplot = require "softworld.output.gnuplot"
@@ -7,9 +7,9 @@ local judge = require "softworld.study.judge"
 local output = require "softworld.study.output"
 local matters = require "softworld.study.matters"
 
-local MOST = 15 -- bars
+local MOST = 15 -- most bars
 
--- Rows of bars for gnuplot: middle, place, ends, upper and lower edge; of the low or the high fifth.
+-- Returns rows of bars for gnuplot: middle, place, ends, upper and lower edge; for the low or the high fifth.
 local function rows_of(list, middle, key)
   local rows = {}
   for k, m in ipairs(list) do
@@ -56,7 +56,7 @@ local function draw(own, o, records)
   return gnuplot.draw(script, o.path, chart.size(o, 640, 120 + 44 * #list))
 end
 
--- Of sweeps and spreads where there are some: searches draw parameters together.
+-- Returns the records of sweeps and spreads if there are any, because searches correlate parameters.
 local function records_of(own)
   local list = {}
   for part, asked in pairs(own.asked) do

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- BOBYQA (M. J. D. Powell 2009, by NLopt): a quadratic model through 2 n + 1 values, within a region that it
--- trusts. The fewest evaluations where the result is smooth; constraints are penalties, which are not.
+--- BOBYQA (M. J. D. Powell 2009, by NLopt): a quadratic model through 2 n + 1 values, within a trust region.
+-- It needs the fewest evaluations if the result is smooth; constraints are penalties, which are not smooth.
 -- @module softworld.study.search.bobyqa
 local guided = require "softworld.study.search.guided"
 

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- CMA-ES (N. Hansen, The CMA evolution strategy: a tutorial, 2016, with active update): a normal
--- distribution of places whose mean, size and shape follow the better ones. It only compares. Generations are
--- evaluated whole, side by side.
+-- distribution of places whose mean, size and shape follow the better ones. It only compares values.
+-- Generations are evaluated whole, side by side.
 --
--- Bounds: places beside one come from a parabola (as by N. Hansen's pycma). Integers are drawn widely enough
--- to reach their neighbours. Restarts: each with twice the population from a random place (IPOP; Auger,
--- Hansen 2005). Noise: some places of a generation are evaluated twice; as their order changes more
--- than it may (study/unrest), each place becomes the mean of more evaluations (Hansen, Niederberger,
--- Guzzella, Koumoutsakos 2009).
+-- Bounds: coordinates near a bound are mapped by a parabola (as in N. Hansen's pycma). Integers are drawn
+-- widely enough to reach their neighbours. Restarts: each with twice the population from a random place
+-- (IPOP; Auger, Hansen 2005). Noise: some places of a generation are evaluated twice; if their order changes
+-- too much (study/unrest), each place becomes the mean of more evaluations (Hansen, Niederberger, Guzzella,
+-- Koumoutsakos 2009).
 -- @module softworld.study.search.cma_es
 local core = require "softworld.core"
 local design = require "softworld.study.design"
@@ -15,11 +15,11 @@ local quadratic = require "softworld.study.quadratic"
 local search = require "softworld.study.search"
 local unrest = require "softworld.study.unrest"
 
-local MARGIN = 0.05     -- beside each bound, as a share of the range
-local MOST_REPEATS = 30 -- evaluations of a place, where values are noisy
-local FITTED = 15       -- parameters of a polynomial, at most
-local REACH = 0.25      -- least spread of an integer, in steps of it
-local WIDEST = 1e14     -- of the covariance: longest axis over shortest, squared
+local MARGIN = 0.05     -- width of the parabola beside each bound, over the range
+local MOST_REPEATS = 30 -- most evaluations of a place, if values are noisy
+local FITTED = 15       -- most parameters of a polynomial
+local REACH = 0.25      -- least spread of an integer, in its steps
+local WIDEST = 1e14     -- most of the covariance: longest axis over shortest, squared
 local exp, log, max, min, sqrt = math.exp, math.log, math.max, math.min, math.sqrt
 
 local normal = design.normal
@@ -35,7 +35,7 @@ end
 
 -- --- constants of the tutorial --------------------------------------------------------------------
 
--- Weights of ranks: the better half counts for, the others against.
+-- Sets the weights of ranks: the better half counts positively, the others negatively.
 local function weigh(c, n)
   local raw, sums = {}, { [true] = { 0, 0 }, [false] = { 0, 0 } }
   for i = 1, c.size do
@@ -80,7 +80,7 @@ local function begin_at(self, mean, size)
   self.path_s, self.path_c, self.history = filled(n, 0), filled(n, 0), {}
   self.matrix = filled(n * n, 0)
   for i = 1, n do self.matrix[(i - 1) * n + i] = 1 end
-  self.repeats, self.count = 1, 1 -- evaluations of a place: wanted, and of a generation
+  self.repeats, self.count = 1, 1 -- evaluations of a place: wanted, and in a generation
 end
 
 local function axes(self)
@@ -89,7 +89,7 @@ local function axes(self)
   self.lengths, self.vectors = values, vectors
 end
 
--- A draw of the distribution, as a difference from the mean in units of sigma.
+-- Draws from the distribution. Returns the difference from the mean in units of sigma.
 local function draw(self)
   local n, y = self.problem.n, {}
   for i = 1, n do y[i] = 0 end
@@ -105,8 +105,8 @@ local function draw(self)
   return y
 end
 
--- The place of a coordinate of the distribution, which knows no bounds: the same in the middle of the range,
--- a parabola near its ends, so that a result that falls towards a bound has a smooth valley there; mirrored
+-- Returns the place of an unbounded coordinate of the distribution: equal to it in the middle of the range, a
+-- parabola near the ends, so that a result that falls towards a bound has a smooth valley there; mirrored
 -- beyond.
 local function bounded(x)
   local whole = 1 + 2 * MARGIN
@@ -117,14 +117,14 @@ local function bounded(x)
   return u
 end
 
--- The coordinate of a place.
+-- Returns the coordinate of a place.
 local function unbounded(u)
   if u < MARGIN then return sqrt(4 * MARGIN * u) - MARGIN end
   if u > 1 - MARGIN then return 1 + MARGIN - sqrt(4 * MARGIN * (1 - u)) end
   return u
 end
 
--- A draw, and its place.
+-- Returns a draw, and its place.
 local function sample(self)
   local y, x, place = draw(self), {}, {}
   for i, m in ipairs(self.mean) do
@@ -145,7 +145,7 @@ local function is_small(self)
   return true
 end
 
--- Nothing has changed in so many generations.
+-- True if nothing has changed for a number of generations.
 local function is_flat(self)
   local h, many = self.history, 10 + math.ceil(30 * self.problem.n / self.c.size)
   if #h < many then return false end
@@ -172,7 +172,7 @@ local function random_place(self)
   return x
 end
 
--- What the best start so far has seen: the one whose last generation was the best in the middle.
+-- Returns what the best start so far has seen: the one whose last generation has the best middle.
 local function best_seen(self)
   local before = self.before
   return before and before.level < self.seen.level and before or self.seen
@@ -180,7 +180,7 @@ end
 
 -- --- asking ---------------------------------------------------------------------------------------
 
--- How many of a generation are evaluated again to see the noise.
+-- Returns how many of a generation are evaluated again to measure the noise.
 local function again_of(self) return self.problem.noise and max(2, math.ceil(0.1 * self.c.size)) or 0 end
 
 function Run:ask()
@@ -204,7 +204,7 @@ end
 
 -- --- telling --------------------------------------------------------------------------------------
 
--- The mean of some outcomes; failed where most of them did.
+-- Returns the mean of some outcomes; failed if most of them failed.
 local function mean_of(outcomes, from, count)
   local value, broken, good = 0, 0, 0
   for k = from, from + count - 1 do
@@ -229,7 +229,7 @@ local function hear_noise(self, ranks, outcomes)
   end
 end
 
--- Places of this generation from the best to the worst, as differences in units of sigma.
+-- Returns the places of this generation from best to worst, as differences in units of sigma.
 local function ranked(self, ranks)
   local order, list = {}, {}
   for k = 1, #ranks do order[k] = k end
@@ -245,7 +245,7 @@ local function ranked(self, ranks)
   return list
 end
 
--- C^(-1/2) y
+-- Returns C^(-1/2) y.
 local function whitened(self, y)
   local out = filled(#y, 0)
   for k, vector in ipairs(self.vectors) do
@@ -270,7 +270,7 @@ local function step_of(self, list)
   return step
 end
 
--- Paths of the mean; gives 1, or 0 while the path is so long that the shape had better wait.
+-- Updates the paths of the mean. Returns 1, or 0 while the path is so long that the shape should wait.
 local function lengthen(self, step)
   local c, white = self.c, whitened(self, step)
   local along = sqrt(c.path_size * (2 - c.path_size) * c.effective)
@@ -324,7 +324,7 @@ function Run:tell(outcomes)
       seen.places[at], seen.values[at], seen.counts[at] = self.places[k], o.value, self.count
     end
   end
-  -- A generation in which all fail teaches nothing: the next is drawn wider.
+  -- If all of a generation fail, the next is drawn wider.
   if good == 0 then
     self.sigma = min(0.5, 1.5 * self.sigma)
     return
@@ -337,7 +337,7 @@ function Run:tell(outcomes)
   self.seen.level = ranks[self.c.parents]
 end
 
--- Places that a start has seen, in units of their spread about their mean.
+-- Returns the places that a start has seen, in units of their spread about their mean.
 local function scaled(seen, n)
   local middle, spread, places = filled(n, 0), filled(n, 0), {}
   for _, place in ipairs(seen.places) do
@@ -354,9 +354,9 @@ local function scaled(seen, n)
   return places, middle, spread
 end
 
---- Where values are noisy the place of the smallest one is there by luck: the lowest place of a polynomial of
--- degree 2 through all that the best start has seen, each with the weight of its evaluations, lies nearer.
--- nil where they do not tell.
+--- Returns a better centre if values are noisy: the smallest noisy value is small by luck. It is the lowest
+-- place of a polynomial of degree 2 through everything that the best start has seen, weighted by the
+-- evaluations. nil if they do not determine it.
 function Run:center()
   local n, seen = self.problem.n, best_seen(self)
   if n > FITTED or #seen.places < 6 * quadratic.count(n) then return nil end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- COBYLA (M. J. D. Powell 1994, by NLopt): linear models of the result and of each limit. Constraints are
--- given to it as they are: by how much each limit is broken or kept.
+--- COBYLA (M. J. D. Powell 1994, by NLopt): linear models of the result and of each limit. It gets the
+-- constraints directly: by how much each limit is broken or kept.
 -- @module softworld.study.search.cobyla
 local guided = require "softworld.study.search.guided"
 

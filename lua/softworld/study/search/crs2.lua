@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- CRS2 (Kaelo, Ali 2006, by NLopt): a crowd of 10 (n + 1) places, of which the worst is replaced. It only
--- compares. As near as wanted when the whole crowd is within the tolerance.
+-- compares values. It is as near as wanted when the whole crowd is within the tolerance.
 -- @module softworld.study.search.crs2
 local guided = require "softworld.study.search.guided"
 local search = require "softworld.study.search"
@@ -8,7 +8,7 @@ local search = require "softworld.study.search"
 local crs2 = { doc = "a crowd of random places that draws together: the lowest valley", each = 500,
   step = 0.2, most = 32, kinds = { integer = true } }
 
--- The crowd: the best so many places, worst first.
+-- Adds a place to the crowd, which keeps the best `size` places, worst first.
 local function keep(crowd, size, place, outcome)
   if outcome.failed then return end
   local value, at = search.rank(outcome), #crowd + 1

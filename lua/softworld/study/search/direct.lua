@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- DIRECT-L (Gablonsky, Kelley 2001, by NLopt): cuts the ranges into ever smaller boxes, first where a low
--- value may be. Finds the lowest valley of few parameters, ends by its evaluations only.
+-- value is likely. It finds the lowest valley of few parameters and ends only when its evaluations are used
+-- up.
 -- @module softworld.study.search.direct
 local guided = require "softworld.study.search.guided"
 

@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- Runs of the core's minimisers, which want one finite value after the other.
 --
--- Those that fit a model through the values would be led astray by NaN (measured with one in 37: BOBYQA
--- reports success 3.25 away from the minimum) and by huge numbers alike. They are given the value, with
--- WEIGHT times its first size for what breaks constraints, and for what failed somewhat more than the worst
--- so far. They begin at the first place that does not fail: so there is a value to compare with.
+-- NaN and huge numbers alike mislead methods that fit a model through the values (measured with one NaN in 37
+-- values: BOBYQA reports success 3.25 away from the minimum). They get the value plus WEIGHT times its first
+-- size for broken constraints; a failure counts as somewhat worse than the worst value so far. They start at
+-- the first place that does not fail, so that there is a value to compare with.
 -- @module softworld.study.search.guided
 local core = require "softworld.core"
 local search = require "softworld.study.search"
 
 local guided = {}
 
-local WEIGHT = 10   -- of a limit broken by its own size, in sizes of the first value
-local WORSE = 0.1   -- what failed is worse than the worst by so much of what lies between best and worst
-local LOOKS = 20    -- places at which it looks for one that does not fail
+local WEIGHT = 10   -- penalty of a limit broken by its own size, in sizes of the first value
+local WORSE = 0.1   -- excess of a failure over the worst value, relative to the range from best to worst
+local LOOKS = 20    -- most places tried to find one that does not fail
 local LARGEST = 1e100
 
 local function fold(x)
@@ -36,7 +36,7 @@ end
 
 -- --- values ------------------------------------------------------------------------------------
 
--- Grows slowly beyond 1: what is far out says little about the border.
+-- Grows slowly beyond 1: large excesses say little about the border.
 local function squashed(broken) return broken <= 1 and broken or 1 + math.log(broken) end
 
 local function penalised(self, outcome)
@@ -56,7 +56,7 @@ local function finite(self, outcome)
   return v
 end
 
--- What each limit is told to be broken by; of what failed as much as the most so far.
+-- Returns by how much each limit is broken; for failures the largest excess so far.
 local function sides_of(self, outcome)
   local list = {}
   for k = 1, self.problem.sides do
@@ -77,7 +77,7 @@ local function start_minimiser(self, place)
     p.seed & 0x7fffffff)
 end
 
--- Places to look at: the start, then those of Halton's sequence, other ones for each start.
+-- Returns a place to try: the start, then points of Halton's sequence, different ones for each start.
 local function look(self)
   local p = self.problem
   self.looked = self.looked + 1
@@ -96,7 +96,7 @@ function Run:ask()
     local known = self.known
     self.known = nil
     if not (known and same(x, known.place)) then
-      if known then finite(self, known.outcome) end -- it begins elsewhere: compare with that all the same
+      if known then finite(self, known.outcome) end -- it starts elsewhere, but compares with this value
       self.place = self.folds and folded(x) or x
       return { self.place }
     end
@@ -124,8 +124,8 @@ function Run:close()
   if self.minimiser then self.minimiser:close() end
 end
 
---- A run of the core's minimiser name. o: ranks (it only compares), folds (its places leave the cube),
--- gives_sides (constraints are told as they are).
+--- Starts a run of the core's minimiser `name`. o: ranks (it only compares), folds (its places leave the
+-- cube), gives_sides (it gets constraints directly).
 function guided.begin(name, problem, o)
   local self = setmetatable({ name = name, problem = problem, ranks = o.ranks, folds = o.folds,
     gives_sides = o.gives_sides, most = {}, looked = 0 }, Run)

@@ -1,23 +1,23 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --- NSGA-II (K. Deb, A. Pratap, S. Agarwal, T. Meyarivan 2002): a population that spreads along the front of
--- two or three results. It only compares: what failed is worst, then what breaks constraints, by how much;
--- so it bears steps, failures, integers and choices, and its generations are evaluated whole. Weighted sums
--- would take a search for each point, and miss all that is hollow of a front.
+-- two or three results. It only compares: failures are worst, then broken constraints, by how much. So it
+-- tolerates steps, failures, integers and choices; its generations are evaluated whole. Weighted sums would
+-- need a search for each point, and would miss the concave parts of a front.
 --
--- An outcome has values, one a result, instead of a value.
+-- An outcome has `values`, one per result, instead of a value.
 -- @module softworld.study.search.nsga2
 local design = require "softworld.study.design"
 
 local nsga2 = {}
 
-local CROSS, CROSS_SHAPE = 0.9, 15 -- share of pairs that are mixed, and how near to their parents
-local MUTATE_SHAPE = 20            -- of a mutation: larger is smaller steps
+local CROSS, CROSS_SHAPE = 0.9, 15 -- share of pairs that are mixed, and the nearness to their parents
+local MUTATE_SHAPE = 20            -- of a mutation: larger means smaller steps
 
 local Run = {}
 Run.__index = Run
 
---- Is a better than b: in one value at least, and worse in none? What fails or breaks constraints is never
--- better than what does not.
+--- True if a is better than b: in at least one value, and worse in none. A failure or broken constraint is
+-- never better than a result without.
 function nsga2.dominates(a, b)
   if a.failed or b.failed then return not a.failed end
   if a.broken > 0 or b.broken > 0 then return a.broken < b.broken end
@@ -29,7 +29,7 @@ function nsga2.dominates(a, b)
   return better
 end
 
---- Fronts of a list of { outcome = }, best first: each a list; sets rank of each.
+--- Returns the fronts of a list of { outcome = }, best first, each a list; sets the rank of each.
 function nsga2.fronts(list)
   local beaten, by, fronts = {}, {}, { {} }
   for i in ipairs(list) do beaten[i], by[i] = {}, 0 end
@@ -65,7 +65,8 @@ function nsga2.fronts(list)
   return fronts
 end
 
--- How lonely each of a front is: the sum of its neighbours' distances, in shares of the front's extent.
+-- Sets how lonely each member of a front is: the sum of its neighbours' distances, relative to the front's
+-- extent.
 local function crowd(front)
   for _, one in ipairs(front) do one.lonely = 0 end
   if front[1].outcome.failed then return end
@@ -92,7 +93,7 @@ local function is_better(a, b)
   return a.number < b.number
 end
 
--- The best of all by front, of the last front the loneliest.
+-- Keeps the best by front, and of the last front the loneliest.
 local function survive(self, all)
   local left = {}
   for _, front in ipairs(nsga2.fronts(all)) do
@@ -173,7 +174,7 @@ function Run:tell(outcomes, places)
   self.people = survive(self, all)
 end
 
---- problem: n, seed, size = of the population, first = function from 1 to size to the first places.
+--- problem: n, seed, size = of the population, first = function from 1..size to the first places.
 function nsga2.begin(problem)
   return setmetatable({ problem = problem, size = problem.size, count = 0,
     random = design.generator(problem.seed, 2002) }, Run)

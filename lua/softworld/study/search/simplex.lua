@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The simplex of Nelder and Mead (GSL), reflected at the ends of the ranges. It only compares, so that
--- failures, constraints and steps do it no harm; it shrinks early in many dimensions.
+--- The simplex of Nelder and Mead (GSL), reflected at the ends of the ranges. It only compares values, so
+-- failures, constraints and steps do no harm; in many dimensions it shrinks too early.
 -- @module softworld.study.search.simplex
 local guided = require "softworld.study.search.guided"
 
