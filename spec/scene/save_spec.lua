@@ -18,7 +18,7 @@ describe("a saved scene goes on with the same bits:", function()
 
       local saved = case.build()
       case.before(saved)
-      local here = saving.all(saved) -- reading builds the system of an edited scene; the file is of a fresh one
+      local here = saving.all(saved) -- reading builds an edited scene's system: the file is of another one
       saved = case.build()
       case.before(saved)
       saved:save(path)

@@ -103,7 +103,7 @@ function saving.clean()
   files = {}
 end
 
---- Raises an error that has all these texts in it. The error.
+--- Checks that f raises an error with all these texts in it; returns the error.
 function saving.fails(texts, f, ...)
   local fine, message = pcall(f, ...)
   assert(not fine, "no error")
@@ -114,13 +114,13 @@ function saving.fails(texts, f, ...)
   return message
 end
 
---- Raises unless two lists of saving.all are the same.
+--- Checks that two lists of saving.all are the same.
 function saving.same(a, b)
   local where = saving.difference(a, b)
   assert(not where, where)
 end
 
---- A script: its scene and processes; more(p, c) comes at the end of the first process.
+--- Returns a script: its scene, objects and processes. more(p, c) runs at the end of the first process.
 function saving.script(more)
   local c = { log = {}, scene = sw.scene{ name = "laying" } }
   c.scene:obstacle{ shape = "plane", friction = 0.3 }
