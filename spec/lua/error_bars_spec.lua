@@ -295,7 +295,7 @@ describe("a run with error bars", function()
     assert.is_nil(earlier.quantities)
   end)
 
-  it("goes on from there, again with error bars", function()
+  it("can be followed by another run with error bars", function()
     local scene, wire = make(12)
     local first = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
     local second = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
