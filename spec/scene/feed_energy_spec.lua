@@ -85,7 +85,7 @@ describe("energy of wire that is fed", function()
           assert.is_true(run.ok, run.reason)
           local l = run:ledger()
           work[i] = l.work.feeds
-          local off = math.abs(l.gap) + math.abs(l.lost.integrator) -- without the feed's share: 0.7 of play
+          local off = math.abs(l.gap) + math.abs(l.lost.integrator) -- once 0.7 of play
           assert.is_true(off < 0.02 * l.play,
             ("%s at %g m: %.3g J of %.3g J"):format(cable, height, off, l.play))
         end
