@@ -96,7 +96,7 @@ describe("strain and stress", function()
     t.fine(scene:run{ duration = 0.1, dt = 0.005 })
     scene:restore(before)
     assert.are.same(stress, { wire:max_stress() })
-    t.fine(scene:settle()) -- starts them anew
+    t.fine(scene:settle()) -- the largest values start again
     assert.is_true(wire:max_strain() < value)
     assert.are.equal(wire:max_strain{ now = true }, (wire:max_strain()))
   end)

@@ -170,7 +170,7 @@ describe("model = 'auto'", function()
     end
   end)
 
-  -- Pads hold 2 mu F. A load of 29 % of that needs no comparison; with a force of 0.02 N the wire slips.
+  -- Pads hold 2 mu F by friction. A load of 29 % of that needs no comparison; at F = 0.02 N the wire gives.
   it("grips by friction only where that may slip", function()
     local function carry(force)
       local scene = sw.scene { name = "carry" }

@@ -66,8 +66,7 @@ local function step_of(phase)
 end
 
 describe("steps of dynamics", function()
-  it("show the share of a swing that tr-bdf2 leaves in half a period, at the step next to the " ..
-    "peak", function()
+  it("show the share of a swing that tr-bdf2 leaves in half a period, next to the peak", function()
     for _, n in ipairs { 2.5, 4, 8, 20 } do
       local expected = step_of(2 * math.pi / n) ^ (n / 2) * math.cos(math.pi / n)
       assert.is_near(expected, motion.shows { swing = 1, dt = 1 / n, weight = 9.81 }, 1e-12)

@@ -102,8 +102,7 @@ describe("two holds at one place", function()
     assert.is_true(ended[true] > 0 and ended[false] > 0)
   end)
 
-  it("never arise, whatever the order of making, remodelling, joining, releasing, saving and " ..
-    "restoring", function()
+  it("never arise in any order of making, joining, remodelling, releasing and restoring", function()
     local names = { "remodel", "hold", "release", "back", "keep", "save", "join" }
     local done, refusals = 0, 0
     for seed = 1, 24 do

@@ -5,7 +5,7 @@ local sink = require "softworld.output.sink"
 
 local saving = { cases = require "scene.saving_cases" }
 
---- A name for a file that nobody else has.
+--- Returns a new name for a file.
 function saving.file() return os.tmpname() end
 
 function saving.read(path)
@@ -65,7 +65,7 @@ local readers = {
   end,
 }
 
---- Everything that can be read of a scene, as one list of numbers and words.
+--- Returns everything that can be read of a scene, as one list of numbers and words.
 function saving.all(scene)
   local all = { scene.name }
   add(all, scene.time)
@@ -81,7 +81,7 @@ function saving.all(scene)
   return all
 end
 
---- Where two such lists differ first; nil: nowhere.
+--- Returns where two lists of saving.all differ first; nil: nowhere.
 function saving.difference(a, b)
   if #a ~= #b then return ("%d and %d values"):format(#a, #b) end
   for i = 1, #a do
@@ -92,7 +92,7 @@ end
 -- --- what the specs of files share ------------------------------------------------------
 
 local files = {}
---- A name for a file that is gone after the test; saving.clean does that.
+--- Returns a name for a file that saving.clean removes after the test.
 function saving.temporary()
   files[#files + 1] = saving.file()
   return files[#files]
@@ -153,7 +153,7 @@ function saving.script(more)
   return c
 end
 
---- The files that a run wrote, one after each step.
+--- Runs the scene; returns the files that the run wrote, one after each step, and the run.
 function saving.files_of(c, args)
   local written, write = {}, sink.write_file
   sink.write_file = function(path, bytes)
