@@ -5,7 +5,7 @@ local program = require "host.program"
 -- Shells start background jobs with SIGINT ignored; env undoes that.
 local NORMAL = "env --default-signal=INT"
 local ONCE = { before = NORMAL, signals = { 0.4 } }
-local TWICE = { before = NORMAL, signals = { 0.4, 1.2 } } -- further apart than "I mean it"
+local TWICE = { before = NORMAL, signals = { 0.4, 1.2 } } -- two within 1 s would end the program
 
 local SCENE = [[
 local sw = require "softworld"
