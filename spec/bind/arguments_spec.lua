@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every parameter of every object refuses what it must: the error names object,
--- parameter, value, unit and range, and nothing has changed or leaked.
+-- Every parameter of every object refuses invalid values: the error names object, parameter, value, unit
+-- and range, and nothing has changed or leaked.
 local sw = require "softworld"
 local samples = require "contract.samples"
 local core = sw.core
@@ -13,7 +13,7 @@ local function in_use()
   return (core.allocated())
 end
 
--- { name for the error, rows, make(args) -> object or result, good arguments }
+-- Each object: { name in errors, rows, good arguments, make(args) -> object or result }.
 local scene, wire, sheet
 local function fresh()
   scene = sw.scene{ name = "under test", gravity = { 0, 0, 0 } }
@@ -71,7 +71,7 @@ local function with(good, key, value)
   return args
 end
 
--- Values a row must refuse, as { value, text the error must hold }.
+-- Returns values that a row must refuse, each with texts of which the error must have one.
 local function refused(row)
   local list = {}
   local function add(value, ...) list[#list + 1] = { value = value, texts = { ... } } end
@@ -128,7 +128,7 @@ local function mentions_one(message, texts)
   return false
 end
 
--- What can be seen of the scene.
+-- Everything that can be seen of the scene, as a text.
 local function picture()
   local data = core.data(scene)
   return table.concat({ scene.time, #(data.wires or {}), #(data.holds or {}),
@@ -154,7 +154,7 @@ for _, object in ipairs(objects()) do
   describe("arguments of " .. object.name, function()
     before_each(fresh)
 
-    it("are fine as this spec gives them", function()
+    it("are accepted as this spec gives them", function()
       object.make(with(object.good))
     end)
 
@@ -212,7 +212,7 @@ for _, object in ipairs(objects()) do
   end)
 end
 
-describe("arguments too large to serve", function()
+describe("arguments that are far too large", function()
   before_each(fresh)
 
   it("are errors, not crashes", function()
@@ -290,7 +290,7 @@ describe("other calls", function()
     assert.is_true(scene:run{ duration = 0.01 }.ok)
   end)
 
-  it("moves of grippers check theirs and leave the tables of the caller alone", function()
+  it("to move grippers check theirs, and leave the caller's tables alone", function()
     local left = scene:gripper{ name = "left" }
     left:grasp(wire, { s = 0.5 })
     for _, args in ipairs{ { to = 3 }, { to = { 0, 0 } }, { by = { 0, 0, nan } },

@@ -1,15 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Users' functions inside the core: forces, motions, conditions, processes. What
--- they may not do is refused, what they raise comes out unchanged, and the scene
--- goes on.
+-- Users' functions inside the core: forces, motions, conditions, processes. Forbidden calls are refused,
+-- errors come out unchanged, and the scene still works.
 local sw = require "softworld"
 local cantilever = require "spec.bind.cantilever"
 
 local make = cantilever.make
 local core = sw.core
 
--- Give a hold or an obstacle a motion that rests at a place and calls f, from the
--- call of the returned function on.
+-- Gives a hold or an obstacle a motion that rests at a place. After a call of the returned function the
+-- motion also calls f.
 local function ask_later(moved, place, f)
   local asking = false
   moved:follow(function(t)
@@ -19,8 +18,8 @@ local function ask_later(moved, place, f)
   return function() asking = true end
 end
 
--- Ways to have a function called from inside the core: each takes the scene and
--- its things and a function, and returns what sets it off.
+-- Ways to have a function called from inside the core: each takes the scene, its objects and a function,
+-- and returns what sets off the call.
 local ways = {
   ["a force in a run"] = function(scene, wire, _, f)
     scene:force{ kind = f, on = wire }
@@ -83,7 +82,7 @@ local names = {}
 for name in pairs(ways) do names[#names + 1] = name end
 table.sort(names)
 
--- Everything that changes the scene, or needs its work space.
+-- Calls that change the scene or use its work space.
 local function changes(scene, wire, clamp)
   local box = scene:obstacle{ shape = "sphere", radius = 0.1, at = { 0, 0, -9 } }
   local drag, snapshot = scene:force{ kind = "drag" }, scene:snapshot()
@@ -127,7 +126,7 @@ local function changes(scene, wire, clamp)
   }
 end
 
--- What may be asked at any time.
+-- Calls that are allowed at any time.
 local function questions(scene, wire, clamp)
   return { function() return scene.time end, function() return scene.name end,
     function() return tostring(scene) end, function() return wire.length end,
@@ -141,7 +140,7 @@ end
 
 for _, name in ipairs(names) do
   describe(name, function()
-    it("refuses every change and comes through", function()
+    it("refuses every change, and the scene still works", function()
       local things = changes(make())
       for change in pairs(things) do
         local scene, wire, clamp = make()
@@ -161,7 +160,7 @@ for _, name in ipairs(names) do
       end
     end)
 
-    it("may be asked what is known", function()
+    it("may read what is known", function()
       local scene, wire, clamp = make()
       local ok, message
       local go = ways[name](scene, wire, clamp, function()
@@ -173,7 +172,7 @@ for _, name in ipairs(names) do
       go()
     end)
 
-    it("passes errors on unchanged and leaves a scene that works", function()
+    it("passes errors on unchanged, and the scene still works", function()
       local values = { { code = 7 }, "text", 42, print, true, setmetatable({}, { __tostring = error }) }
       for _, value in ipairs(values) do
         for call = 1, 3 do
@@ -273,7 +272,7 @@ describe("a function as a force", function()
     end
   end
 
-  it("must leave numbers", function()
+  it("must set finite numbers", function()
     fails(function(_, _, _, f) f[4] = 0 / 0 end, "component 1 of the force on node 2")
     fails(function(_, _, _, f) f[6] = math.huge end, "component 3 of the force on node 2")
     fails(function(_, _, _, f) f[5] = "12" end, "component 2 of the force on node 2")

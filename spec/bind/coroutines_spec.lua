@@ -74,7 +74,7 @@ describe("runs, processes and coroutines", function()
     end
   end)
 
-  it("check their waits", function()
+  it("check the arguments of their waits", function()
     for _, body in ipairs{
       function(p) p:wait(-1) end, function(p) p:wait(0 / 0) end, function(p) p:wait() end,
       function(p) p:wait(math.huge) end, function(p) p:wait_until(3) end,
@@ -107,7 +107,7 @@ describe("runs, processes and coroutines", function()
     assert.is_true(math.abs(times[3] - 0.02) < 1e-12)
   end)
 
-  it("end at times that rounding would blur", function()
+  it("end although their times differ from the run's by rounding", function()
     local scene = make()
     scene:process(function(p) p:wait(1 - 5e-13) end)
     assert.is_true(scene:run{ duration = 1, dt = 0.5 }.ok)
@@ -129,7 +129,7 @@ describe("runs, processes and coroutines", function()
     assert.is_true(math.abs(seen[1] - 0.04) < 1e-12)
   end)
 
-  it("wait for conditions with and without an end", function()
+  it("wait for conditions with and without a timeout", function()
     local scene = make()
     local answers = {}
     scene:process(function(p)
@@ -142,7 +142,7 @@ describe("runs, processes and coroutines", function()
     assert.is_true(math.abs(scene.time - 0.09) < 1e-9)
   end)
 
-  it("tells the line of a process that called the library wrongly", function()
+  it("name the line of a process that called the library wrongly", function()
     local scene = sw.scene{}
     local wire = scene:wire{ E = 1e8, density = 1400, radius = 0.002, from = { 0, 0, 0 },
       to = { 1, 0, 0 } }

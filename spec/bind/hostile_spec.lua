@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Calls that could go on for ever: each of them ends, with a result or with a reason.
+-- Calls that could go on for ever: each ends, with a result or with a reason.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
@@ -21,7 +21,7 @@ local function refused(words, f, ...)
 end
 
 describe("the time of a run", function()
-  it("has frames at every step at most, however short their distance is", function()
+  it("has at most one frame a step, however close the frames are to be", function()
     for _, frame in ipairs{ 1e-12, 1e-300, 1e-3 } do
       local scene = make()
       local run = scene:run{ duration = 0.1, dt = 0.01, frame = frame }
@@ -33,7 +33,7 @@ describe("the time of a run", function()
     assert.equal(11, #scene:run{ duration = 0.1, dt = 0.01, frame = 0.02 }:frames())
   end)
 
-  it("cannot be cut into steps that the clock does not know", function()
+  it("is refused where its steps are below the clock's resolution", function()
     for _, more in ipairs{ {}, { quasistatic = true }, { tolerance = 1e-6 }, { integrator = "rk4" } } do
       for _, dt in ipairs{ 1e-300, 1e-30, 1e-17 } do
         local scene = make()
@@ -49,7 +49,7 @@ describe("the time of a run", function()
     refused({ "dt = 1e-300 s" }, scene.run, scene, { dt = 1e-300 })
   end)
 
-  it("may be hardly any, and end", function()
+  it("may be zero or almost zero", function()
     local scene = make()
     for _, duration in ipairs{ 5e-324, 1e-300, 1e-17, 0 } do
       assert.is_true(scene:run{ duration = duration }.ok)
@@ -63,7 +63,7 @@ describe("the time of a run", function()
     assert.is_true(math.abs(scene.time - 0.05) < 1e-12)
   end)
 
-  it("is refused to a tolerance that no step can meet", function()
+  it("stops at a tolerance that no step can meet", function()
     local scene = make()
     local run = scene:run{ duration = 0.1, dt = 1e-3, tolerance = 1e-300 }
     assert.is_false(run.ok)
@@ -72,7 +72,7 @@ describe("the time of a run", function()
 end)
 
 describe("p:wait_until", function()
-  -- The scene's run, whose process waits for what `of` gives.
+  -- Returns a function that runs the scene; a process waits there for the condition that `of` gives.
   local function wait(of)
     local scene, wire = make()
     local condition, act = of(scene, wire)
@@ -81,7 +81,7 @@ describe("p:wait_until", function()
     return function() return scene:run{ max_steps = 40 } end
   end
 
-  it("is told of at the end when its condition has not come, with line and time", function()
+  it("is reported at the run's end if its condition has not come, with line and time", function()
     local line = debug.getinfo(1, "l").currentline + 2
     local function never(p)
       p:wait_until(function() return false end)
@@ -102,7 +102,7 @@ describe("p:wait_until", function()
     assert.is_true(math.abs(event.value - 0.08) < 1e-9)
   end)
 
-  it("is told of while it goes on, seldom", function()
+  it("is reported while it goes on, first after 10 s and then after 100 s", function()
     local scene = make()
     scene:process(function(p) p:wait_until(function() return scene.time > 120 end) end)
     local run = scene:run{ dt = 0.5, quasistatic = true }
@@ -112,7 +112,7 @@ describe("p:wait_until", function()
     assert.is_true(math.abs(run.events[2].time - 100) < 1)
   end)
 
-  it("is not told of when there is a timeout, or the condition comes", function()
+  it("is not reported if there is a timeout or the condition comes", function()
     local scene = make()
     scene:process(function(p)
       p:wait_until(function() return scene.time > 0.03 end)
@@ -121,7 +121,7 @@ describe("p:wait_until", function()
     assert.equal(0, #scene:run{}.events)
   end)
 
-  it("raises what can never come true", function()
+  it("raises an error for conditions that can never come true", function()
     local cases = {
       ["holds nothing"] = function(scene) return { force = 1, on = scene:gripper{} } end,
       ["no pads"] = function(scene) return { slip = 1, on = scene:gripper{} } end,
@@ -157,9 +157,8 @@ describe("p:wait_until", function()
   end)
 end)
 
--- Values beyond all reason: a parameter takes them or says that it does not, and what is made of
--- them ends.
-describe("numbers beyond all reason", function()
+-- Absurd values: a parameter takes them or refuses them with a text, and whatever is made of them ends.
+describe("absurd numbers", function()
   local values = { 1e300, 1e-300, 1e-160, 1e15, -1e300, -1e-300, 2 ^ 53, 2 ^ 63 }
 
   local function try(f)
@@ -259,8 +258,8 @@ describe("numbers beyond all reason", function()
   end)
 end)
 
-describe("counts beyond all reason", function()
-  it("are refused before anything is made of them", function()
+describe("absurd counts", function()
+  it("are refused before anything is made", function()
     local scene, wire = make()
     refused({ "segments = 1e+09" }, scene.wire, scene, { EA = 6000, EI = 0.02, mass_per_length = 0.1,
       radius = 0.005, segments = 1e9, from = { 0, 0, 0 }, to = { 1, 0, 0 } })
@@ -275,7 +274,7 @@ describe("counts beyond all reason", function()
   end)
 end)
 
--- 1e300 m/s squared are no number: a run that says ok told an infinite kinetic energy.
+-- Squares of 1e300 m/s overflow. Regression: a run reported ok with an infinite kinetic energy.
 describe("set_velocity of a speed above that of light", function()
   it("is an error, and changes nothing", function()
     local s = core.scene{}

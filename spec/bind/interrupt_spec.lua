@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Ctrl-C inside the core: one error each time, and a scene that goes on.
+-- Ctrl-C inside the core: one error for each, and a scene that still works.
 local program = require "host.program"
 
 -- Shells start background jobs with SIGINT ignored; env undoes that.
 local NORMAL = "env --default-signal=INT"
 local ONCE = { before = NORMAL, signals = { 0.4 } }
-local TWICE = { before = NORMAL, signals = { 0.4, 1.2 } } -- further apart than "I mean it"
+local TWICE = { before = NORMAL, signals = { 0.4, 1.2 } } -- two within 1 s would end the program
 
 local SCENE = [[
 local sw = require "softworld"
@@ -60,7 +60,7 @@ local RUNS = {
     scene:settle{ max_iterations = 1e9 }]],
 }
 
--- No springs do that; finding out takes long.
+-- No springs can do that; finding this out takes long.
 RUNS["a calibration"] = [[
     sw.calibrate{ mesh = "cubic", section = "rectangle", width = 4e-3, height = 5e-2, across = 5, EA = 1e4,
       EI = 1, EI2 = 1e-6, GJ = 1e-9 }]]
@@ -82,7 +82,7 @@ describe("Ctrl-C", function()
     end)
   end
 
-  it("in the middle of a step takes nothing from the scene: it goes on with the same bits", function()
+  it("in the middle of a step leaves the scene with the same bits as without it", function()
     local out, err, code = program.script([[
       local sw = require "softworld"
       local function make()
@@ -116,14 +116,14 @@ describe("Ctrl-C", function()
     assert.equal(0, code)
   end)
 
-  it("names the line that ran when nobody catches it", function()
+  it("names the line that ran if nobody catches the error", function()
     local _, err, code = program.script(SCENE .. "scene:run{ duration = 1e6, dt = 1e-4 }", nil, ONCE)
     local line = select(2, SCENE:gsub("\n", "")) + 1
     assert.equal(130, code)
     assert.matches("script.lua:" .. line .. ": interrupted", err:match "[^\n]*")
   end)
 
-  it("names the script's line where it comes in a function of the library", function()
+  it("names the script's line if it comes inside a function of the library", function()
     local _, err, code = program.script("local sw = require 'softworld'\n"
       .. "while true do sw.cable 'GXL 1.5' end", nil, ONCE)
     assert.equal(130, code)

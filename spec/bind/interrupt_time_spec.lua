@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Ctrl-C within a second, of processor time, wherever large scenes spend theirs.
+-- Ctrl-C takes effect within a second of processor time, wherever large scenes spend theirs.
 local program = require "host.program"
 
 local LIMIT = os.getenv "SOFTWORLD_PRELOAD" and 10 or 1 -- sanitizers are slow [s]
@@ -41,7 +41,7 @@ end end
 local data = table.concat(t)
 ]]
 
--- What is made before, what is stopped, and after which processor times of it [s].
+-- What is made first, what is interrupted, and after which processor times of it [s].
 local CASES = {
   ["a settling of 2e5 nodes"] = { wire(200000), "s:settle{}", 0.1, 1 },
   ["a run of 1e6 nodes"] = { wire(1000000), "s:run{ duration = 1, dt = 1e-3 }", 0, 0.4, 1.5 },
@@ -81,7 +81,8 @@ end
 
 local function wait() os.execute "sleep 0.02" end
 
--- Send Ctrl-C after so much work; what the script caught, and the work after the signal [s].
+-- Sends Ctrl-C after this much processor time of the body; returns the processor time from then to its end
+-- [s].
 local function stop(made, body, after)
   local folder = program.folder()
   local name = program.write(folder .. "/script.lua", ([[

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Life cycle: closing, collecting, stale handles, objects of other scenes, and
--- what may be done from inside a step.
+-- Life cycle of objects: closing, garbage collection, stale handles, objects of other scenes, names.
 local sw = require "softworld"
 local core = sw.core
 
@@ -24,7 +23,7 @@ local function fails(text, f, ...)
 end
 
 describe("a closed scene", function()
-  it("says so from every method of everything that was in it", function()
+  it("is reported by every method of everything that was in it", function()
     local scene, wire = make()
     local objects = { scene, wire, scene:clamp(wire, { s = 0 }), scene:obstacle{ shape = "plane" },
       scene:force{ kind = "drag", on = wire } }
@@ -84,7 +83,7 @@ describe("a closed scene", function()
 end)
 
 describe("collecting garbage", function()
-  it("keeps the scene as long as anything of it is in use", function()
+  it("keeps the scene while anything of it is in use", function()
     collect()
     local before = core.allocated()
     local kinds = {
@@ -138,7 +137,7 @@ describe("collecting garbage", function()
     end
   end)
 
-  it("forgets functions that no force needs", function()
+  it("frees functions that no force needs", function()
     local scene, wire = make()
     local weak = setmetatable({}, { __mode = "v" })
     local function add()
@@ -176,7 +175,7 @@ describe("handles", function()
     fails("has been released", clamp.follow, clamp, nil)
     fails("has been released", clamp.pose, clamp, { 0, 0, 0 })
     assert.are.equal(2, select(2, clamp:log()))
-    -- beyond its end is one row, the last one before that time; none of one that has no rows
+    -- a log that starts after its end has one row, the last; a log without rows gives none
     local fresh = scene:clamp(wire, { s = 0.1 })
     for first, count in pairs{ [-5] = 2, [0.015] = 2, [0.03] = 1, [math.maxinteger] = 1, [math.huge] = 1,
       [math.mininteger] = 2 } do
@@ -191,7 +190,7 @@ describe("handles", function()
     assert.are.equal(2, select(2, box:log()))
   end)
 
-  it("of what a restored snapshot took back are stale, even when their place is taken", function()
+  it("of objects that a restored snapshot took back are stale, even if their index is used again", function()
     local scene, wire = make()
     local snapshot = scene:snapshot()
     local clamp, plane = scene:clamp(wire, { s = 0 }), scene:obstacle{ shape = "plane", at = { 0, 0, -9 } }
@@ -214,7 +213,7 @@ describe("handles", function()
     assert.is_true(scene:run{ duration = 0.02 }.ok)
   end)
 
-  it("live on while another snapshot knows their object", function()
+  it("stay valid while another snapshot has their object", function()
     local scene, wire = make()
     local first = scene:snapshot()
     local clamp = scene:clamp(wire, { s = 0 })
@@ -244,7 +243,7 @@ describe("handles", function()
     assert.is_true(box.shape == box.shape)
   end)
 
-  it("belong to their scene", function()
+  it("are refused by other scenes", function()
     local scene, wire = make()
     local other, other_wire = make()
     local clamp = other:clamp(other_wire, { s = 0 })
@@ -261,7 +260,7 @@ describe("handles", function()
     assert.is_truthy(wire)
   end)
 
-  it("survive odd uses of their metatables", function()
+  it("survive misuse of their metatables", function()
     local scene, wire = make()
     local line = sw.trajectory{ points = { { 0, 0, 0 }, { 1, 0, 0 } }, speed = 1 }
     for _, object in ipairs{ scene, wire, scene:snapshot(), line, sw.shape{ shape = "plane" } } do
@@ -286,7 +285,7 @@ describe("handles", function()
     assert.is_nil(core.type(nil))
   end)
 
-  it("complete at the prompt and describe themselves", function()
+  it("are completed at the prompt and describe themselves", function()
     local repl = require "softworld.prompt.repl"
     local scene, wire = make{ name = "bench" }
     local globals = { scene = scene, wire = wire, clamp = scene:clamp(wire, { s = 0 }),
@@ -307,7 +306,7 @@ describe("handles", function()
 end)
 
 describe("names", function()
-  it("tell objects apart", function()
+  it("must be unique within a scene", function()
     local scene, wire = make()
     fails("already has something named 'wire1'", scene.obstacle, scene, { shape = "plane", name = "wire1" })
     scene:clamp(wire, { s = 0, name = "pin1" })

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Memory: every request that can fail fails once, in everything there is; loops
--- of tuning do not grow.
+-- Memory: each memory request of every operation fails once; loops of tuning do not grow.
 local sw = require "softworld"
 local samples = require "contract.samples"
 local core = sw.core
@@ -18,7 +17,7 @@ end
 local WIRE = { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.005, segments = 6,
   from = { 0, 0, 0 }, to = { 1, 0, 0 } }
 
--- A scene with one of everything, that can go through anything.
+-- A scene with one object of each common kind, on which every act works.
 local function make()
   local scene = sw.scene{}
   local wire = scene:wire(WIRE)
@@ -35,7 +34,7 @@ local function new_shape(shape)
   return args
 end
 
--- { name, act(scene, wire, clamp) }: what is tried with every request failing.
+-- { name, act(scene, wire, clamp) }: operations that are tried with each of their memory requests failing.
 local acts = {
   { "making a scene", function() return sw.scene{} end },
   { "making a wire", function(scene) return scene:wire(WIRE) end },
@@ -223,7 +222,7 @@ for _, method in ipairs(samples.registry.integrators) do
   end }
 end
 
--- The error's text, or nil; what was made is forgotten.
+-- Returns the error's text or nil; the result of act is dropped.
 local function attempt(act, ...)
   local ok, message = pcall(act, ...)
   return not ok and tostring(message) or nil
@@ -262,14 +261,14 @@ describe("running out of memory", function()
         assert.are.equal("table", type(scene:settle()))
         scene:close()
       until not reached
-      assert.are.equal(before, in_use()) -- of all walks together: collecting takes long
+      assert.are.equal(before, in_use()) -- of all rounds together: collecting takes long
       assert.is_true(failures > 0 or n == 1, "nothing ever failed")
     end)
   end
 end)
 
 describe("tuning loops", function()
-  -- The core's own memory exactly; Lua's may breathe, but not by the loop.
+  -- The core's memory must stay exactly the same; Lua's may vary, but must not grow with the loop.
   local function loop(count, body)
     for _ = 1, 50 do body() end
     local bytes = in_use()

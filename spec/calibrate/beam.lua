@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A beam of finite length put together from a calibration's springs and elements and solved by the general
--- sparse solver: nothing in it knows of periodic cells. Both end slices are rigid.
+-- A beam of finite length, assembled from a calibration's springs and elements and solved by the general
+-- sparse solver. It uses no periodic cells. Both end slices are rigid.
 local core = require "softworld.core"
 
 local beam = {}
 
--- Adds w times direction (x) direction for the displacement sum c[i] u[node i] along it.
+-- Adds the stiffness against the displacement sum signs[i] u[node i] along direction.
 local function element(matrix, nodes, signs, direction, stiffness)
   for a, p in ipairs(nodes) do
     for b, q in ipairs(nodes) do
@@ -66,7 +66,7 @@ local function add_element(matrix, c, e, slice, M)
   end
 end
 
--- The stiffness matrix of slices 0 to n as blocks by node.
+-- Returns the stiffness matrix of slices 0 to n, as blocks by node.
 local function assemble(c, n)
   local M = #c.particles
   local matrix = { block = {}, count = (n + 1) * M, M = M, n = n }
@@ -93,7 +93,7 @@ local function times(block, u, out)
   end
 end
 
--- Displacements of all nodes when the last slice moves so.
+-- Returns the displacements of all nodes when the last slice moves by motion.
 local function solve(matrix, c, motion)
   local M, first, last = matrix.M, matrix.M, matrix.n * matrix.M -- free nodes: first to last - 1
   local own, pairs_, values, right, u = {}, {}, {}, {}, {}
@@ -124,7 +124,7 @@ local function solve(matrix, c, motion)
   return u
 end
 
--- Work of the end's forces in state u on the motion: the generalised force.
+-- Returns the generalised force: the work of the end's forces in state u on the motion.
 local function reaction(matrix, c, u, motion)
   local last, sum = matrix.n * matrix.M, 0
   for key, block in pairs(matrix.block) do
@@ -154,9 +154,9 @@ function beam.compliances(c, n, bending_only)
   return out
 end
 
---- EA, EI (from a moment, and from a force) and GJ of the beam without its ends. Ends of one
--- kind add the same to stretch, twist and turn whatever the length; a deflection by a force
--- is L^3/3EI and a polynomial of second order, whose third difference vanishes.
+--- EA, EI (from a moment, and from a force) and GJ of the beam without its ends. Equal ends add the same to
+--- stretch, twist and turn at every length. A deflection by a force is L^3/3EI plus a polynomial of second
+--- order, whose third difference vanishes.
 function beam.stiffness(c, n, more)
   local d, at = more * c.spacing, {}
   for k = 0, 3 do at[k] = beam.compliances(c, n + k * more, k > 1) end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Springs that are to be a wire: against beams of finite length that the general sparse solver
--- solves, against formulas, and what is said when there are no such springs.
+-- Springs fitted to a wire: against beams of finite length that the general sparse solver solves, against
+-- formulas; and the errors where no such springs exist.
 local sw = require "softworld"
 local beam = require "calibrate.beam"
 local tools = require "physics.tools"
@@ -20,7 +20,7 @@ local CABLE = { EA = 137e3, EI = 1.28e-3, GJ = 1.6e-3, radius = 1.2e-3 } -- stra
 local FLAT = { mesh = "cubic", section = "rectangle", width = 0.01, height = 0.005, EA = 1e4,
   EI = 0.08, EI2 = 0.02, GJ = 0.05 }
 
--- { title, arguments, slices of the shortest beam, slices more }
+-- { title, arguments, slices of the shortest beam, slices added for each longer one }
 local cases = {
   { "a tube", with(SOLID, { mesh = "tube" }), 20, 10 },
   { "a tube with nu = 0 and 12 particles", with(SOLID, { mesh = "tube", nu = 0, particles = 12 }), 20, 10 },
@@ -56,7 +56,7 @@ describe("calibrate makes", function()
     end)
   end
 
-  it("E and nu of a solid wire EA, EI and GJ of its section", function()
+  it("of E and nu the EA, EI and GJ of a solid section", function()
     local c = calibrate(with(SOLID, { mesh = "tube" }))
     local A = math.pi * 0.005 ^ 2
     share(1e8 * A, c.EA, 1e-8)
@@ -76,7 +76,7 @@ describe("calibrate makes", function()
 end)
 
 describe("calibrate", function()
-  it("gives a mesh that calibrate.cell finds to be what is said", function()
+  it("gives a mesh with the stiffness that calibrate.cell finds for it", function()
     for _, case in ipairs(cases) do
       local c = calibrate(case[2])
       local b = calibrate.cell { spacing = c.spacing, particles = c.particles, links = c.links,
@@ -94,7 +94,7 @@ describe("calibrate", function()
     end
   end)
 
-  it("finds the tube's diagonals by their formula", function()
+  it("gives the tube's diagonals by their formula", function()
     for _, M in ipairs { 6, 8, 16 } do
       local c = calibrate(with(SOLID, { mesh = "tube", particles = M, reach = 1 }))
       local R, h = 0.005, c.spacing
@@ -103,9 +103,9 @@ describe("calibrate", function()
     end
   end)
 
-  -- k = 0.4 E a is isotropic with nu = 1/4; bending of few voxels is too stiff by known factors
-  -- (their corners carry more than their share), twist tends to Saint-Venant's 0.1406 G w^4.
-  it("knows voxels of one stiffness", function()
+  -- Springs k = 0.4 E a make an isotropic solid with nu = 1/4. Few voxels bend too stiffly by known
+  -- factors, because their corners carry more than their share. Twist tends to Saint-Venant's 0.1406 G w^4.
+  it("agrees with known factors for voxels of one stiffness", function()
     local known, before = { 1.80, 1.22, 1.10, 1.06, nil, 1.026 }, math.huge
     for _, n in ipairs { 1, 2, 3, 4, 6 } do
       local E, w = 1e6, 1e-3 * n
@@ -136,9 +136,9 @@ describe("calibrate", function()
     end
   end)
 
-  -- EA, EI, GJ and squeeze of springs up to 30 times softer or stiffer than usual are there to be
-  -- found, if not by the same springs.
-  it("finds what there is", function()
+  -- The targets are EA, EI, GJ and squeeze of springs up to 30 times softer or stiffer than usual: they can
+  -- be reached, though perhaps by other springs.
+  it("finds springs for 45 targets that can be reached", function()
     math.randomseed(11)
     for n = 1, 45 do
       local mesh = ({ "tube", "radial", "cubic" })[n % 3 + 1]
@@ -158,7 +158,7 @@ describe("calibrate", function()
     end
   end)
 
-  it("shares out the mass", function()
+  it("distributes the mass", function()
     local function sums(c)
       local total, spin, share_sum = 0, 0, 0
       for i, p in ipairs(c.particles) do
@@ -173,14 +173,14 @@ describe("calibrate", function()
     for mesh, off in pairs { tube = 1e-12, radial = 0.2, cubic = 0.25 } do
       local m, spin = sums(calibrate(with(solid, { mesh = mesh })))
       share(mass, m, 1e-12, mesh)
-      share(0.5 * mass * 0.005 ^ 2, spin, off, mesh) -- coarse meshes have more of it
+      share(0.5 * mass * 0.005 ^ 2, spin, off, mesh) -- coarse meshes have more
     end
     local _, spin = sums(calibrate(with(solid, { mesh = "tube", spin_inertia = 0.3 * mass * 0.005 ^ 2 })))
     share(0.3 * mass * 0.005 ^ 2, spin, 1e-12)
     assert.is_nil(calibrate(with(SOLID, { mesh = "tube" })).mass)
   end)
 
-  it("chooses a spacing for any number of particles, and a place for a wall", function()
+  it("chooses a spacing for any number of particles, and the radius of a wall's ring", function()
     for M = 3, 20 do
       for _, core in ipairs { true, false } do
         local c = calibrate(with(SOLID, { mesh = "tube", particles = M, core = core }))
@@ -192,7 +192,7 @@ describe("calibrate", function()
     end
   end)
 
-  it("says the same in other units and again", function()
+  it("gives the same springs again, and scaled ones in other units", function()
     local c = calibrate(with(SOLID, { mesh = "radial" }))
     local again = calibrate(with(SOLID, { mesh = "radial" }))
     local big = calibrate { mesh = "radial", E = 1e11, nu = 0.35, radius = 5 }
@@ -202,7 +202,7 @@ describe("calibrate", function()
     end
   end)
 
-  it("prints itself and is in help", function()
+  it("prints its particles, links and springs", function()
     local text = tostring(calibrate(FLAT))
     for _, word in ipairs { "cubic of 15 particles and 97 links", "EI2", "diagonal", "N m2", "44 links" } do
       assert.is_truthy(text:find(word, 1, true), text)
@@ -210,7 +210,7 @@ describe("calibrate", function()
   end)
 end)
 
-describe("calibrate tells", function()
+describe("calibrate refuses", function()
   local function refused(args, ...)
     local ok, message = pcall(calibrate, args)
     assert.is_false(ok)
@@ -264,7 +264,7 @@ describe("calibrate tells", function()
     refused(with(FLAT, { width = 0.01, height = 0.039, across = 16 }), "at most 512")
   end)
 
-  it("which target cannot be reached, and what helps", function()
+  it("targets that cannot be reached, and says what helps", function()
     local wide = { mesh = "tube", EA = 1e4, EI = 0.2, GJ = 0.15, radius = 0.005 }
     refused(wide, "no springs of this mesh give EA = 10000 N", "make ring_radius = 0.005 m about 0.006957 m "
       .. "or more, or give bend = true")

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The beam that an endless mesh of springs is: against formulas, and against itself seen
--- turned, moved, scaled and in other slices.
+-- calibrate.cell, the beam stiffness of an endless mesh of springs: against formulas, and against itself
+-- turned, moved, scaled and cut into other slices.
 local sw = require "softworld"
 local tools = require "physics.tools"
 local near, share = tools.near, tools.share
@@ -23,7 +23,7 @@ local function tube(M, h, k, reach)
   return args
 end
 
--- Any old mesh: n particles, each linked to its line, to others of its slice and of the next two.
+-- A random mesh: n particles, each linked along its line, to others of its slice and of the next two.
 local function random_mesh(n, seed)
   math.randomseed(seed)
   local args = { spacing = 0.7, particles = {}, links = {}, stiffness = { a = 3, b = 0.5, c = 11 } }
@@ -44,7 +44,7 @@ local function random_mesh(n, seed)
   return args
 end
 
--- Same entries of two 4 x 4 matrices to a share of the largest of them.
+-- Checks that two 4 x 4 matrices agree within a share of their largest entry.
 local function same(expected, actual, tolerance, what)
   local largest = 0
   for i = 1, 4 do
@@ -101,8 +101,8 @@ describe("calibrate.cell", function()
     end
   end)
 
-  -- Stretched by e, the ring shrinks by n e: with a = 2 k_d/l^2 and the chord c,
-  -- EA h/M = k_l h^2 + a (h^2 - c^2 n)^2 + k_h c^2 n^2 is least at n = a h^2/(a c^2 + k_h).
+  -- Stretched by e, the ring shrinks by n e. With a = 2 k_d/l^2 and the chord c, EA h/M = k_l h^2 + a (h^2
+  -- - c^2 n)^2 + k_h c^2 n^2, which is least at n = a h^2/(a c^2 + k_h).
   it("has the EA of a ring that may shrink, exactly", function()
     for _, M in ipairs { 3, 6, 8, 13 } do
       for _, hoop in ipairs { 1e-6, 0.3, 5, 1e6 } do
@@ -116,7 +116,7 @@ describe("calibrate.cell", function()
     end
   end)
 
-  it("has an EI below that of sections that keep their shape, and alike about any axis", function()
+  it("has an EI below that of rigid sections, and equal about any axis", function()
     for _, M in ipairs { 6, 8, 12 } do
       for _, h in ipairs { 0.4, 0.7, 1 } do
         for _, d in ipairs { 0.2, 1 } do
@@ -132,7 +132,7 @@ describe("calibrate.cell", function()
         end
       end
     end
-    local one_way = tube(8, 0.7, { l = 1, d = 0.2, h = 1 }) -- as a rope
+    local one_way = tube(8, 0.7, { l = 1, d = 0.2, h = 1 }) -- like a rope
     for i = #one_way.links, 1, -1 do
       local l = one_way.links[i]
       if l.group == "d" and l.to == l.from % 8 + 1 then table.remove(one_way.links, i) end
@@ -140,7 +140,7 @@ describe("calibrate.cell", function()
     tools.above(0.01, math.abs(cell(one_way).matrix[1][4]), "coupling of one kind of diagonals")
   end)
 
-  it("knows springs against bending", function()
+  it("includes springs against bending", function()
     local b = cell { spacing = 0.25, particles = { { 0, 0, 0 } }, stiffness = { l = 8, b = 3 },
       links = { { from = 1, to = 1, slices = 1, group = "l" },
         { from = 1, to = 1, slices = 1, group = "b", bend = true, weight = 2 } } }
@@ -149,7 +149,7 @@ describe("calibrate.cell", function()
     share(2 * 3 * 0.25, b.EI2, 1e-14)
   end)
 
-  it("is squeezed as springs in a row and side by side are", function()
+  it("has the squeeze stiffness of springs in series and in parallel", function()
     local at = { { -1, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 } }
     local links = { { from = 1, to = 2, group = "a" }, { from = 2, to = 3, group = "b" } }
     local args = { spacing = 0.5, particles = at, links = links, stiffness = { a = 3, b = 6, c = 0 } }
@@ -205,7 +205,7 @@ describe("calibrate.cell of any mesh", function()
     end
   end)
 
-  it("does not depend on how many slices are taken for one", function()
+  it("does not depend on how many slices are taken as one", function()
     for seed = 1, 4 do
       local args = random_mesh(4, seed)
       local n, double = #args.particles, copy(args)
@@ -258,7 +258,7 @@ describe("calibrate.cell of any mesh", function()
   end)
 end)
 
-describe("calibrate.cell tells what is wrong:", function()
+describe("calibrate.cell refuses:", function()
   local function refused(change, text)
     local args = tube(4, 1, { l = 1, d = 1, h = 1 })
     change(args)
@@ -268,7 +268,7 @@ describe("calibrate.cell tells what is wrong:", function()
     assert.is_truthy(message:find("cell_spec", 1, true), message)
   end
 
-  it("arguments", function()
+  it("wrong arguments", function()
     refused(function(a) a.spacing = 0 end, "spacing = 0 m must be above 0 m")
     refused(function(a) a.spacing = "1" end, "spacing must be a number, got string")
     refused(function(a) a.particles = nil end, "particles must be a table, got nil")

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Core and shell of solid elements: against closed forms of a circle in a ring of other material,
--- against beams of finite length, and what is refused.
+-- Core and shell of solid elements: against closed forms of a circle in a ring of another material, against
+-- beams of finite length, and refusals.
 local sw = require "softworld"
 local beam = require "calibrate.beam"
 local tools = require "physics.tools"
@@ -17,12 +17,12 @@ local function with(base, more)
   return args
 end
 
--- Area and its second moment of a ring.
+-- Returns the area of a ring and its second moment.
 local function ring(outer, inner)
   return math.pi * (outer ^ 2 - inner ^ 2), math.pi / 4 * (outer ^ 4 - inner ^ 4)
 end
 
--- EA, EI, GJ of sections that stay plane.
+-- Returns EA, EI, GJ of sections that stay plane.
 local function sums(args)
   local rc = args.core_radius or 0.6 * R
   local As, Is = ring(R, rc)
@@ -39,7 +39,7 @@ local COPPER = { E = 2e7, nu = 0.45, core_E = 1.2e11, core_nu = 0.34, core_radiu
 describe("a composite of two materials", function()
   it("has EA and EI of a circle in a ring exactly, and GJ nearly", function()
     for _, material in ipairs { JACKET, SOFT, COPPER, { E = 1e8, nu = 0.3, core_E = 1e8 } } do
-      -- 12 sides: GJ of the polygon over its EI; Poisson's bulging does not go with flat sides
+      -- allowed shift of nu, which makes GJ of the polygon; Poisson's bulging does not fit flat sides
       for _, mesh in ipairs { { {}, 0.003 }, { { particles = 8 }, 0.01 },
         { { particles = 24, layers = 3, core_layers = 3 }, 0.002 } } do
         local args = with(material, mesh[1])
@@ -50,25 +50,25 @@ describe("a composite of two materials", function()
         share(EI, c.EI2, 1e-9, "EI of the other plane")
         share(GJ, c.GJ, 1e-6, "GJ")
         assert.is_nil(next(c.springs))
-        -- what makes up for corners: one scale and one factor of both moduli
+        -- corners are made up for by one scale and one factor of both moduli
         share(args.core_E / args.E, c.core_modulus / c.modulus, 1e-12, "ratio of moduli")
         share(args.E, c.modulus, 0.005, "modulus")
         near(1, c.scale, mesh[1].particles == 8 and 0.06 or 0.03)
-        -- and one shift of both nu, which makes GJ
+        -- and by one shift of both nu, for GJ
         near(args.nu, c.nu, mesh[2])
         near((args.core_nu or args.nu) - args.nu, c.core_nu - c.nu, 1e-12)
       end
     end
   end)
 
-  it("has parts that have their own EA, EI and GJ", function()
+  it("has parts with their own EA, EI and GJ", function()
     for _, material in ipairs { JACKET, SOFT, COPPER } do
       local args = with(material, { particles = 40, layers = 3, core_layers = 3 })
       local c = calibrate(args)
       local rc = args.core_radius or 0.6 * R
       local As, Is = ring(R, rc)
       local Ac, Ic = ring(rc, 0)
-      -- 40 sides: 0.2 % of second moments
+      -- 40 sides: second moments are 0.2 % off
       share(args.E * As, c.shell.EA, 0.003)
       share(args.E * Is, c.shell.EI, 0.004)
       share(args.E * Is / (1 + args.nu), c.shell.GJ, 0.004)
@@ -78,7 +78,7 @@ describe("a composite of two materials", function()
     end
   end)
 
-  it("has its face at the core's radius", function()
+  it("has its interface at the core's radius", function()
     local c = calibrate(with(JACKET, { particles = 16, layers = 2, core_layers = 3 }))
     local rc, core = 0.7 * R * c.scale, 0
     for i, p in ipairs(c.particles) do
@@ -100,9 +100,9 @@ describe("a composite of two materials", function()
     end
   end)
 
-  -- What parts with different nu press on one another when drawn (Hill 1964): of circle (c) in
-  -- ring (s), EA = sum + 4 (nu_c - nu_s)^2 Ac As/A / (vc/ks + vs/kc + 1/Gs), k of plane strain.
-  it("has what different Poisson's ratios add to EA", function()
+  -- Parts with different nu press on each other when the wire is stretched (Hill 1964). For a circle (c) in
+  -- a ring (s), EA = sum + 4 (nu_c - nu_s)^2 Ac As/A / (vc/ks + vs/kc + 1/Gs), k of plane strain.
+  it("has the EA that different Poisson's ratios add", function()
     local args = with({ E = 1e7, nu = 0.45, core_E = 3e7, core_nu = 0.1, core_radius = 0.6 * R,
       particles = 40, layers = 5, core_layers = 3 })
     local c = calibrate(args)
@@ -113,15 +113,15 @@ describe("a composite of two materials", function()
     local more = 4 * (0.45 - 0.1) ^ 2 * Ac * (A - Ac) / A
       / (vc / k(E, 0.45) + (1 - vc) / k(core_E, 0.1) + 2 * (1 + 0.45) / E)
     local extra = c.EA - E * (A - Ac) - core_E * Ac
-    tools.above(0.005 * c.EA, more, "what is added") -- it matters here
-    share(more, extra, 0.03, "what is added to EA") -- of 3 + 5 layers
+    tools.above(0.005 * c.EA, more, "what is added") -- large enough to matter
+    share(more, extra, 0.03, "what is added to EA") -- with 3 + 5 layers
   end)
 
   it("is the wire as a beam of finite length", function()
     for _, more in ipairs { {}, { core_nu = 0.4 }, { particles = 8 }, { core_layers = 1 } } do
       local c = calibrate(with(JACKET, more))
       local b = beam.stiffness(c, 16, 6)
-      -- what the ends do fades within a few diameters
+      -- the ends' effect fades within a few diameters
       share(c.EA, b.EA, 1e-4, "EA of beams")
       share(c.EI, b.EI, 1e-4, "EI of beams, by a moment")
       share(c.EI, b.EI_by_force, 1e-3, "EI of beams, by a force")
@@ -141,7 +141,7 @@ describe("a composite of two materials", function()
     share(math.pi * R ^ 2 * 1e8, c.EA, 1e-12)
   end)
 
-  it("prints both", function()
+  it("prints both materials", function()
     local text = tostring(calibrate(with(JACKET)))
     assert.is_truthy(text:find("composite of 37 particles", 1, true), text)
     assert.is_truthy(text:find("12 elements, nu = 0.39%d+, section times 1.02"), text)
@@ -162,11 +162,11 @@ describe("a composite of EA, EI and GJ", function()
       assert.is_nil(next(c.springs))
       share(known.E, c.modulus, 0.005)
       share(known.core_E, c.core_modulus, 0.005)
-      near(known.nu, c.nu, 0.005) -- which makes GJ, with what corners take of it
+      near(known.nu, c.nu, 0.005) -- nu makes GJ, with the corners' correction
     end
   end)
 
-  it("takes the core's material from what is given of it", function()
+  it("takes the core's material from any of its given values", function()
     local EA, EI, GJ = sums(with(JACKET))
     local Ac = math.pi * (0.7 * R) ^ 2
     for _, given in ipairs { { core_E = 1e8 }, { core_EA = 1e8 * Ac }, { core_EA = 1e8 * Ac, E = 1e7 } } do
@@ -175,11 +175,11 @@ describe("a composite of EA, EI and GJ", function()
       share(10, c.core_modulus / c.modulus, 1e-9)
       share(1e7, c.modulus, 0.005)
     end
-    -- without wall or core_radius
+    -- core_radius follows from wall
     share(0.7 * R, calibrate(with({ E = 1e7, wall = 0.3 * R })).core_radius, 1e-12)
   end)
 
-  it("has springs too where two materials do not do it, and then all exactly", function()
+  it("adds springs where two materials do not suffice, and then meets every target", function()
     for _, case in ipairs {
       { EA = 137e3, EI = 1.28e-3, GJ = 1.6e-3, radius = 1.2e-3 }, -- strands that slip
       { EA = 137e3, EI = 1.28e-3, GJ = 0.4e-3, radius = 1.2e-3 },
@@ -219,22 +219,22 @@ describe("mass of a composite of elements", function()
       local c = calibrate(with(with(JACKET, { particles = 32, layers = 4, core_layers = 6 }), given))
       local whole, moment = mass_of(c)
       share(core + shell, whole, 1e-12, "mass per length")
-      -- against turning about the axis; particles of half a layer at the face and outside: 2 %
+      -- about the axis; the particles' half layers at the interface and outside: 2 %
       share((core * rc ^ 2 + shell * (R ^ 2 + rc ^ 2)) / 2, moment, 0.02, "moment of inertia")
     end
   end)
 
-  it("is spread by areas where nothing is said of the core", function()
+  it("is spread by area where the core's mass is not given", function()
     local whole = mass_of(calibrate(with(JACKET, { density = 1000 })))
     share(1000 * math.pi * R ^ 2, whole, 1e-12)
     local c = calibrate(with(JACKET, { particles = 12, layers = 1, core_layers = 2 }))
-    -- half the way to the next layer
+    -- a particle's area reaches half the way to the next layer
     share((0.35 * 0.5) ^ 2, c.shares[1], 1e-12)
     share((1 - 0.85 ^ 2) / 12, c.shares[#c.shares], 1e-12)
   end)
 end)
 
-describe("a composite of elements tells", function()
+describe("a composite of elements refuses", function()
   local function refused(more, ...)
     local ok, message = pcall(calibrate, with({ E = 1e7, nu = 0.4 }, more))
     assert.is_false(ok)
@@ -243,7 +243,7 @@ describe("a composite of elements tells", function()
     end
   end
 
-  it("what is possible", function()
+  it("combinations that are not possible", function()
     refused({ cores = 3 }, "cores = 3 does not go with body = 'solid'", "take cores = 1, or body = 'springs'")
     refused({ bonded = false }, "bonded = false does not go with body = 'solid'", "take bonded = true")
     refused({ bonded = false, friction = 0.3, grip = 5 }, "bonded = false does not go with")
@@ -287,7 +287,7 @@ describe("a composite of elements tells", function()
     assert.is_truthy(message:find("core_E = 1e+09 Pa must be in (0, 1.76839e+08) Pa", 1, true), message)
   end)
 
-  it("springs what is of elements", function()
+  it("parameters of elements for a body of springs", function()
     for key, value in pairs { core_E = 1e8, core_nu = 0.3, core_density = 1e3, layers = 2 } do
       refused({ section = "springs", [key] = value }, key .. " = ", "goes with body = 'solid'")
     end

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Shells around cores: what is said of them against calibrate.cell of the mesh that comes out, of
--- its parts by themselves, and against beams of finite length.
+-- Shells around cores, made of springs: the stated values against calibrate.cell of the whole mesh and of
+-- its parts, and against beams of finite length.
 local sw = require "softworld"
 local beam = require "calibrate.beam"
 local tools = require "physics.tools"
 local near, share = tools.near, tools.share
 local calibrate = sw.calibrate
 
--- What the springs are fitted to; the search itself ends at 1e-11.
+-- Tolerance of the values that the springs are fitted to; the search itself ends at 1e-11.
 local FITTED = 1e-8
 
 local function with(base, more)
@@ -47,7 +47,7 @@ local function whole(c)
     stiffness = c.springs }
 end
 
--- { what, arguments }
+-- { title, arguments }
 local cases = {}
 for _, core in ipairs { "line", "radial", "cubic" } do
   for cores = 1, 7 do
@@ -73,7 +73,7 @@ cases[#cases + 1] = { "a fine cubic core", with(WIRE, { core = "cubic", core_acr
 cases[#cases + 1] = { "long slices", with(WIRE, { spacing = 0.003 }) }
 cases[#cases + 1] = { "3 fine cores", with(WIRE, { cores = 3, core_layers = 2, core_particles = 8 }) }
 
--- EA, EI, GJ that were asked for.
+-- Checks that EA, EI and GJ are those asked for.
 local function asked(args, c, what)
   for _, name in ipairs { "EA", "EI", "GJ" } do
     share(args[name], c[name], FITTED, what .. ": " .. name)
@@ -82,7 +82,7 @@ local function asked(args, c, what)
 end
 
 describe("a bonded composite", function()
-  it("is the wire, for the cell that is found from its links", function()
+  it("is the wire, by calibrate.cell of its links", function()
     for _, case in ipairs(cases) do
       local c = calibrate(case[2])
       local b = whole(c)
@@ -95,13 +95,13 @@ describe("a bonded composite", function()
     end
   end)
 
-  it("has parts that are what is said of them", function()
+  it("has parts with the stated EA, EI and GJ", function()
     for _, case in ipairs(cases) do
       local c = calibrate(case[2])
       for number = 0, #c.centres do
         local b, said = calibrate.cell(part_of(c, number)), number == 0 and c.shell or c.core
         for _, name in ipairs { "EA", "EI", "GJ" } do
-          -- a line has GJ = 0; cores off the axis are turned, which rounds their places
+          -- a line has GJ = 0; turning cores off the axis rounds their places
           near(said[name], b[name], 1e-8 * c[name], case[1] .. ": " .. name .. " of part " .. number)
         end
       end
@@ -112,23 +112,23 @@ describe("a bonded composite", function()
     end
   end)
 
-  it("bends alike in all planes", function()
+  it("bends alike in all planes, except with two cores", function()
     for _, case in ipairs(cases) do
       local args, c = case[2], calibrate(case[2])
       local C4 = args.core == "cubic" and (args.cores or 1) % 6 == 1 -- a square in the middle
       if args.cores == 2 then
-        tools.below(0.9, c.EI2 / c.EI, case[1]) -- these lie in the plane of EI
+        tools.below(0.9, c.EI2 / c.EI, case[1]) -- the two lie in the plane of EI
       elseif not (C4 and (args.cores == 7 or (args.particles or 12) % 4 ~= 0)) then
-        share(c.EI, c.EI2, 1e-9, case[1]) -- symmetry, but for rounding
+        share(c.EI, c.EI2, 1e-9, case[1]) -- by symmetry, to rounding
       else
         share(c.EI, c.EI2, 0.02, case[1]) -- a square in a ring without its symmetry
       end
     end
   end)
 
-  -- A section that stays plane has EI of the parts and EA a^2 of what lies off the axis. What is
-  -- left of the whole is the bonds', which carry up to a tenth of the lesser EA (of two equal
-  -- parts that is 2.5 % of the whole), and what parts gain by resisting each other's contraction.
+  -- A section that stays plane has the EI of its parts plus EA a^2 of the parts off the axis. The rest is
+  -- carried by the bonds, up to a tenth of the smaller EA (2.5 % of the whole for two equal parts), and by
+  -- parts that resist each other's contraction.
   it("acts as one section", function()
     for _, case in ipairs(cases) do
       local c = calibrate(case[2])
@@ -141,7 +141,7 @@ describe("a bonded composite", function()
     end
   end)
 
-  -- The ends' zones, where bonds hand on what shell and core bear, add the same to each length.
+  -- The zones at the ends, where bonds pass loads between shell and core, add the same at each length.
   it("is the wire as a beam of finite length", function()
     for _, more in ipairs { {}, { core = "line" }, { cores = 3, core = "line" } } do
       local args = with(WIRE, more)
@@ -154,24 +154,24 @@ describe("a bonded composite", function()
     end
   end)
 
-  it("has bonds as stiff as is asked for", function()
+  it("has bonds as stiff as asked for", function()
     local usual = calibrate(with(WIRE))
     local soft = calibrate(with(WIRE, { bond = 0.1 }))
     share(0.1, soft.springs.bond / usual.springs.bond, 1e-9)
     share(EI, soft.EI, FITTED)
-    -- soft bonds leave each part to itself: the sums are nearer
+    -- soft bonds leave each part to itself: the sums are closer to the whole
     tools.below(math.abs(1 - usual.shell.EI / EI - usual.core.EI / EI),
       math.abs(1 - soft.shell.EI / EI - soft.core.EI / EI), "what bonds carry")
   end)
 end)
 
 describe("a sliding composite", function()
-  it("has EA, EI and GJ that are the sums of its parts, each about its own axis", function()
+  it("has the sums of its parts' EA, EI and GJ, each about its own axis", function()
     for _, case in ipairs(cases) do
       local args = with(case[2], { bonded = false })
       local c = calibrate(args)
       asked(args, c, case[1])
-      share(c.EI, c.EI2, 1e-9, case[1]) -- however many cores
+      share(c.EI, c.EI2, 1e-9, case[1]) -- with any number of cores
       local sum = { EA = 0, EI = 0, EI2 = 0, GJ = 0 }
       for number = 0, #c.centres do
         local b = calibrate.cell(part_of(c, number))
@@ -182,8 +182,8 @@ describe("a sliding composite", function()
     end
   end)
 
-  -- With sections that stay plane, the cell of all particles bends cores off the axis about the
-  -- wire's; of one core it is the same.
+  -- calibrate.cell of all particles keeps sections plane, so it bends cores off the axis about the wire's
+  -- axis. With one core it is the same.
   it("differs from its cell by EA a^2 only", function()
     for _, cores in ipairs { 1, 2, 3, 7 } do
       local c = calibrate(with(WIRE, { cores = cores, bonded = false }))
@@ -227,9 +227,9 @@ describe("a sliding composite", function()
 end)
 
 describe("a composite's mass", function()
-  -- A ring at the shell's radius of gyration has its moment of inertia, cores of few layers up to
-  -- a fifth more than solid ones (their outermost particles are on the surface).
-  it("is the wire's, spread as in a wire", function()
+  -- A ring at the shell's radius of gyration has the shell's moment of inertia. Cores of few layers have up
+  -- to a fifth more than solid ones, because their outermost particles are on the surface.
+  it("is the wire's, and distributed as in a wire", function()
     for _, cores in ipairs { 1, 3, 7 } do
       for _, core in ipairs { "line", "radial", "cubic" } do
         local c = calibrate(with(SOLID, { density = 1200, cores = cores, core = core }))
@@ -242,10 +242,10 @@ describe("a composite's mass", function()
         share(1200 * math.pi * 0.005 ^ 2, mass, 1e-12)
         share(moment[1], moment[2], 1e-9, "moments of inertia in two planes")
         if cores == 1 then
-          -- of a solid section; a line has none of its own, an eighth of the whole
+          -- of a solid section; a line core has no moment of its own, an eighth of the whole
           share(mass * 0.005 ^ 2 / 4, moment[1], 0.15, core .. ": moment of inertia")
         else
-          -- more of it is outside, and no more than all at the surface
+          -- more mass is outside, at most all of it at the surface
           tools.above(mass * 0.005 ^ 2 / 4, moment[1], core .. ": moment of inertia")
           tools.below(mass * 0.005 ^ 2 / 2, moment[1], core .. ": moment of inertia")
         end
@@ -264,14 +264,14 @@ describe("a composite's mass", function()
 end)
 
 describe("composites", function()
-  it("of one material have the areas' shares", function()
+  it("of one material share EA and EI by their sections", function()
     local c = calibrate(with(SOLID, { bonded = false }))
     share(0.36 * EA, c.core.EA, 1e-9)
     share(0.1296 * EI, c.core.EI, FITTED)
     share(0.64 * EA, c.shell.EA, FITTED)
     local three = calibrate(with(SOLID, { cores = 3, core_radius = 0.0015, wall = 0.001 }))
     local wall, core = 0.005 ^ 2 - 0.004 ^ 2, 0.0015 ^ 2
-    -- of EA by what a wall leaves, in proportion to EI of a section whose rest is empty
+    -- wall and cores share EI by their second moments; the rest of the section is empty
     local I = (0.005 ^ 4 - 0.004 ^ 4) / 4 + 3 * core ^ 2 / 4 + 1.5 * core * 0.0025 ^ 2
     local E = EI / (math.pi * I)
     share(EI * core ^ 2 / 4 / I, calibrate(with(SOLID, { cores = 3, core_radius = 0.0015, wall = 0.001,
@@ -283,10 +283,10 @@ describe("composites", function()
   it("take a catalogue's cable", function()
     local c = calibrate { mesh = "composite", cable = "GXL 1.5" }
     share(sw.cable "GXL 1.5".EI.value, c.EI, FITTED)
-    tools.above(0.9, c.core.EA / c.EA, "share of EA in the core") -- the shell bends, it does not pull
+    tools.above(0.9, c.core.EA / c.EA, "share of EA in the core") -- the shell bears bending, not pull
   end)
 
-  it("say the same again and in other units", function()
+  it("give the same springs again, and scaled ones in other units", function()
     local c, again = calibrate(with(SOLID)), calibrate(with(SOLID))
     local big = calibrate(with { E = 1e11, nu = 0.35, radius = 5 })
     for group, k in pairs(c.springs) do
@@ -295,7 +295,7 @@ describe("composites", function()
     end
   end)
 
-  it("print themselves and are in help", function()
+  it("print themselves", function()
     local text = tostring(calibrate(with(SOLID)))
     for _, word in ipairs { "composite of 25 particles", "diagonal", "bond", "core_line", "core_hoop" } do
       assert.is_truthy(text:find(word, 1, true), text)
@@ -304,7 +304,7 @@ describe("composites", function()
   end)
 end)
 
-describe("a composite tells", function()
+describe("a composite refuses", function()
   local function refused(args, ...)
     local ok, message = pcall(calibrate, args)
     assert.is_false(ok)
@@ -351,7 +351,7 @@ describe("a composite tells", function()
       "121 of each of 7 cores are 859 in a slice; at most 512: make core_layers")
   end)
 
-  it("which part has too much", function()
+  it("a part that has more than the wire", function()
     refused(with(WIRE, { core_EA = 1.1 * EA }),
       "core_EA = 8639.38 N of each of 1 cores must be in (0, 7853.98) N", "make core_EA less")
     refused(with(WIRE, { cores = 3, core_EI = 0.5 * EI }), "core_EI = 0.0245437 N m2 of each of 3 cores "
@@ -367,7 +367,7 @@ describe("a composite tells", function()
       "give core_EI more than")
   end)
 
-  it("which target cannot be reached, and what helps", function()
+  it("targets that cannot be reached, and says what helps", function()
     refused(with(WIRE, { core_EA = 0.01 * EA }), "no springs of the core give core_EA = 78.5398 N",
       "core_EI/core_EA is 8.1e-05 m2 and that of a solid core of this radius 2.25e-06 m2")
     refused(with(WIRE, { core = "cubic", core_across = 1 }), "make core_across = 1 more")

@@ -5,9 +5,10 @@ local core = require "softworld.core"
 
 local plates = {}
 
-local STIFF = 1e3 -- of a particle against a plate, over modulus times spacing: sinks in 1e-5 R
+local STIFF = 1e3 -- stiffness against a plate, over modulus times spacing: sinks in by 1e-5 R
 
--- Energy, gradient by particle {x, y}, blocks by pair of particles (9 numbers, z held).
+-- Returns energy, gradient by particle {x, y}, blocks by pair of particles (9 numbers, z held), plate
+-- force.
 local function evaluate(m, x, semidefinite)
   local energy, gradient, blocks = 0, {}, {}
   for i = 1, 2 * m.n do gradient[i] = 0 end
@@ -81,7 +82,7 @@ local function solve(m, gradient, blocks)
   return require("softworld.probe").sparse(3, own, pairs_, values, right)
 end
 
--- Largest share of the move that no element forbids.
+-- Returns the largest share of the move that every element allows.
 local function allowed(m, x, move)
   local least = 1
   for _, e in ipairs(m.elements) do
@@ -129,9 +130,9 @@ local function settle(m, x)
   return x, force, iterations
 end
 
---- Forces per length over modulus and radius, F/(E R), at approaches of the plates as shares of
--- the diameter, in rising order. c: a calibration's particles and elements; nu of the elements.
--- The first touch is where the outermost particles are, R their distance.
+--- Forces per length over modulus and radius, F/(E R), at approaches of the plates as shares of the
+--- diameter, in rising order. c: a calibration's particles and elements; nu: of the elements. Contact starts
+--- at the outermost particles; R is their distance from the axis.
 function plates.squeeze(c, nu, approaches, per_step)
   local h = c.spacing
   local m = { n = #c.particles, elements = {}, held = {}, mu = 0.5 / (1 + nu),

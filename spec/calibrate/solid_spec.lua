@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Solid elements that are to be a wire: against formulas of sections, beams of finite length, and
--- a cylinder between plates.
+-- Solid elements fitted to a wire: against formulas of sections, beams of finite length, and a cylinder
+-- between plates.
 local sw = require "softworld"
 local beam = require "calibrate.beam"
 local plates = require "calibrate.plates"
@@ -15,7 +15,7 @@ local function round(more)
   return args
 end
 
--- The beam of elements alone, modulus 1, with slices every spacing.
+-- Beam stiffness of the elements alone, with modulus 1 and slices every spacing.
 local function alone(c, spacing, nu)
   return calibrate.cell { spacing = spacing or c.spacing, particles = c.particles, links = {},
     stiffness = {}, elements = c.elements, modulus = 1, nu = nu or c.nu }
@@ -24,7 +24,7 @@ end
 describe("a beam of solid elements", function()
   it("has the EA, EI and GJ of its polygon, at any length of the elements", function()
     for _, nu in ipairs { 0, 0.3, 0.45, 0.49 } do
-      -- layers of 8 and 12 are coarse: Poisson's bulging does not go with flat sides
+      -- 8 and 12 particles are coarse: Poisson's bulging does not fit flat sides
       for _, mesh in ipairs { { 8, 2, 8e-3 }, { 12, 2, 5e-3 }, { 16, 3, 1e-3 }, { 24, 6, 2e-4 } } do
         local c = calibrate(round { particles = mesh[1], layers = mesh[2], nu = nu })
         local r, n, first = R * c.scale, mesh[1], nil
@@ -34,7 +34,7 @@ describe("a beam of solid elements", function()
           local b = alone(c, ratio * R, nu)
           share(A, b.EA, 1e-9)
           share(I, b.EI, mesh[3])
-          share(I / (1 + nu), b.GJ, 1e-9) -- no particle warps: all are on lines of symmetry
+          share(I / (1 + nu), b.GJ, 1e-9) -- no particle warps: all lie on lines of symmetry
           first = first or b.EI
           share(first, b.EI, 1e-9, "EI does not depend on the spacing")
         end
@@ -42,7 +42,7 @@ describe("a beam of solid elements", function()
     end
   end)
 
-  it("tends to the circle", function()
+  it("tends to the circle with finer sections", function()
     local c = calibrate(round { particles = 48, layers = 6 })
     local b = alone(c)
     near(1, c.scale, 0.002)
@@ -51,7 +51,7 @@ describe("a beam of solid elements", function()
     share(math.pi * R ^ 4 / 4 / 1.3, b.GJ, 1e-4)
   end)
 
-  it("bends exactly at any number of voxels, and twists as Saint-Venant's square", function()
+  it("bends exactly with any number of voxels, and twists like Saint-Venant's square", function()
     for _, nu in ipairs { 0, 0.3, 0.49 } do
       for _, across in ipairs { 1, 2, 3, 12 } do
         local a = 0.01
@@ -63,7 +63,7 @@ describe("a beam of solid elements", function()
           local b = alone(c, ratio * a / 2, nu)
           share(a ^ 2, b.EA, 1e-9)
           share(a ^ 4 / 12, b.EI, 1e-9)
-          -- one voxel and two by two cannot warp and have the polar moment, a^4/6
+          -- one voxel and two by two cannot warp: they have the polar moment, a^4/6
           local allowed = ({ [1] = 0.19, [2] = 0.19, [3] = 0.1 })[across] or 0.008
           share(0.140577 * a ^ 4, b.GJ * 2 * (1 + nu), allowed, "GJ of " .. across)
         end
@@ -111,7 +111,7 @@ describe("calibrate makes of solid elements", function()
         near(1, c.scale, 0.06)
       end
       local b = beam.stiffness(c, 16, 6)
-      -- what the ends do fades within a few diameters, of which thin walls have fewer
+      -- the ends' effect fades within a few diameters; beams with thin walls are fewer diameters long
       local ends = case[2].inner and 2e-4 or 1e-5
       share(c.EA, b.EA, ends, "EA of beams")
       share(c.EI, b.EI, ends, "EI of beams, by a moment")
@@ -126,21 +126,21 @@ describe("calibrate makes of solid elements", function()
     end)
   end
 
-  -- the wire has nu = 0.3; flat sides and what does not warp are made up for
-  it("a wire that says how", function()
+  -- the wire has nu = 0.3; the elements' nu and scale make up for flat sides and missing warp
+  it("a wire that prints its elements, their nu and scale", function()
     local text = tostring(calibrate(round {}))
     assert.is_truthy(text:find("16 elements, nu = 0.2977, section times 1.05", 1, true), text)
   end)
 end)
 
-describe("calibrate tells what solid elements cannot be:", function()
+describe("calibrate refuses, of solid elements:", function()
   local function refused(args, text)
     local ok, message = pcall(calibrate, args)
     assert.is_false(ok)
     assert.is_truthy(message:find(text, 1, true), message)
   end
 
-  it("arguments", function()
+  it("wrong arguments", function()
     refused(round { mesh = "tube" }, "one ring of particles")
     refused(round { squeeze = 1e6 }, "squeeze = 1e+06 Pa goes with body = 'springs'")
     refused(round { nu = 0.5 }, "nu = 0.5 of solid elements must be in [0, 0.4999]")
@@ -151,7 +151,7 @@ describe("calibrate tells what solid elements cannot be:", function()
       "EI/EA = 3e-05 m2 is too near to half of radius^2 = 2.5e-05 m2")
   end)
 
-  it("elements of a cell", function()
+  it("wrong elements of a cell", function()
     local c = calibrate(round {})
     local function cell(change)
       local args = { spacing = c.spacing, particles = c.particles, links = {}, stiffness = {},
@@ -174,8 +174,8 @@ describe("calibrate tells what solid elements cannot be:", function()
   end)
 end)
 
--- Case 11b of the reference: neo-Hookean cylinder in plane strain, nu = 0.3. Particles meet the
--- plates one pair after the other, which at coarse meshes shows in the force.
+-- Case 11b of the reference: a neo-Hookean cylinder in plane strain, nu = 0.3. Particles meet the plates
+-- one pair after the other; with coarse meshes the force shows this.
 describe("a squeezed cylinder of solid elements", function()
   local reference = { 0.03444, 0.0840, 0.2226, 0.4272 }
   local function squeezed(args, allowed)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Calibration of cables that are known: independent solutions as data, noise, photographs, files, an entry.
+-- Calibration of known cables: data from independent solutions, noise, photographs, files, entries.
 local sw = require "softworld"
 local plane = require "softworld.calibration.plane"
 local program = require "host.program"
@@ -27,8 +27,8 @@ local function generator(seed)
 end
 
 describe("sw.calibration of independent solutions", function()
-  -- weight L^3 / EI is gamma. Points lie beside the elastica by 1e-9, beside the rod of 60 and 120 segments
-  -- by some 1e-5 of the length: that is the sigma.
+  -- gamma = weight L^3 / EI. The points are on the elastica within 1e-9; rods of 60 and 120 segments are
+  -- beside it by some 1e-5 of the length, which sets sigma.
   for _, shape in ipairs(SHAPES) do
     it(("finds EI of a stiff catenary, gamma = %g"):format(shape.gamma), function()
       local EI = 0.02 * G / shape.gamma
@@ -40,7 +40,7 @@ describe("sw.calibration of independent solutions", function()
     end)
   end
 
-  it("finds the same from the other side", function()
+  it("finds the same EI from the other side", function()
     local points, shape = mirrored(SHAPES[1]), SHAPES[1]
     local function of(list, sag)
       sag.points, sag.length, sag.sigma = list, 1, 5e-5
@@ -54,7 +54,7 @@ describe("sw.calibration of independent solutions", function()
     near(one.error, two.error, 1e-4)
   end)
 
-  -- Heavy cantilever, shooting, error 1e-9: gamma, x / L, z / L of the tip.
+  -- Tip of a heavy cantilever, by shooting, error 1e-9: gamma, x / L, z / L.
   it("finds EI from one tip of a cantilever", function()
     for _, tip in ipairs { { 1, 0.9912463953, -0.123471402 },
       { 4.641588834, 0.8622773968, -0.4721301176 } } do
@@ -65,38 +65,38 @@ describe("sw.calibration of independent solutions", function()
     end
   end)
 
-  -- Twist at which a clamped rod buckles, m = M L / EI over t = T L^2 / EI: determinant of the exact
-  -- equations, error 1e-10; hinged (m / 2)^2 - t = pi^2 (Greenhill 1883).
-  it("knows the twist at which a rod buckles", function()
+  -- Twist at which a clamped rod buckles: m = M L / EI over t = T L^2 / EI, from the determinant of the
+  -- exact equations, error 1e-10. Hinged: (m / 2)^2 - t = pi^2 (Greenhill 1883).
+  it("gives the twist at which a rod buckles", function()
     for _, row in ipairs { { -39, 0.8016683171 }, { -20, 5.771135703 }, { 0, 8.986818916 },
       { 20, 11.80032954 }, { 100, 20.98350083 } } do
       near(row[2], twisted.moment(row[1]), 1e-9, "t = " .. row[1])
     end
-    assert.is_nil(twisted.moment(-39.5)) -- 4 pi^2 buckles it without a twist
+    assert.is_nil(twisted.moment(-39.5)) -- below -4 pi^2 the rod buckles without a twist
     near(2 * math.pi, twisted.moment(0, true), 1e-15)
     near(2 * math.sqrt(math.pi ^ 2 + 30), twisted.moment(30, true), 1e-15)
     assert.is_nil(twisted.moment(-9.9, true))
-    -- smooth where another formula takes over, and towards 2 sqrt(t)
+    -- smooth where the formulas change, and tends to 2 sqrt(t)
     for _, t in ipairs { -0.02, 0.02 } do
       near(twisted.moment(t * (1 - 1e-9)), twisted.moment(t * (1 + 1e-9)), 1e-9)
     end
     near(2000, twisted.moment(1e6), 1e-5)
   end)
 
-  it("finds GJ from that twist, with a known EI", function()
+  it("finds GJ from the twist of buckling, with a known EI", function()
     local EI, GJ, L, T = 2e-3, 1.4e-3, 0.5, 100 * 2e-3 / 0.25
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004, EI = EI,
       twist = { length = L, tension = T, angle = 20.98350083 * EI / GJ, sigma = 0.1 } }
     near(GJ, found.GJ.value, 1e-7)
     assert.is_nil(found.EI)
-    -- relative error that of the angle
+    -- the relative error is that of the angle
     near(0.1 / (20.98350083 * EI / GJ), found.GJ.error / GJ, 1e-4)
   end)
 end)
 
 describe("sw.calibration with errors", function()
   -- GJ = m EI / angle without tension: the relative variances of EI and of the angle add up.
-  it("hands the error of EI on to GJ", function()
+  it("passes the error of EI on to GJ", function()
     local EI, GJ = 2e-3, 1.4e-3
     local angle = 8.986818916 * EI / GJ
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004,
@@ -106,8 +106,8 @@ describe("sw.calibration with errors", function()
     near(0.8, found.fit.correlation.EI.GJ, 1e-3)
   end)
 
-  -- The sag tells EI / weight: 3 % of the weight are 3 % of EI.
-  it("hands the error of the weight on to EI", function()
+  -- The sag gives EI / weight: 3 % of the weight are 3 % of EI.
+  it("passes the error of the weight on to EI", function()
     local shape = SHAPES[1]
     local function of(mass)
       return sw.calibration { mass_per_length = mass, outer_diameter = 0.004,
@@ -117,16 +117,16 @@ describe("sw.calibration with errors", function()
     near(math.sqrt((sure.error / sure.value) ^ 2 + 0.03 ^ 2), unsure.error / unsure.value, 0.02)
   end)
 
-  -- GJ = 4 pi^2 I L / period^2: twice the relative error of the period.
-  it("takes a torsional pendulum", function()
+  -- GJ = 4 pi^2 I L / period^2: its relative error is twice that of the period.
+  it("takes the period of a torsional pendulum", function()
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004,
       twist = { length = 0.8, inertia = 2e-5, period = 0.7, sigma = 0.007 } }
     near(4 * math.pi ^ 2 * 2e-5 * 0.8 / 0.49, found.GJ.value, 1e-7)
     near(0.02, found.GJ.error / found.GJ.value, 1e-4)
   end)
 
-  -- A line with an unknown beginning: slope Sxy / Sxx, its error sigma / sqrt(Sxx).
-  it("takes a pull and a squeeze, wherever they begin", function()
+  -- A line with an unknown offset: slope Sxy / Sxx, error sigma / sqrt(Sxx).
+  it("takes a pull and a squeeze with unknown offsets", function()
     local noise = generator(3)
     local pull, squeeze = { length = 0.5, points = {}, sigma = 1e-5 }, { length = 0.02, points = {} }
     local mean, sxx = 0, 0
@@ -144,7 +144,7 @@ describe("sw.calibration with errors", function()
     assert.truthy(found.remarks[1]:find("sigma of plates was not given: ", 1, true), found.remarks[1])
   end)
 
-  it("says so when the section is not linear", function()
+  it("reports a section that is not linear", function()
     local points = {}
     for k = 1, 15 do points[k] = { k ^ 1.5, k * 1e-4 } end
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004,
@@ -152,9 +152,9 @@ describe("sw.calibration with errors", function()
     assert.truthy(table.concat(found.remarks, "\n"):find("residuals of plates are no noise", 1, true))
   end)
 
-  it("says so where a chain or a beam tells nothing", function()
+  it("reports a sag that tells nothing of EI", function()
     local points = {}
-    for k = 1, 9 do -- a catenary, 2 u / sinh(u) ... = a cosh: a = 0.2
+    for k = 1, 9 do -- a catenary with a = 0.2
       local x = k / 10
       local a = 0.2
       local function cosh(v) return (math.exp(v) + math.exp(-v)) / 2 end
@@ -168,8 +168,8 @@ describe("sw.calibration with errors", function()
   end)
 end)
 
--- 120 cables with noise, drawn as the bench does: each interval holds the truth in 114 +- 2.4 of them; fewer
--- than 105 have a chance of 6e-4 (binomial), and all 120 one of 2e-3.
+-- 120 cables with noise, as in the bench. Each 95 % interval holds the truth in 114 +- 2.4 of them; fewer
+-- than 105 have a probability of 6e-4 (binomial), all 120 one of 2e-3.
 it("intervals of calibrations hold the truth in 95 % of cases", function()
   local bench = dofile "scripts/bench/calibration.lua"
   local EI, GJ, _, _, bad = bench.coverage(120, 2)
@@ -180,7 +180,7 @@ it("intervals of calibrations hold the truth in 95 % of cases", function()
 end)
 
 describe("a photograph", function()
-  -- A camera that looks askew: the plane's points by a projective map of its own.
+  -- A slanted camera: a projective map of the plane's points.
   local function camera(x, z)
     local below = 1 + 0.15 * x - 0.1 * z
     return (400 + 1500 * x + 90 * z) / below, (300 - 60 * x - 1450 * z) / below
@@ -191,7 +191,7 @@ describe("a photograph", function()
     KNOWN[i] = { u, v, p[1], p[2] }
   end
 
-  it("is taken back to the plane by four known points, or more", function()
+  it("is mapped back to the plane by four or more known points", function()
     local map = plane.map("test", KNOWN)
     for _, p in ipairs { { 0, 0 }, { 0.5, -0.3 }, { 0.9, 0.05 } } do
       local x, z = map(camera(p[1], p[2]))
@@ -268,14 +268,14 @@ describe("a calibrated cable", function()
     assert.error_matches(function() return sw.cable "bench cable" end, "there is no cable 'bench cable'")
   end)
 
-  it("takes what was not measured from one that is alike", function()
+  it("takes missing values from a similar cable", function()
     local entry = calibrate({ like = "GXL 1.5" }).cable
     assert.equal(sw.cable "GXL 1.5".friction.value, entry.friction.value)
     assert.equal("that of GXL 1.5, taken for alike", entry.friction.source)
     assert.equal("guessed", entry.EA.flag)
   end)
 
-  it("is written as a Lua file, which defines it", function()
+  it("can be saved as a Lua file that defines it", function()
     local path = program.folder() .. "/cable.lua"
     local found = calibrate { name = 'odd "name"' }
     assert.equal(path, found:save(path))
@@ -290,7 +290,7 @@ describe("a calibrated cable", function()
     assert.error_matches(function() return found.cable end, "an entry needs EI; give a sag, or EI")
   end)
 
-  it("is drawn, measured over computed", function()
+  it("is drawn, measured and computed", function()
     local path = program.folder() .. "/sag.svg"
     local found = calibrate()
     assert.equal(path, found:chart { path = path })
@@ -300,7 +300,7 @@ describe("a calibrated cable", function()
     assert.error_matches(function() found:chart { of = "pull" } end, "pull was not measured")
   end)
 
-  it("shows what it found", function()
+  it("prints what was found", function()
     local text = tostring(calibrate())
     assert.truthy(text:find("calibration of 'bench cable' from sag of 19 points, twist that buckles it", 1,
       true), text)

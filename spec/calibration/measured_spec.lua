@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- sw.calibration: files of measurements, and what is refused.
+-- sw.calibration: files of measurements, and refusals.
 local sw = require "softworld"
 local core = require "softworld.core"
 local program = require "host.program"
@@ -27,7 +27,7 @@ describe("files of measurements", function()
     return found
   end
 
-  it("tell their units", function()
+  it("give their units in the names of columns", function()
     local one = pull "force [N],elongation [mm]\n0,0\n10,0.1\n20,0.2\n31,0.3\n"
     local two = pull("# bench\nelongation [m]; note; force [kN]\n0;1;0\n1e-4;2;0.01\n2e-4;3;0.02\n"
       .. "3e-4;4;0.031\n")
@@ -115,7 +115,7 @@ describe("sw.calibration refuses", function()
     end)
   end
 
-  it("to be written to", function()
+  it("writes to its result, and misspelt fields", function()
     local found = sw.calibration { mass_per_length = 0.02, outer_diameter = 0.004, sag = SAG }
     assert.error_matches(function() found.EI = 5 end, "cannot be written to")
     assert.error_matches(function() return found.cabel end, "did you mean 'cable'")

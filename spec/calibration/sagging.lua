@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Shapes of hanging wires, for specs of sw.calibration.
--- Heavy inextensible elastica with level clamps, half of the span: s / L, x / L, z / L. Boundary-value
--- solver, error 1e-9.
+-- Shapes of hanging wires, for specs of sw.calibration: heavy inextensible elastica between level clamps,
+-- half of the span, every 0.05 L along the wire: x / L, z / L. Boundary-value solver, error 1e-9.
 local SHAPES = {
   { ratio = 1.05, gamma = 10, { 0.04981117264, -0.003775845908 }, { 0.09864806161, -0.0143444499 },
     { 0.1460496901, -0.03019614521 }, { 0.192152407, -0.04953265175 }, { 0.23755981, -0.07046394333 },

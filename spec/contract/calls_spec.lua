@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Rows of what is made in Lua: every public method and field has one and every row is there; wrong arguments
--- of every row are refused by name; help and completion show them.
+-- Rows of calls made in Lua: every public method and field has a row, and every row has its method or
+-- field. Wrong arguments of every row are refused by name; help and completion show the rows.
 local sw = require "softworld"
 local core = require "softworld.core"
 local repl = require "softworld.prompt.repl"
 local rows = require "softworld.rows"
 local topics = require "softworld.prompt.topics"
 
--- One object of each class, and what it is called in scripts.
+-- Returns one object of each class, by its name in scripts.
 local function objects()
   local scene = sw.scene{}
   local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
@@ -42,13 +42,13 @@ local function objects()
     obstacle = scene:obstacle{ shape = "plane", at = { 0, 0, -1 } } }
 end
 
--- Of the library, not of scripts: what runs, grippers and pictures ask of things.
+-- Methods of the library, not of scripts: runs, grippers and pictures use them.
 local inner = { leave = true, report = true, solids = true, ["scene.advance"] = true, ["scene.tool"] = true }
--- Fields of a run, which help "results" tells.
+-- The fields of a run are in help "results".
 local results = "run"
 
 describe("rows of calls", function()
-  it("are of every method and field, and of no other", function()
+  it("cover every method and field, and no other", function()
     local made, count = objects(), 0
     for class, list in pairs(rows.classes) do
       local known = {}
@@ -71,7 +71,7 @@ describe("rows of calls", function()
     assert.is_true(count > 200, count)
   end)
 
-  it("say their unit, and what they are in one line", function()
+  it("have a unit, and a text of one line", function()
     for name, call in pairs(rows.all) do
       assert.is_true(#call.doc > 4 and not call.doc:find "[.\n]$", name)
       for _, row in ipairs(call.rows) do
@@ -82,13 +82,13 @@ describe("rows of calls", function()
     end
   end)
 
-  -- Values that no row of the type takes.
+  -- Values that no row of the type accepts.
   local wrong = { number = { "1", 0 / 0, {} }, integer = { 1.5, "1" }, boolean = { 1, "yes" },
     text = { 1, {} }, choice = { "no such word", 1 }, vector = { 1, { 1, 2 }, { 0, 0, 0 / 0 } },
     rotation = { 1, { 0, 0, 0, 0 } }, ["function"] = { 1 }, list = { 1, "x" }, reaction = { "halt", 1 },
     numbers = { "x", { "x" } } }
 
-  it("refuse wrong values by name, and unknown names with the nearest", function()
+  it("refuse wrong values by name, and unknown names with the nearest one", function()
     local count = 0
     for name, call in pairs(rows.all) do
       for _, row in ipairs(call.rows) do
@@ -123,7 +123,7 @@ describe("rows of calls", function()
 end)
 
 describe("help", function()
-  it("has every call by its name, every object with all that it has", function()
+  it("shows every call by its name, and every object with all its calls", function()
     for name, call in pairs(rows.all) do
       local text = topics.text(name)
       assert.is_truthy(text and text:find(call.doc, 1, true), name)
@@ -137,7 +137,7 @@ describe("help", function()
     end
   end)
 
-  it("has a method by its bare name", function()
+  it("finds a method by its bare name", function()
     assert.is_truthy(topics.text "press":find("push of the wire at which it stops", 1, true))
     assert.is_truthy(topics.text "pictures":find("camera.elevation", 1, true))
   end)
@@ -159,7 +159,7 @@ describe("completion within braces", function()
     offers("retention", "x = scene:clip{ at = { 0, 0, 1 }, re")
   end)
 
-  it("offers those of the core", function()
+  it("offers the parameters of core methods", function()
     offers("density", "scene:wire{ de")
     offers("gust", "scene:force{ kind = 'wind', gu")
     offers("radius", "scene:obstacle{ shape = \"torus\", ra")

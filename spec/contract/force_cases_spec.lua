@@ -1,16 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Forces where the contract of all of them does not look: at clamps, over a step, as functions, added up.
+-- Forces in cases that the contract of all forces leaves out: at clamps, over a step, as functions, added
+-- up.
 local sw = require "softworld"
 local samples = require "contract.samples"
 
 local along, dot, norm, apart = samples.along, samples.dot, samples.norm, samples.apart
 
--- Central differences of step H lose about 1e-16/H to rounding and H^2 to the
--- next derivative, which sharp and yielding hinges make large.
+-- Central differences with step H lose about 1e-16/H to rounding, and H^2 times the next derivative, which
+-- sharp and yielding hinges make large.
 local H = 3e-6
 
 local TOLERANCE = 2e-7
-local SIZE = 1e-3 -- forces below this count as this when errors are compared [N]
+local SIZE = 1e-3 -- smaller forces count as this when errors are compared [N]
 
 local function small(value, limit, what)
   assert.is_true(value <= limit, ("%s: %.3g is above %.3g"):format(what, value, limit))
@@ -48,9 +49,9 @@ describe("bending at clamps", function()
 end)
 
 describe("the axial stiffness of time steps", function()
-  -- A step leaves the geometric part of pushed edges out: it would make the
-  -- matrix indefinite. Pulled edges keep theirs.
-  it("differs from the derivative where edges are pushed only", function()
+  -- A step leaves out the geometric part of pushed edges, which would make the matrix indefinite. Pulled
+  -- edges keep theirs.
+  it("differs from the derivative only where edges are pushed", function()
     for _, case in ipairs{ { stretch = 1.2, same = true }, { stretch = 0.8, same = false } } do
       local scene, wire = samples.wire{ segments = 6, model = "rod" }
       local random = samples.random(3)
@@ -66,7 +67,7 @@ describe("the axial stiffness of time steps", function()
 end)
 
 describe("a function as a force", function()
-  it("acts as it says, with no stiffness", function()
+  it("acts with the force that it sets, without stiffness", function()
     local scene, wire = samples.wire{ segments = 5 }
     scene:force{ on = wire, kind = function(t, x, v, f)
       for i = 1, #f do f[i] = f[i] - 3 * x[i] + 2 * v[i] + t end
@@ -80,8 +81,8 @@ describe("a function as a force", function()
 end)
 
 describe("the energies of a scene", function()
-  -- One that has every kind of force: more kinds than a fixed list of 24 could hold.
-  it("are listed whatever their number, and add up to the total", function()
+  -- The scene has every kind of force: more than 24 kinds.
+  it("are listed however many there are, and add up to the total", function()
     local scene, y = sw.scene{ gravity = { 0, 0, -9.81 } }, 0
     local function wire(more)
       y = y + 0.3

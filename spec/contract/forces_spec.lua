@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What every force must answer, over the whole registry: a new one is covered by
--- its file and its line in list.def. Forces that users make get arguments from
--- their rows; inner ones are met in the wire models that use them.
+-- What every force must fulfil, over the whole registry: a new force is covered by its file and its line in
+-- list.def. Forces that users make get arguments from their rows; inner forces are tested in the wire
+-- models that use them.
 local sw = require "softworld"
 local samples = require "contract.samples"
 
 local along, dot, norm, apart = samples.along, samples.dot, samples.norm, samples.apart
 
--- Central differences of step H lose about 1e-16/H to rounding and H^2 to the
--- next derivative, which sharp and yielding hinges make large.
+-- Central differences with step H lose about 1e-16/H to rounding, and H^2 times the next derivative, which
+-- sharp and yielding hinges make large.
 local H = 3e-6
 
 local TOLERANCE = 2e-7
 local EXACT = 1e-11 -- sums and rotations: rounding only
-local SIZE = 1e-3 -- forces below this count as this when errors are compared [N]
+local SIZE = 1e-3 -- smaller forces count as this when errors are compared [N]
 
 local shapes = {
   { name = "stretched", stretch = 1.15, turn = 0.3 },
@@ -25,13 +25,14 @@ local shapes = {
 local counts = { 2, 3, 4, 7, 16 }
 local function subject_is_wire(object) return samples.type(object) == "wire" end
 
--- The same for a mesh of particles, whose slices are its own: up to a tenth of these.
+-- Positions of a mesh of particles in a shape: stretched, and shaken by up to a twentieth of a slice per
+-- radian of the shape's turn.
 local function mesh_shape(wire, shape, random)
   local slice = subject_is_wire(wire) and wire.length / wire.segments or 0.04
   return samples.shaken(wire, shape.stretch, 0.05 * slice * shape.turn, random)
 end
 
--- Bend a wire in two planes, far enough for any force to remember it.
+-- Bends a wire in two planes, far enough for a force with memory to keep a trace.
 local function used(scene, wire, share)
   for _, pull in ipairs{ { 0, 3, 9 }, { 0, 9, -2 } } do
     local clamp = sw.core.type(wire) == "particles" and scene:hold(wire, { particles = { 1 } })
@@ -45,11 +46,12 @@ local function used(scene, wire, share)
   end
 end
 
--- Each way to meet a force: { name, kind, make = function(segments) -> scene, wire }.
+-- Returns each way to meet a force: { name, kind, make = function(segments) -> scene, wire }, and the kinds
+-- met.
 local function subjects()
   local list, met = {}, {}
   for _, model in ipairs(samples.registry.models) do
-    local bend = model.name == "tube" or nil -- that also has folds
+    local bend = model.name == "tube" or nil -- a tube with bend also has folds
     local scene, wire = samples.wire{ segments = 4, model = model.name, bend = bend }
     for kind in pairs(scene:evaluate(wire)) do
       met[kind] = true
@@ -60,8 +62,8 @@ local function subjects()
         end }
     end
   end
-  -- Parts that slide: without friction, stuck, and some of them slipping. Few elements, so that
-  -- differences hardly ever meet the place where one of them slips.
+  -- Parts that slide: without friction, all stuck, and some slipping. There are few elements, so that the
+  -- differences rarely meet the place where one begins to slip.
   for _, how in ipairs{ { "free", 0, 0 }, { "stuck", 100, 1e6 }, { "slipping", 0.3, 60 } } do
     local more = { bonded = false, core = "line", particles = 3, to = { 0.2, 0, 0 },
       friction = how[2], grip = how[3] }
@@ -71,12 +73,12 @@ local function subjects()
     list[#list + 1] = { name = "slide of composite, " .. how[1] .. ", after use", kind = "slide",
       mesh = true, make = function()
         local scene, wire = make()
-        used(scene, wire, 0.3) -- its section keeps its shape
+        used(scene, wire, 0.3) -- small enough for its section to keep its shape
         return scene, wire
       end }
   end
   met.slide = true
-  -- The wall of a hollow tube, as it is drawn and pulled out of round.
+  -- The wall of a hollow tube, as drawn and pulled out of round.
   local function walled()
     return samples.wire{ segments = 3, model = "tube",
       more = { core = false, wall_bending = 0.7, particles = 8 } }
@@ -88,7 +90,7 @@ local function subjects()
       met[force.name] = true
       local function make(segments)
         local scene, wire = samples.wire{ segments = segments }
-        -- few springs, so that differences hardly ever meet the place where one of them yields
+        -- few springs, so that the differences rarely meet the place where one yields
         if force.of_web then wire = samples.sheet(scene) end
         local args = samples.force(force, index)
         args.on = wire
@@ -96,7 +98,7 @@ local function subjects()
         return scene, wire
       end
       list[#list + 1] = { name = force.name, kind = force.name, mesh = force.of_web, make = make }
-      if force.name == "damping" then -- its springs of a mesh are others than a rod's
+      if force.name == "damping" then -- its springs of a mesh differ from a rod's
         list[#list + 1] = { name = "damping of tube", kind = force.name, mesh = true,
           make = function()
             local scene, wire = samples.wire{ model = "tube" }
@@ -122,8 +124,8 @@ local list, met = subjects()
 local declared = {}
 for _, f in ipairs(samples.registry.forces) do declared[f.name] = f end
 
--- Call check(ask, x, v, random, what) on every shape and count; ask(x, v, more)
--- is what the force answers there.
+-- Calls check(ask, x, v, random, what) for every shape and count. ask(x, v, more) returns the force's
+-- answer there.
 local function everywhere(subject, check)
   for _, shape in ipairs(shapes) do
     for _, segments in ipairs(subject.mesh and { 2 } or counts) do
@@ -148,15 +150,15 @@ local function small(value, limit, what)
 end
 
 describe("the force registry", function()
-  it("is met as a whole", function()
+  it("is covered as a whole", function()
     for name, force in pairs(declared) do
-      -- a user's function is in force_cases_spec.lua, frames have spec/physics/frames_spec.lua
+      -- a user's function is tested in force_cases_spec.lua, frames in spec/physics/frames_spec.lua
       assert.is_true(met[name] or (force.inner and force.explicit) or name == "frame",
         name .. " is in no wire model and cannot be made by scene:force")
     end
   end)
 
-  it("says what it is", function()
+  it("has a summary of every force, and at most one class: dissipative, explicit or driven", function()
     for name, force in pairs(declared) do
       assert.is_true(#force.summary > 10, name)
       local kinds = (force.dissipative and 1 or 0) + (force.explicit and 1 or 0) + (force.driven and 1 or 0)
@@ -180,7 +182,7 @@ for _, subject in ipairs(list) do
         end)
       end)
 
-      it("keeps its memory while it is asked", function()
+      it("keeps its memory while it is evaluated", function()
         if not force.history then return end
         for _, segments in ipairs(subject.mesh and { 2 } or counts) do
           local scene, wire = subject.make(segments)
@@ -225,7 +227,7 @@ for _, subject in ipairs(list) do
     end)
 
     if force.dissipative then
-      it("rests with the wire and takes power from it", function()
+      it("is zero at rest and takes power from a moving wire", function()
         everywhere(subject, function(ask, x, v, _, what)
           assert.are.equal(0, norm(ask(x, samples.zeros(#x)).force), what)
           local still = ask(x, v)
@@ -236,7 +238,7 @@ for _, subject in ipairs(list) do
     end
 
     if force.driven then
-      it("has no energy, and gives its power to the ledger", function()
+      it("has no energy, and its power is in the ledger", function()
         everywhere(subject, function(ask, x, v, _, what) assert.are.equal(0, ask(x, v).energy, what) end)
         local scene, wire = subject.make(4)
         scene:clamp(wire, { s = 0 })
@@ -247,7 +249,7 @@ for _, subject in ipairs(list) do
     end
 
     if force.dissipative or force.driven then
-      it("adds rate times its damping to the stiffness", function()
+      it("adds the rate times its damping to the stiffness", function()
         everywhere(subject, function(ask, x, v, random, what)
           local d, rate = samples.flat(#x, 1, random), 50
           local with = ask(x, v, { direction = d, rate = rate }).product
@@ -268,13 +270,13 @@ for _, subject in ipairs(list) do
         for _, segments in ipairs(counts) do
           local scene, wire = subject.make(segments)
           scene:gravity{ 0, 0, 0 }
-          -- springs of a mesh are stiffer than a rod, and so is their rounding
+          -- the springs of a mesh are stiffer than a rod, and so is their rounding error
           small(norm(scene:evaluate(wire)[subject.kind].force), subject.mesh and 1e-11 or 1e-12,
             segments .. " segments")
         end
       end)
 
-      -- gravity pulls from outside: only without it are all of them inner forces
+      -- without gravity, an outer force, only inner forces are left
       it("adds up to no force and no moment", function()
         everywhere({ kind = subject.kind, mesh = subject.mesh, make = function(segments)
           local scene, wire = subject.make(segments)

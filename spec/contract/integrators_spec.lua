@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What every integrator owes besides accuracy: the same bits again, a clean stop
--- when a user's function fails, sense at the edges of time.
+-- What every integrator must fulfil besides accuracy: the same bits again, a clean stop when a user's
+-- function fails, correct start and end times.
 local sw = require "softworld"
 local samples = require "contract.samples"
 
@@ -18,10 +18,10 @@ local function swing(options)
   return scene, wire, clamp
 end
 
--- A step every method is stable at; 8 edges of these values allow about 2 ms.
+-- A step at which every method is stable; 8 edges with these values allow about 2 ms.
 local function step_of(scene) return 0.25 * scene:stable_dt() end
 
--- Everything that can be read, bit by bit.
+-- Everything that can be read, in hexadecimal floats.
 local function bits(scene, wire, clamp)
   local list = { scene.time }
   for _, flat in ipairs{ wire:positions(), wire:velocities(), clamp:force(), clamp:moment{} } do
@@ -37,9 +37,9 @@ local function drift(t, _, v, f)
   for i = 1, #f do f[i] = f[i] - 0.05 * v[i] + 0.01 * math.sin(20 * t) end
 end
 
--- What a step leaves of an axial wave a thousand times too fast for it, by forty steps of equal
--- size, and what is left after three. The wave is begun by steps that resolve it, as a method's
--- start may damp it.
+-- Returns the share that one step leaves of an axial wave a thousand times too fast for it (mean of forty
+-- equal steps), and what is left after three steps. The wave is started with steps that resolve it, because
+-- a method's start may damp it.
 local function left_over(method)
   local scene = sw.core.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.1, radius = 0.002,
@@ -60,7 +60,7 @@ end
 
 for _, method in ipairs(samples.registry.integrators) do
   describe("integrator " .. method.name, function()
-    it("gives the same bits twice", function()
+    it("gives the same bits in a second run", function()
       for _, options in ipairs{ {}, { model = "string" }, { force = drift },
         { obstacle = not method.no_contact } } do
         local seen
@@ -90,7 +90,7 @@ for _, method in ipairs(samples.registry.integrators) do
           scene:run{ duration = 0.02, dt = dt, integrator = method.name }
           assert.are.equal(there, bits(scene, wire, clamp))
         end
-        -- whatever happened in between, other methods and other clamps too
+        -- also after other methods and other holds in between
         scene:pin(wire, { s = 0.77 })
         scene:run{ duration = 0.013, dt = dt }
         scene:settle()
@@ -101,9 +101,10 @@ for _, method in ipairs(samples.registry.integrators) do
       end
     end)
 
-    -- A triple root r, as of generalized-alpha, leaves n^2 r^n after n steps; the midpoint's is one.
+    -- A triple root r, as generalized-alpha has, leaves n^2 r^n after n steps; the midpoint rule has a
+    -- single root.
     if method.implicit then
-      it("leaves as much of what is too fast as it says", function()
+      it("damps waves that are too fast by the share that it states", function()
         local share, soon = left_over(method)
         if method.at_infinity > 0 then
           local growth = method.at_infinity < 1 and (60 / 20) ^ (2 / 40) or 1
@@ -145,7 +146,7 @@ for _, method in ipairs(samples.registry.integrators) do
       end
     end)
 
-    it("does nothing in no time", function()
+    it("does nothing in a run of no duration", function()
       local scene, wire, clamp = swing()
       scene:run{ duration = 0.01, dt = step_of(scene), integrator = method.name }
       local here = bits(scene, wire, clamp)
@@ -175,7 +176,7 @@ for _, method in ipairs(samples.registry.integrators) do
       assert.are.equal(3.7 * dt, scene.time)
     end)
 
-    it("reports divergence of absurd steps, or takes them", function()
+    it("reports the divergence of absurd steps, or stays finite", function()
       local scene, wire = swing()
       local run = scene:run{ duration = 20, dt = 5, integrator = method.name, unstable = true }
       if run.ok then
@@ -187,7 +188,7 @@ for _, method in ipairs(samples.registry.integrators) do
     end)
 
     if not method.adaptive then
-      it("says that it cannot follow a tolerance", function()
+      it("refuses a tolerance, having no error estimate", function()
         local scene = swing()
         local ok, message = pcall(scene.run, scene,
           { duration = 0.1, tolerance = 1e-3, integrator = method.name })

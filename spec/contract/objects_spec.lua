@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wire models, holds and shapes: what every member owes, over the registries.
+-- What every wire model, hold and shape must fulfil, over the registries.
 local sw = require "softworld"
 local samples = require "contract.samples"
 
 local G = 9.81
-local MASS = 0.1 -- [kg], of 1 m of the sample wire
+local MASS = 0.1 -- mass of 1 m of the sample wire [kg]
 
 local function near(expected, value, tolerance, what)
   local size = math.max(1, math.abs(expected))
@@ -43,7 +43,7 @@ for _, model in ipairs(samples.registry.models) do
       assert.is_true(wire:position(1)[3] < -0.9)
     end)
 
-    it("tells its length, ends and energies", function()
+    it("gives its length, ends and energies", function()
       local scene, wire = samples.wire{ segments = 9, model = model.name }
       if not model.mesh then assert.are.equal(9, wire.segments) end
       near(1, wire.length, 1e-15)
@@ -60,25 +60,25 @@ for _, model in ipairs(samples.registry.models) do
       assert.has_error(function() wire:position(0 / 0) end)
     end)
 
-    it("keeps its length of arc on a bent path", function()
+    it("keeps its arc length on a bent path", function()
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local points = {}
-      for i = 0, 600 do -- finer than the slices of any mesh, which lie as they are drawn
+      for i = 0, 600 do -- finer than the slices of any mesh, which lie as drawn
         points[#points + 1] = { math.sin(i / 300), 1 - math.cos(i / 300), 0 }
       end
       local args = samples.values(model.name)
       args.path, args.segments = points, not model.mesh and 20 or nil
       local wire = scene:wire(args)
       near(2, wire.length, 1e-3)
-      -- edges are unstressed; springs of a bent mesh follow chords: EA times the square of the
-      -- strain outside, 60 N times 0.05^2, is the scale of what that does
+      -- Edges are unstressed. Springs of a bent mesh follow chords; the scale of that effect is EA times
+      -- the square of the outer strain, 60 N times 0.05^2.
       near(0, wire:tension(1), model.mesh and 0.1 * 60 * 0.05 ^ 2 or 1e-12)
       near(1, wire:curvature(1), 2e-2) -- bent by force: the path is not its rest shape
     end)
   end)
 end
 
--- A rail has friction that holds what these wires weigh and swing.
+-- Arguments of a hold. A slider's rail has friction that holds the weight and the swings of these wires.
 local function hold_arguments(hold)
   local args = { s = 0.37 }
   for _, row in ipairs(hold.params) do
@@ -142,7 +142,7 @@ for _, hold in ipairs(samples.registry.holds) do
       assert.are.same({ 1, 0, 0, 0 }, select(2, handle:pose()))
     end)
 
-    it("lets go once, for good", function()
+    it("is released once, for good", function()
       local scene, wire, handle = make()
       handle:release()
       handle:release()
@@ -166,7 +166,7 @@ for _, hold in ipairs(samples.registry.holds) do
       assert.are.equal(1, #sw.core.data(scene).holds)
     end)
 
-    it("tells what it was made of in finite numbers, and nothing of what was not given", function()
+    it("gives its arguments as finite numbers only", function()
       local _, _, handle = make()
       local function finite(value)
         if type(value) == "table" then for _, v in pairs(value) do finite(v) end end
@@ -176,7 +176,7 @@ for _, hold in ipairs(samples.registry.holds) do
       finite(handle:get())
     end)
 
-    it("tells who it is", function()
+    it("has a name and a text, and refuses unknown fields", function()
       local scene, wire = make()
       local args = hold_arguments(hold)
       args.s, args.name = 0.8, "the other"
@@ -197,7 +197,7 @@ for _, shape in ipairs(samples.registry.shapes) do
       return scene, scene:obstacle(args)
     end
 
-    it("is made from its rows, placed, moved and taken away", function()
+    it("is made from its rows, placed, moved and removed", function()
       local scene, obstacle = make()
       assert.are.same({ 1, 2, 30 }, obstacle:pose())
       assert.are.same({ 0, 0, 0 }, obstacle:force())
@@ -205,7 +205,7 @@ for _, shape in ipairs(samples.registry.shapes) do
       local place, rotation = obstacle:pose()
       assert.are.same({ 3, 2, 40 }, place)
       near(math.cos(0.25), rotation[1], 1e-15)
-      obstacle:pose{ 4, 2, 40 } -- the same way round
+      obstacle:pose{ 4, 2, 40 } -- its rotation stays
       assert.are.same({ 4, 2, 40 }, obstacle:pose())
       assert.are.same(rotation, select(2, obstacle:pose()))
       assert.is_true(scene:run{ duration = 0.02 }.ok)
@@ -217,7 +217,7 @@ for _, shape in ipairs(samples.registry.shapes) do
       run:document() -- the series of what was removed are still there
     end)
 
-    it("tells who it is", function()
+    it("has a name, a text and a kind", function()
       local _, obstacle = make()
       assert.are.equal(shape.name .. "1", obstacle.name)
       assert.is_truthy(tostring(obstacle):find(shape.name, 1, true))

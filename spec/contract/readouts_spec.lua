@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Read-outs of one number: every one is right for every model of wires, or refuses it by name.
+-- Read-outs of one number: each is right for every wire model, or refuses it by name.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local samples = require "contract.samples"
@@ -7,7 +7,7 @@ local t = require "spec.physics.tools"
 
 local L, EI, GJ, ANGLE, TURN = 0.15, 0.02, 0.015, 0.3, 0.3
 
--- Every way to make a wire of these values: { name, args }.
+-- Returns every way to make a wire with these values: { name, args }.
 local function subjects()
   local list = {}
   local function add(name, more)
@@ -27,7 +27,7 @@ local function subjects()
   return list
 end
 
--- Clamped along an arc in the plane of x and z, and turned about itself.
+-- A wire clamped along an arc in the plane of x and z, and twisted by turn [rad].
 local function arc(args, turn)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire(args)
@@ -43,9 +43,9 @@ end
 
 for _, subject in ipairs(subjects()) do
   describe("read-outs of a " .. subject.name, function()
-    -- A uniform arc: 1/2 EI (angle/L)^2 L, GJ turn/L. Hinges of lines are exact; a mesh of slices has
-    -- the moments to a percent or two, as its sections next to clamps cannot contract.
-    it("are numbers, or refused by the wire's name; bend_energy is that of the arc", function()
+    -- A uniform arc: 1/2 EI (angle/L)^2 L and GJ turn/L. Hinges of lines are exact. A mesh of slices has
+    -- the moments to a percent or two, because its sections next to clamps cannot contract.
+    it("are finite, or refused by the wire's name; bend_energy and twist_moment fit the arc", function()
       local _, wire = arc(subject.args, TURN)
       for _, readout in ipairs(samples.registry.readouts) do
         local ok, value = pcall(wire[readout.name], wire, readout.at_place and L / 3 or nil)
@@ -63,13 +63,13 @@ for _, subject in ipairs(subjects()) do
       end
     end)
 
-    it("bend_energy is next to nothing where a wire is only twisted and pulled", function()
+    it("bend_energy is close to zero where the wire is only twisted and pulled", function()
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local wire = scene:wire(subject.args)
       scene:clamp(wire, { s = 0 })
       scene:clamp(wire, { s = L }):pose({ L + 1e-4, 0, 0 }, { axis = { 1, 0, 0 }, angle = 0.3 })
       t.fine(scene:settle())
-      -- a string takes the stretch at a clamp for a bend: its hinges know second differences only
+      -- a string counts the stretch at a clamp as a bend: its hinges use second differences only
       local share = subject.name == "string" and 1e-3 or 1e-4
       t.below(share * 0.5 * EI * ANGLE * ANGLE / L, wire:bend_energy(), "bend_energy")
     end)
@@ -77,7 +77,7 @@ for _, subject in ipairs(subjects()) do
 end
 
 describe("bend_energy", function()
-  it("counts from the shape without load", function()
+  it("counts from the wire's shape without load", function()
     local path = {}
     for i = 0, 60 do
       local a = ANGLE * i / 60
@@ -106,22 +106,22 @@ describe("bend_energy", function()
     assert.error_matches(function() wire:twist_moment(0.03) end, "is a line of particles, which has none")
   end)
 
-  it("is refused of meshes with two values of EI", function()
+  it("is refused for meshes with two values of EI", function()
     local scene = sw.scene{}
-    -- 10 times 5 mm
+    -- a section of 10 by 5 mm
     local wire = scene:wire{ model = "cubic", section = "rectangle", width = 0.01, height = 0.005, EA = 1e4,
       EI = { 0.08, 0.02 }, GJ = 0.05, normal = { 0, 0, 1 }, mass_per_length = 0.06,
       radius = 0.005, from = { 0, 0, 0 }, to = { 0.1, 0, 0 } }
     assert.error_matches(function() wire:bend_energy() end, "two values of EI")
   end)
 
-  it("leaves out what yields", function()
+  it("leaves out the plastic work", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ EA = 1e4, EI = EI, GJ = GJ, mass_per_length = 0.05, radius = 0.005,
       from = { 0, 0, 0 }, to = { L, 0, 0 } }
     scene:clamp(wire, { s = 0 })
     local last = scene:clamp(wire, { s = L })
-    local yield = 0.5 * EI * ANGLE / L -- hinges bend on at this moment: 1/2 M^2/EI L is stored
+    local yield = 0.5 * EI * ANGLE / L -- hinges yield at this moment: 1/2 M^2/EI L is stored
     scene:force{ kind = "plastic", on = wire, yield_moment = yield, hardening = 0 }
     for k = 1, 20 do
       local a = ANGLE * k / 20

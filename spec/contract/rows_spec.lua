@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every parameter row says what it is; help and the checks read the same rows.
+-- Every parameter row has a unit and a text; help and the checks read the same rows.
 local sw = require "softworld"
 local samples = require "contract.samples"
 local core = sw.core
 
--- { title, rows } of every table of rows there is.
+-- Returns { title, rows } of every table of rows.
 local function tables()
   local list = {}
   for name, rows in pairs(samples.registry.params) do list[#list + 1] = { name, rows } end
@@ -18,7 +18,7 @@ local function tables()
   return list
 end
 
--- Units of mechanics: products and quotients of these with whole powers.
+-- Units of mechanics: products and quotients of these units with whole powers.
 local function is_unit(text)
   if text == "-" then return true end
   for part in text:gmatch "[^ /]+" do
@@ -57,7 +57,7 @@ for _, entry in ipairs(tables()) do
       end
     end)
 
-    it("have names that differ and read like names", function()
+    it("have different names that are valid in Lua", function()
       local seen = {}
       for _, row in ipairs(rows) do
         assert.is_nil(seen[row.name], row.name .. " comes twice")
@@ -101,7 +101,7 @@ describe("help", function()
     end
   end)
 
-  it("lists families, texts and everything", function()
+  it("shows families, topics and the list of everything", function()
     for _, topic in ipairs{ "models", "holds", "obstacles", "forces", "integrators", "shape",
       "gripper", "process", "snapshot", "units", "trajectory" } do
       assert.is_nil(said(topic):find "no help on", topic)

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the contract specs share: arguments made from parameter rows, random
--- shapes with fixed seeds, small vector tools.
+-- What the contract specs share: arguments made from parameter rows, random shapes with fixed seeds, small
+-- vector tools.
 local sw = require "softworld"
 local core = sw.core
 
 local samples = {}
 
--- A generator of its own: the same numbers whatever ran before (Park and Miller).
+-- A random generator that gives the same numbers whatever ran before (Park and Miller).
 function samples.random(seed)
   local state = seed * 7919 % 2147483647 + 1
   return function(low, high)
@@ -15,22 +15,21 @@ function samples.random(seed)
   end
 end
 
--- A value that the row allows, away from its limits where it can be.
+-- Returns a value that the row allows, away from its limits where possible.
 local function value_of(row, random)
   if row.type == "vector" then return { random(-1, 1), random(-1, 1), random(-1, 1) } end
   if row.type == "boolean" then return true end
   if row.type == "choice" then return row.choices[1] end
   if row.type == "number" or row.type == "integer" then
     local low, high = row.min or -1, row.max or (row.min and row.min + 1) or 1
-    if high - low > 100 then high = low + 1 end -- sizes of everyday things, not of the limit
+    if high - low > 100 then high = low + 1 end -- everyday sizes, not those of the limit
     local value = low + (high - low) * random(0.3, 0.7)
     if row.type == "integer" then return math.ceil(value) end
     return value
   end
 end
 
---- Arguments for every row that has a value of its own kind (not texts and what
--- the binding reads itself).
+--- Returns arguments for every row with a plain value (not texts and what the binding reads itself).
 function samples.arguments(rows, random)
   local args = {}
   for _, row in ipairs(rows) do args[row.name] = value_of(row, random) end
@@ -47,7 +46,7 @@ function samples.force(force, index)
   local args = samples.arguments(force.params, samples.random(index))
   args.kind = force.name
   if force.on_some then args.particles = { 3, 1, 7 } end
-  if args.yield then args.yield = 0.02 end -- so small that the shapes met go beyond it
+  if args.yield then args.yield = 0.02 end -- so small that the shapes tested go beyond it
   if force.name == "clip" or force.name == "snap" then -- around the whole wire, at a slant
     args.at, args.direction, args.axis, args.width = { 0.45, 0, -0.2 }, { 0.1, 0.2, 1 }, { 1, 0, 0 }, 3
     args.insertion, args.retention, args.way, args.radius = 3, 5, 1.5, 0.05
@@ -56,14 +55,14 @@ function samples.force(force, index)
   return args
 end
 
---- Arguments of an obstacle as its kind gives them; text: others of them.
+--- Returns the arguments of an obstacle from its kind's sample, or from text.
 function samples.obstacle(shape, text)
   local args = assert(load(("return { %s }"):format(text or shape.sample)))()
   args.shape = shape.name
   return args
 end
 
---- Names and Lua texts of the values of a shape's sample, in their order.
+--- Iterates over the names and Lua texts of the values in a shape's sample, in order.
 function samples.written(shape)
   local text, at = shape.sample .. ", ", 1
   return function()
@@ -85,15 +84,14 @@ end
 --- Models that are meshes of particles, by name.
 samples.meshes = {}
 
---- Values of the sample wire. A mesh's section must be as thick as EI/EA asks for, and it
--- chooses its slices by itself.
+--- Values of the sample wire. A mesh needs a section as thick as EI/EA demands, and chooses its own slices.
 function samples.values(model)
   local mesh = samples.meshes[model]
   return { EA = 60, EI = 0.02, mass_per_length = 0.1, radius = mesh and 0.05 or 0.005,
     model = model }
 end
 
---- One wire of 1 m along x in a scene, soft enough for differences of its energy.
+--- A wire of 1 m along x in a scene, soft enough for differences of its energy.
 function samples.wire(options)
   local scene = sw.scene{ gravity = options.gravity or { 0, 0, 0 } }
   local args = samples.values(options.model)
@@ -104,15 +102,14 @@ function samples.wire(options)
   return scene, scene:wire(args)
 end
 
---- The particles of a wire that is a mesh, stretched and shaken by up to `shake` [m].
+--- Positions of a mesh's particles, stretched and shaken by up to `shake` [m].
 function samples.shaken(wire, stretch, shake, random)
   local x = core.type(wire) == "particles" and wire:positions() or wire:particles()
   for i = 1, #x do x[i] = stretch * x[i] + random(-shake, shake) end
   return x
 end
 
---- Node positions along edges of given stretch whose direction turns by up to
--- `turn` [rad] at every node.
+--- Node positions along edges of a given stretch; the direction turns by up to `turn` [rad] at every node.
 function samples.shape(segments, stretch, turn, random)
   local x, d = { 0.1, -0.2, 0.3 }, { 1, 0, 0 }
   for _ = 1, segments do
@@ -158,7 +155,7 @@ end
 
 function samples.norm(a) return samples.dot(a, a) ^ 0.5 end
 
---- Largest difference of two arrays over the larger of their norms (or floor).
+--- Largest difference of two arrays over the larger of their norms (at least floor).
 function samples.apart(a, b, floor)
   local largest = 0
   for i = 1, #a do largest = math.max(largest, math.abs(a[i] - b[i])) end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What every kind of obstacle must answer besides the queries of spec/shape: how it is drawn, where
--- it sticks out, that it is noticed. A new kind is covered by its file and its line in list.def.
+-- What every kind of obstacle must fulfil besides the queries of spec/shape: how it is drawn, where it
+-- sticks out, that an arm notices it. A new kind is covered by its file and its line in list.def.
 local sw = require "softworld"
 local files = require "output.files"
 local povscene = require "softworld.output.povscene"
@@ -17,25 +17,25 @@ for _, kind in ipairs(samples.registry.shapes) do
     local args = samples.obstacle(kind)
     local shape = sw.core.shape(args)
 
-    it("says what it is", function()
+    it("has a summary and samples of wrong arguments", function()
       assert.is_true(#kind.summary > 10)
       assert.is_true(#kind.wrong > 0)
     end)
 
     if not kind.flat then
-      it("is drawn as a closed surface that lies on its own, outwards", function()
+      it("is drawn as a closed surface that lies on the shape's own and faces outwards", function()
         local drawn = solid.triangles(args, 64)
         local v = drawn.vertices
         local low, high = shape:bounds()
         for i = 0, #v // 3 - 1 do
           local p = corner(v, i)
           local gap = shape:distance(p)
-          assert.is_true(math.abs(gap) < 1e-7, ("%g m off"):format(gap)) -- files hold floats
+          assert.is_true(math.abs(gap) < 1e-7, ("%g m off"):format(gap)) -- files hold 32-bit floats
           for k = 1, 3 do assert.is_true(p[k] > low[k] - 1e-7 and p[k] < high[k] + 1e-7) end
         end
         local volume = tools.closed_volume(drawn)
-        -- the shape's volume by its inside, at places of a grid of 40 in each direction: chords of
-        -- 64 around lose 0.3 %, the grid finds it within 1 %
+        -- the volume of the shape's inside, on a grid of 40 in each direction; the 64 chords around lose
+        -- 0.3 %, the grid is right within 1 %
         local inside, n, cell = 0, 40, 1
         for k = 1, 3 do cell = cell * (high[k] - low[k]) / n end
         for i = 0, n ^ 3 - 1 do
@@ -66,8 +66,8 @@ for _, kind in ipairs(samples.registry.shapes) do
       files.remove(folder)
     end)
 
-    -- Places of its surface are put in the way of a gripper's arm, facing it.
-    it("is noticed by an arm that runs into it, from any side", function()
+    -- Places of its surface are put in the way of a gripper's arm and face it.
+    it("gives an event when an arm runs into it, from any side", function()
       local corners = kind.flat and { 0, 0, 0 } or (shape:triangles(8))
       for _, share in ipairs{ 0, 0.3, 0.7, 0.95 } do
         local place = corner(corners, math.floor(share * (#corners // 3)))

@@ -4,7 +4,7 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local G = 9.81
 
--- A short stiff rod across the plane of motion, which its middle's slider carries.
+-- A short stiff rod across the plane of motion, carried by a slider at its middle.
 local function bead(o)
   local scene = sw.scene{ gravity = o.gravity or { 0, 0, -G } }
   local x, z = o.x or 0, o.z or 0
@@ -14,7 +14,7 @@ local function bead(o)
     from = o.from, to = o.to, path = o.path, closed = o.closed })
 end
 
--- Points of a circle in the plane y = 0 round (0, 0, 0); fraction of a full one.
+-- Points of a circle in the plane y = 0 about the origin; fraction: of an arc of this share of the circle.
 local function circle(radius, count, fraction)
   local points = {}
   for i = 0, count - (fraction and 0 or 1) do

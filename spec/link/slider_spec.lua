@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Sliders: a place of a wire keeps on a line or a curve. What is exact is compared with its formula; the
--- rail itself is met to rounding.
+-- Sliders keep a place of a wire on a line or a curve. Exact cases are compared with their formulas; the
+-- place is on the rail to rounding.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -11,7 +11,7 @@ local G = 9.81
 local METHODS = { "tr-bdf2", "sdirk2", "bdf2", "implicit-euler", "generalized-alpha", "implicit-midpoint" }
 local function weight_of(wire) return wire.beam.mass_per_length * wire.length * G end
 
--- A hanging string without bending stiffness from (0, 0, 0) to a slider at its end.
+-- A string without bending stiffness, pinned at (0, 0, 0), with a slider at its other end.
 local function hung(o)
   local scene = sw.scene{ gravity = { 0, 0, -G } }
   local wire = scene:wire{ model = "string", EI = 1e-10, EA = 1e5, mass_per_length = 0.05, radius = 0.002,
@@ -22,9 +22,9 @@ end
 
 describe("a slider", function()
   for _, method in ipairs(METHODS) do
-    -- a = g sin(slope): constant, so that methods of second order have place and speed to rounding, and
-    -- those of first order the speed.
-    it("goes down a slope by " .. method, function()
+    -- a = g sin(slope) is constant: methods of second order have place and speed to rounding, methods of
+    -- first order the speed.
+    it("goes down a slope with g sin(slope), " .. method, function()
       local slope = math.rad(30)
       local scene, wire, slider = bead{ direction = { math.cos(slope), 0, -math.sin(slope) } }
       local run = scene:run{ duration = 0.5, dt = 0.01, integrator = method }
@@ -38,11 +38,11 @@ describe("a slider", function()
     end)
   end
 
-  -- All of the wire has the velocity that it is given, the sliding place too: nothing acts along the rail,
-  -- so that momentum stays. It stood still at first, as a node of a clamp does, and took its share from
-  -- the others: an eighth of the speed was gone with 8 segments, half with 2.
+  -- The whole wire has the given velocity, the sliding place too. Nothing acts along the rail, so momentum
+  -- stays. Regression: the place stood still at first, like a clamped node, and took its share from the
+  -- others: an eighth of the speed with 8 segments, half with 2.
   for name, way in pairs{ before = "before the rail is there", after = "on the rail" } do
-    it("goes on with the velocity that a wire is given " .. way, function()
+    it("keeps the velocity that a wire is given " .. way, function()
       for _, segments in ipairs{ 2, 8, 9 } do
         local scene = sw.scene{ gravity = { 0, 0, 0 } }
         local wire = scene:wire{ E = 1e10, density = 1000, radius = 0.002, segments = segments,
@@ -65,8 +65,8 @@ describe("a slider", function()
     end)
   end
 
-  -- On a ring without weight friction is mu m v^2 / R: 1/v grows by mu t / R.
-  it("slows down on a ring by the friction of its own pressure", function()
+  -- On a ring without weight the friction is mu m v^2 / R: 1/v grows by mu t / R.
+  it("slows down on a ring by the friction of its centripetal force", function()
     local R, mu = 0.3, 0.3
     local scene, wire, slider = bead{ gravity = { 0, 0, 0 }, z = -R, path = circle(R, 128), closed = true,
       friction = mu }
@@ -79,9 +79,10 @@ describe("a slider", function()
     t.share(R / mu * math.log(1 + mu * 0.5 / R), place, 1e-3)
   end)
 
-  -- On a rail that turns at w about its end, r = r0 cosh(w t); the rail's work is m (r'^2 + w^2 r^2)/2 less
-  -- what the bead began with. Its moment about the pose was missing at the start of each step: a fifth of it.
-  it("takes the work of a rail that turns", function()
+  -- On a rail that turns at w about its end, r = r0 cosh(w t). The rail's work is m (r'^2 + w^2 r^2)/2
+  -- minus the bead's initial energy. Regression: the moment about the pose was missing at the start of each
+  -- step, a fifth of the work.
+  it("gives the work of a rail that turns", function()
     local w, r0 = 5, 0.1
     local scene, wire, slider = bead{ gravity = { 0, 0, 0 }, x = r0,
       path = { { 0, 0, 0 }, { r0, 0, 0 }, { 0.2, 0, 0 }, { 0.4, 0, 0 } } }
@@ -101,10 +102,10 @@ describe("a slider", function()
     t.below(1e-3, books.gap / books.play, "gap")
   end)
 
-  it("does not leave its end, or the rail, with a velocity that it is given", function()
+  it("keeps to its end and to the rail when the wire is given a velocity", function()
     local scene, wire, slider = bead{ gravity = { 0, 0, 0 }, direction = { 1, 0, 0 }, to = 0 }
     wire:set_velocity{ 1, 0, 2 }
-    scene:observe{ call = function() -- its free ends swing, and may pull it back
+    scene:observe{ call = function() -- the free ends swing, and may pull it back
       t.below(1e-12, (slider:place()), "place beyond the end")
       t.near(0, wire:position(0.05)[3], 1e-12, "off the rail")
     end }
@@ -113,8 +114,8 @@ describe("a slider", function()
     t.below(1e-3, run:ledger().gained / run:ledger().play, "gained")
   end)
 
-  -- A pendulum without a string: period 2 pi sqrt(R/g) / agm(1, cos(amplitude/2)). After one it is back,
-  -- as exactly as the method is.
+  -- A bead on a circle is a pendulum: period 2 pi sqrt(R/g) / agm(1, cos(amplitude/2)). After one period it
+  -- is back, as exactly as the method allows.
   it("swings on a circle with a pendulum's period", function()
     local R, amplitude = 0.5, math.rad(60)
     local a, b = 1, math.cos(amplitude / 2)
@@ -141,8 +142,8 @@ describe("a slider", function()
     t.near(m * v * v / R + m * G * n[3], f[1] * n[1] + f[3] * n[3], 5e-3 * m * G)
   end)
 
-  -- L = a sinh(0.6/a) gives a; the pull is H = m g a, level, and the end hangs a (cosh(0.6/a) - 1) lower.
-  it("hangs a string's end on a vertical rail as half a catenary", function()
+  -- L = a sinh(0.6/a) gives a. The pull H = m g a is level, and the end hangs a (cosh(0.6/a) - 1) lower.
+  it("lets a string's end hang on a vertical rail as half a catenary", function()
     local scene, wire, slider = hung{ direction = { 0, 0, 1 } }
     assert.is_true(scene:settle().ok)
     local low, high = 0.05, 50
@@ -159,7 +160,7 @@ describe("a slider", function()
   end)
 
   for name, direction in pairs{ tilted = { 1, 0, 1.5 }, level = { 1, 0, 0 }, aside = { 0, 1, 0.3 } } do
-    it("reacts across a rail that is " .. name, function()
+    it("bears force only across a rail that is " .. name, function()
       local scene, _, slider = hung{ direction = direction }
       assert.is_true(scene:settle().ok)
       local f, along = slider:force(), 0
@@ -168,9 +169,9 @@ describe("a slider", function()
     end)
   end
 
-  -- At rest the force along is friction times that across, on its limit after the end has slid.
+  -- After the end has slid and come to rest, the force along the rail is friction times the force across.
   for _, friction in ipairs{ 0.1, 0.5 } do
-    it("comes to rest within the cone of friction " .. friction, function()
+    it("comes to rest at the friction limit, " .. friction, function()
       local scene, _, slider = hung{ direction = { 0, 0, 1 }, friction = friction }
       assert.is_true(scene:settle().ok)
       local f = slider:force()
@@ -186,8 +187,8 @@ describe("a slider", function()
     assert.is_true(math.abs(f[3]) < 2 * math.abs(f[1]))
   end)
 
-  -- a = g (sin - mu cos); below tan(slope) = mu nothing moves at all.
-  it("slides and sticks on a slope as Coulomb has it", function()
+  -- a = g (sin - mu cos); for tan(slope) < mu nothing moves.
+  it("slides and sticks on a slope by Coulomb's law", function()
     local slope = math.rad(30)
     local direction = { math.cos(slope), 0, -math.sin(slope) }
     local scene, wire, slider = bead{ direction = direction, friction = 0.3 }
@@ -208,8 +209,8 @@ describe("a slider", function()
     assert.are.equal(0, speed)
   end)
 
-  -- Thrown by gravity askew for 0.2 s, it then takes v^2 / (2 mu g); the step in which it stops is one of
-  -- implicit Euler, whose place is off by v h at most.
+  -- Slanted gravity accelerates the bead for 0.2 s; friction then stops it within v^2 / (2 mu g). The step
+  -- in which it stops is one of implicit Euler, whose place is off by v h at most.
   it("comes to a stop by friction, and stays", function()
     local scene, _, slider = bead{ direction = { 1, 0, 0 }, friction = 0.3, gravity = { 6, 0, -G } }
     scene:run{ duration = 0.2, dt = 0.005 }
@@ -250,7 +251,7 @@ describe("a slider", function()
     t.near(0, select(2, slider:place()), 1e-6) -- at its lowest point
   end)
 
-  -- The rail is a hold: it follows a motion, and the wire goes along it as the frame has it.
+  -- The rail is a hold: it follows a motion, and takes the wire along.
   it("is carried by its rail", function()
     local scene, wire, slider = bead{ direction = { 1, 0, 0 }, gravity = { 0, 0, 0 } }
     slider:follow{ points = { { 0, 0, 0 }, { 0, 0, 0.1 } }, duration = 0.2, relative = true }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Sliders among other things, and where they are refused.
+-- Sliders together with other features, and where they are refused.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -8,7 +8,7 @@ local beads = require "spec.link.beads"
 local bead, circle = beads.bead, beads.circle
 local G = 9.81
 
--- Raises an error that names these.
+-- Checks that call raises an error with all these words.
 local function refuses(call, ...)
   local fine, message = pcall(call)
   assert.is_false(fine)
@@ -17,7 +17,7 @@ local function refuses(call, ...)
   end
 end
 
-describe("a slider among other things", function()
+describe("a slider with other features", function()
   local function swing(o)
     local scene = sw.scene{ gravity = { 0, 0, -G } }
     local args = { E = 5e6, density = 1200, radius = 0.003, from = { 0, 0, 0 }, to = { 0.6, 0, 0 },
@@ -38,8 +38,8 @@ describe("a slider among other things", function()
 
   local function on_rail(p) t.near(0, 0.2 * (p[1] - 0.3) + p[3], 1e-12, "off the rail") end
 
-  -- Frames do not change a straight wire of one stiffness; another matrix does not either.
-  it("is the same with frames", function()
+  -- Frames change nothing for a straight wire of one stiffness, although the matrix is another one.
+  it("acts the same with frames", function()
     local p, f = swing{}
     local q, g = swing{ wire = { rolls = true } }
     on_rail(p)
@@ -50,8 +50,8 @@ describe("a slider among other things", function()
     end
   end)
 
-  -- It lets the wire turn: a wire twisted by a full turn and a half is twisted on both sides of it.
-  it("is passed by twist, with and without frames", function()
+  -- The slider lets the wire turn: a twist of 3 rad is on both sides of it.
+  it("lets twist pass, with and without frames", function()
     local p, _, run, _, wire = swing{ twist = 3 }
     on_rail(p)
     t.below(2e-2, run:ledger().gap / run:ledger().play, "gap, as without a slider")
@@ -60,7 +60,7 @@ describe("a slider among other things", function()
     on_rail(q)
   end)
 
-  it("goes with joins and with contact, of wires and at obstacles", function()
+  it("works with joins, and with contact of wires and of obstacles", function()
     for _, rolls in ipairs{ false, true } do
       local p, _, run = swing{ wire = { rolls = rolls }, more = function(scene, wire)
         local branch = scene:wire{ E = 5e6, density = 1200, radius = 0.003, from = { 0.2, 0, 0 },
@@ -137,7 +137,7 @@ describe("a slider is refused", function()
     assert.are.equal(0, #sw.core.data(scene).holds)
   end
 
-  it("without a rail, with two, or with one that is none", function()
+  it("without a rail, with two, or with an invalid one", function()
     refuses_args({ s = 0.5 }, "direction", "path")
     refuses_args({ s = 0.5, direction = { 0, 0, 0 } }, "direction")
     refuses_args({ s = 0.5, direction = { 1, 0, 0 }, path = circle(1, 8) }, "path")
@@ -152,7 +152,7 @@ describe("a slider is refused", function()
     refuses_args({ s = 2, direction = { 1, 0, 0 } }, "s = 2")
   end)
 
-  it("on a mesh, where something holds already, and on a wire that is to become a mesh", function()
+  it("on a mesh and at a held place; with it a wire cannot become a mesh", function()
     local scene = sw.scene{}
     local tube = scene:wire{ model = "tube", E = 1e6, density = 1000, radius = 0.01, from = { 0, 0, 0 },
       to = { 0.1, 0, 0 } }
@@ -170,7 +170,7 @@ describe("a slider is refused", function()
     refuses(function() slider:place() end, "released")
   end)
 
-  it("by methods that cannot have it", function()
+  it("by integrators that cannot have it", function()
     local scene = bead{ direction = { 1, 0, 0 } }
     refuses(function() scene:run{ duration = 0.1, integrator = "velocity-verlet" } end, "slider1")
     scene = bead{ direction = { 1, 0, 0 }, friction = 0.1 }

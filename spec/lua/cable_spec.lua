@@ -1,4 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+-- The catalogue of cables, cables of one's own, the bend rule, and wires made from a cable.
 local sw = require "softworld"
 local bendrule = require "softworld.wire.bendrule"
 local stranding = require "softworld.wire.stranding"
@@ -12,7 +13,7 @@ local function near(expected, value, share)
   if not ok then error(("expected %g within %g, got %g"):format(expected, share, value), 2) end
 end
 
--- f raises a text that matches, at a line of this file.
+-- Checks that f raises a text that matches, at a line of this file.
 local function refuses(f, pattern)
   local ok, message = pcall(f)
   if ok then error("expected an error like " .. pattern, 2) end
@@ -21,7 +22,7 @@ local function refuses(f, pattern)
   end
 end
 
--- A complete definition, with other fields; an own name each time.
+-- Returns a complete definition with some other fields and a new name each time.
 local count = 0
 local function own(fields)
   count = count + 1
@@ -33,7 +34,7 @@ local function own(fields)
 end
 
 describe("catalogue", function()
-  it("has entries that are complete and consistent", function()
+  it("has complete and consistent entries", function()
     local names = sw.cables()
     assert.is_true(#names >= 20)
     for _, name in ipairs(names) do
@@ -55,7 +56,7 @@ describe("catalogue", function()
     end
   end)
 
-  it("orders the bounds of EI and GJ wherever the construction is known", function()
+  it("orders the bounds of EI and GJ where the construction is known", function()
     for _, name in ipairs(sw.cables()) do
       local e = sw.cable(name)
       for _, key in ipairs { "EI", "GJ" } do
@@ -69,14 +70,14 @@ describe("catalogue", function()
       if e.construction then
         assert.are.equal(e.EI.slip, e.EI.value)
         near(1.25, e.GJ.value / e.EI.value, 1e-9)
-        -- the stated mass against strands and insulation, bulk density 8930 and 1350 or 1400 kg/m3
+        -- the stated mass against strands and insulation of bulk density 8930 and 1350 or 1400 kg/m3
         near(1, e.mass_per_length.value
           / stranding.compute(e.construction, e.outer_diameter).mass_per_length.value, 0.06)
       end
     end
   end)
 
-  it("has the sizes of the tables", function()
+  it("has the sizes and masses of the tables", function()
     local gxl = { [0.5] = { 2.4, 10.4 }, [1] = { 2.6, 13.4 }, [1.5] = { 3.0, 19.3 }, [2.5] = { 3.5, 28.3 },
       [4] = { 4.1, 38.7 }, [6] = { 4.8, 59.5 }, [10] = { 5.9, 95.2 } }
     for size, row in pairs(gxl) do
@@ -102,7 +103,7 @@ describe("catalogue", function()
     end
   end)
 
-  it("computes EI and GJ of strands by hand's formulas", function()
+  it("computes EI and GJ of strands by the formulas for hand computation", function()
     -- GXL 1.5: 19 strands of 0.286 mm; copper 115 and 43 GPa, XLPE 150 and 50 MPa; 3 mm outside
     local d, Dc, D = 0.286e-3, 0.286e-3 * math.sqrt(19 / 0.75), 3e-3
     local tube = math.pi / 64 * (D ^ 4 - Dc ^ 4)
@@ -110,7 +111,7 @@ describe("catalogue", function()
     near(115e9 * 19 * math.pi / 64 * d ^ 4 + 150e6 * tube, e.EI.slip, 1e-9)
     near(115e9 * 19 * math.pi / 4 * d ^ 2 * Dc ^ 2 / 16 + 150e6 * tube, e.EI.stick, 1e-9)
     near(2 * (43e9 * 19 * math.pi / 64 * d ^ 4 + 50e6 * tube), e.GJ.slip, 1e-9)
-    -- a single strand is a solid wire: there is nothing to slip
+    -- a single strand is a solid wire and has nothing to slip
     local solid = sw.cable.define(own { EI = "none", GJ = "none", EA = "none", mass_per_length = 0.0195,
       construction = { strands = 1, strand_diameter = 1.4e-3, conductor = "copper", insulation = "PVC" } })
     near(solid.EI.stick, solid.EI.slip, 1e-12)
@@ -137,7 +138,7 @@ describe("catalogue", function()
 end)
 
 describe("an entry that a script has written into", function()
-  it("is not used, and says what was written", function()
+  it("is refused, with the field that was written", function()
     local entry = sw.cable "FLRY-B 0.5"
     local EA = entry.EA
     for _, spoil in ipairs{ function() entry.EA = 0.138 end, function() entry.EA = { value = "x" } end } do
@@ -166,14 +167,14 @@ describe("bend rule", function()
     for use, row in pairs(expected) do
       for i, factor in ipairs(row) do assert.are.equal(factor, bendrule.factor(use, diameters[i])) end
     end
-    -- the upper ends belong to their columns
+    -- the upper limits belong to their columns
     assert.are.equal(4, bendrule.factor("fixed", 0.008))
     assert.are.equal(5, bendrule.factor("fixed", 0.012))
     assert.are.equal(9, bendrule.factor("load", 0.020))
     assert.are.equal(#bendrule.uses, 6)
   end)
 
-  it("gives inside and centre line of a cable", function()
+  it("gives the inside and centre-line radius of a cable", function()
     local inside, centre, use = sw.cable "GXL 1.5":bend_limit()
     near(0.012, inside, 1e-12)
     near(0.0135, centre, 1e-12)
@@ -184,7 +185,7 @@ describe("bend rule", function()
 end)
 
 describe("cable.define", function()
-  it("takes an own cable", function()
+  it("takes a cable of one's own", function()
     local e = sw.cable.define(own { EI = { value = 1e-3, low = 5e-4, high = 2e-3, flag = "guessed",
       source = "a neighbour" }, bend = { movement = 7.5, use = "movement" } })
     assert.are.equal(e, sw.cable(e.name))
@@ -197,7 +198,7 @@ describe("cable.define", function()
     assert.is_true(#tostring(e) > 200)
   end)
 
-  it("computes what is missing from the construction", function()
+  it("computes missing values from the construction", function()
     local e = sw.cable.define(own { EA = "none", EI = "none", GJ = "none", mass_per_length = "none",
       friction = "none", outer_diameter = 3.4e-3,
       construction = { strands = 30, strand_diameter = 0.25e-3, conductor = "copper", insulation = "PUR" } })
@@ -261,13 +262,13 @@ describe("cable.define", function()
     end)
   end
 
-  it("refuses what has no name", function()
+  it("refuses a definition without a name", function()
     refuses(function() sw.cable.define(own { name = "none" }) end, "name is missing")
     refuses(function() sw.cable.define "GXL" end, "takes one table")
   end)
 end)
 
--- The sag of 1 m between pins 0.95 m apart [m].
+-- Sag of 1 m of cable between pins 0.95 m apart [m].
 local function sag(args)
   local scene = sw.scene {}
   args.from, args.to, args.segments = { 0, 0, 0 }, { 1, 0, 0 }, 60
@@ -282,7 +283,7 @@ local function sag(args)
   return -wire:position(0.5)[3]
 end
 
--- The droop of a cantilever of 0.3 m [m].
+-- Droop of a cantilever of 0.3 m [m].
 local function droop(args)
   local scene = sw.scene {}
   args.from, args.to = { 0, 0, 0 }, { 0.3, 0, 0 }
@@ -294,7 +295,7 @@ local function droop(args)
 end
 
 describe("scene:wire{ cable = }", function()
-  it("takes the entry's section, explicit parameters override", function()
+  it("takes the entry's section; explicit parameters override it", function()
     local scene, e = sw.scene {}, sw.cable "GXL 1.5"
     local line = { from = { 0, 0, 0 }, to = { 1, 0, 0 } }
     local function wire(more)
@@ -311,11 +312,11 @@ describe("scene:wire{ cable = }", function()
     assert.are.equal(2e-3, w.beam.EI)
     assert.are.equal(e.GJ.stick, w.beam.GJ)
     assert.are.equal(0.002, w.radius)
-    near(0.018, w:bend_limit().limit, 1e-12) -- of the wire's own diameter: (4 + 0.5) * 4 mm
+    near(0.018, w:bend_limit().limit, 1e-12) -- for the wire's own diameter: (4 + 0.5) * 4 mm
     assert.is_nil(wire { radius = 0.001, E = 1e8, density = 1000 }:cable())
   end)
 
-  it("tells what is wrong", function()
+  it("names what is wrong", function()
     local scene = sw.scene {}
     local wrong = {
       { { cable = "GXL 1,5" }, "did you mean 'GXL 1.5'?" },
@@ -334,17 +335,17 @@ describe("scene:wire{ cable = }", function()
     end
   end)
 
-  it("hangs between the sags of its two bounds", function()
+  it("has a sag between those of its two stiffness bounds", function()
     local e = sw.cable "GXL 1.5"
     local slip, stick = sag { cable = e, stiffness = "slip" }, sag { cable = e, stiffness = "stick" }
     local middle = sag { cable = e, EI = math.sqrt(e.EI.slip * e.EI.stick) }
     local usual = sag { cable = e }
-    -- at this length the stiffer one sags more: 137.5 mm and 139.7 mm, the catenary 135.9 mm
+    -- the stiffer cable sags more at this length: 137.5 mm and 139.7 mm, the catenary 135.9 mm
     assert.is_true(slip < middle and middle < stick)
     assert.is_true(slip <= usual and usual < stick)
   end)
 
-  it("droops like a beam of its EI", function()
+  it("droops like a beam with its EI", function()
     local e = sw.cable "GXL 1.5"
     -- w L^4 / (8 EI) [m] holds for the stuck strands: 1.0 cm in 0.3 m
     near(e.mass_per_length.value * 9.81 * 0.3 ^ 4 / (8 * e.EI.stick),
@@ -352,7 +353,7 @@ describe("scene:wire{ cable = }", function()
     assert.is_true(droop { cable = e } > 5 * droop { cable = e, stiffness = "stick" })
   end)
 
-  it("judges the smallest bend radius", function()
+  it("compares the smallest bend radius with the limit", function()
     local scene = sw.scene { gravity = { 0, 0, 0 } }
     -- an arc of radius 20 mm as it lies
     local path = {}

@@ -1,4 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+-- CSV files: reading, writing, and trajectories from them.
 local csv = require "softworld.csv"
 local trajectory = require "softworld.trajectory"
 
@@ -28,7 +29,7 @@ describe("csv.read", function()
     end
   end)
 
-  it("says where and what is wrong", function()
+  it("names the place and the fault", function()
     local path = file_with "t,x\n0,1\n1, abc\n"
     assert.are.equal(path
       .. ":3:4: 'abc' in column 'x' is not a number; expected a number with a decimal point",
@@ -60,7 +61,7 @@ describe("csv.write", function()
     assert.are.same(columns, data.columns)
   end)
 
-  it("says why it cannot, and leaves nothing", function()
+  it("names the reason of a failure, and leaves no file", function()
     assert.matches("cannot write /nowhere/a.csv", message(csv.write, "/nowhere/a.csv", { "a" }, { a = {
       1 } }))
     assert.matches("no column 'b'", message(csv.write, "/tmp/never.csv", { "b" }, { a = { 1 } }))
@@ -73,7 +74,7 @@ describe("a trajectory from a CSV file", function()
     return m:position(m:starts()), m:position(m:ends())
   end
 
-  it("knows units, scale and files without names", function()
+  it("understands units, a scale and files without column names", function()
     for _, case in ipairs { { "x_mm,y_mm,z\n0,0,0\n300,0,0.1\n" }, {
       "X [mm];y [mm];z [m]\n0;0;0\n300;0;0.1\n" },
       { "x,y,z\n0,0,0\n300,0,100\n", 1e-3 }, { "0\t0\t0\n0.3\t0\t0.1\n" }, { "x_cm,y,z_m\n0,0,0\n30,0,0.1\n",
@@ -94,7 +95,7 @@ describe("a trajectory from a CSV file", function()
     assert.is_true(math.abs(math.abs(m:angular_velocity(0.5)[3]) - math.pi) < 1e-12)
   end)
 
-  it("says where and what is wrong", function()
+  it("names the place and the fault", function()
     local function wrong(text, scale)
       return message(trajectory.new, { path = text, speed = 1, scale = scale })
     end
@@ -118,7 +119,7 @@ describe("a trajectory from a CSV file", function()
       message(trajectory.new, { path = 3, speed = 1 }))
   end)
 
-  it("comes back from a file it was saved to", function()
+  it("comes back from the file that it was saved to", function()
     local path = file_with ""
     local m = trajectory { path = { { 0, 0, 0 }, { 1, 2, 3 } }, turn = { axis = { 1, 1, 0 }, angle = 2 },
       duration = 2 }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Asking for error bars: names, answers, refusals, and a scene that is never left half done.
+-- Error bars: names of quantities, answers, refusals; a scene is never left half done.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local program = require "spec.host.program"
@@ -14,7 +14,7 @@ local function state(scene, wire)
 end
 
 describe("an equilibrium with error bars", function()
-  it("answers with value, error, unit, and is at its finest mesh", function()
+  it("gives value, error and unit, and leaves the scene at its finest mesh", function()
     local scene, wire, clamp = make()
     local r = t.fine(scene:settle{ tolerance = { tip = 1e-4, ["clamp1.moment"] = 1e-3, max_tension = 0.01,
       { name = "sag", value = 1e-4, unit = "m", of = function() return -wire:position(0.5)[3] end } } })
@@ -38,7 +38,7 @@ describe("an equilibrium with error bars", function()
     assert.matches("tip = %(0%.", tostring(r))
   end)
 
-  it("says what it could not reach, and what it would need", function()
+  it("names the tolerances that it missed, and the levels that they need", function()
     local scene = make()
     local r = t.fine(scene:settle{ tolerance = { tip = 1e-6 }, levels = 4 })
     assert.is_false(r.met)
@@ -52,7 +52,7 @@ describe("an equilibrium with error bars", function()
     assert.is_true(better.met, better.advice)
     assert.is_nil(tostring(better):find("NOT met", 1, true))
     assert.matches("^settled on %d levels, 1 of 1 tolerances NOT met: tip\n", tostring(r))
-    -- far out of reach: not worth the finer levels
+    -- far out of reach: finer levels are not computed
     scene = make()
     local hopeless = t.fine(scene:settle{ tolerance = { tip = 1e-14 } })
     assert.is_false(hopeless.met)
@@ -60,7 +60,7 @@ describe("an equilibrium with error bars", function()
     assert.matches("needs more than levels = 12: ask for less", hopeless.advice)
   end)
 
-  it("has all the quantities that objects have", function()
+  it("knows every quantity of the objects", function()
     local scene, wire = make()
     scene:obstacle{ shape = "plane", at = { 0, 0, -0.3 }, friction = 0.3, name = "table" }
     local left = scene:gripper{ name = "left" }
@@ -77,7 +77,7 @@ describe("an equilibrium with error bars", function()
     assert.are.equal(41, #r.quantities.position.value)
   end)
 
-  it("tells its progress when asked", function()
+  it("writes its progress when asked", function()
     local script = [[
       local scene = require "softworld".scene { name = "mine" }
       scene:clamp(scene:wire { E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 },
@@ -94,7 +94,7 @@ describe("an equilibrium with error bars", function()
     assert.has_error(function() make():settle{ tolerance = { tip = 1 }, progress = 3 } end)
   end)
 
-  it("takes wires that touch each other for contact", function()
+  it("covers wires that touch each other", function()
     local scene = sw.scene{}
     local lower = scene:wire{ name = "lower", EA = 1e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.002,
       from = { -0.2, 0, 0 }, to = { 0.2, 0, 0 }, segments = 24 }
@@ -110,7 +110,7 @@ describe("an equilibrium with error bars", function()
     assert.is_true(r.quantities["lower.max_tension"].value > 0.5)
   end)
 
-  it("refuses to give numbers where there is no equilibrium", function()
+  it("gives no numbers where there is no equilibrium", function()
     local scene, wire = make()
     local clamp_free = sw.scene{}
     local loose = clamp_free:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 0 },
@@ -130,7 +130,7 @@ describe("an equilibrium with error bars", function()
 end)
 
 describe("a run with error bars", function()
-  it("is its finest level: a plain run with that mesh and step, bit by bit", function()
+  it("ends like a plain run with the finest mesh and step, bit for bit", function()
     local function build_scene(segments)
       local scene, wire = make(segments)
       local left, log = scene:gripper{ name = "left" }, {}
@@ -159,7 +159,7 @@ describe("a run with error bars", function()
     assert.is_true(#r:series().time > 10 and #r:frames() > 5)
   end)
 
-  it("reads quantities at times of their own", function()
+  it("reads quantities at their own times", function()
     local scene, wire = make(24)
     local seen = {}
     local function tip() return wire:position(1) end
@@ -185,7 +185,7 @@ describe("a run with error bars", function()
     local r = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
     for _, v in ipairs(wire:velocities()) do t.below(1e-6, math.abs(v), "speed") end
     assert.is_true(#r.levels >= 3)
-    -- but not what was only just let go
+    -- a wire that was just released must move
     local pin_scene, pin_wire = make(24)
     local pin = pin_scene:pin(pin_wire, { s = 1 })
     t.fine(pin_scene:settle())
@@ -194,7 +194,7 @@ describe("a run with error bars", function()
     t.above(0.1, t.norm(pin_wire:velocity(1)), "speed of the end")
   end)
 
-  it("leaves out a level that fails, and refuses when the finest one does", function()
+  it("leaves out a level that fails, and fails when the finest one does", function()
     local function with_limit(low, high)
       local scene, wire = make(24)
       scene:force{ on = wire, kind = function(_, x, _, f)
@@ -227,9 +227,10 @@ describe("a run with error bars", function()
     assert.are.same(before, state(scene, wire))
   end)
 
-  -- Over a peg with 4 times as much on one side, held by a friction that bears exp(0.2 pi) = 1.9 times: long
-  -- edges catch on the many small faces that stand for it, and shorter ones find no equilibrium.
-  it("is a run that failed where its levels have no equilibrium to begin with", function()
+  -- A wire over a peg, 4 times as long on one side as on the other; friction bears only exp(0.2 pi) = 1.9
+  -- times. Long edges catch on the many small faces that stand for the peg; shorter edges find no
+  -- equilibrium.
+  it("fails where its levels have no equilibrium to begin with", function()
     local scene, points = sw.scene{ name = "slides" }, {}
     for i = 1, 24 do
       local x, z = 0.01 * math.cos(i * math.pi / 12), 0.01 * math.sin(i * math.pi / 12)
@@ -294,7 +295,7 @@ describe("a run with error bars", function()
     assert.is_nil(earlier.quantities)
   end)
 
-  it("goes on from there, again with error bars", function()
+  it("can be followed by another run with error bars", function()
     local scene, wire = make(12)
     local first = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })
     local second = t.fine(scene:run{ duration = 0.1, tolerance = { tip = 1e-3 } })

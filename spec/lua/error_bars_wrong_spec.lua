@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Error bars: errors on the way, wrong requests, memory.
+-- Error bars: errors during the computation, wrong requests, memory.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -14,7 +14,7 @@ local function state(scene, wire)
 end
 
 describe("an error in a computation with error bars", function()
-  -- The scene after it is the scene before it: it runs to the same bits as one never asked.
+  -- After the error the scene is as before: it runs to the same bits as a scene that was never asked.
   local function check(disturb, message)
     local function build_scene()
       local scene, wire, clamp = make(16)
@@ -48,7 +48,7 @@ describe("an error in a computation with error bars", function()
     assert.is_true(live > 0)
   end
 
-  it("of a quantity leaves everything as it was", function()
+  it("in a quantity's function leaves everything as it was", function()
     local mine = {}
     for level = 1, 3 do
       check(function(scene)
@@ -62,7 +62,7 @@ describe("an error in a computation with error bars", function()
     end
   end)
 
-  it("of a quantity that is none leaves everything as it was", function()
+  it("about a quantity that is no number leaves everything as it was", function()
     for value, text in pairs{ [0 / 1] = false, [{}] = "table", [{ "a" }] = "table", x = "string" } do
       if text then
         check(function(scene)
@@ -75,27 +75,27 @@ describe("an error in a computation with error bars", function()
     end, "got %-?nan")
   end)
 
-  it("of a list that changes its length with the mesh leaves everything as it was", function()
+  it("about a list whose length changes with the mesh leaves everything as it was", function()
     check(function(scene, wire)
       scene:run{ tolerance = { { name = "all", value = 1, of = function() return wire:positions() end } } }
     end, "quantity 'all': its list is not as long on every mesh")
   end)
 
-  it("of a process leaves everything as it was", function()
+  it("in a process leaves everything as it was", function()
     check(function(scene, _, calls)
       calls.fail, calls.message = 2, "broken"
       scene:run{ tolerance = { tip = 1e-3 } }
     end, "broken")
   end)
 
-  it("of settling leaves everything as it was", function()
+  it("in settling leaves everything as it was", function()
     check(function(scene)
       scene:settle{ tolerance = { { name = "q", value = 1, of = function() error "no" end } } }
     end, "no")
   end)
 end)
 
-describe("asking for error bars wrongly", function()
+describe("a wrong request for error bars", function()
   local function refused(method, args, ...)
     local scene, wire = make()
     local before = state(scene, wire)
@@ -109,7 +109,7 @@ describe("asking for error bars wrongly", function()
 
   local function value() return 1 end
 
-  it("is told with names, values, units and the nearest word", function()
+  it("is refused with names, values, units and the nearest word", function()
     for _, method in ipairs{ "settle", "run" } do
       local what = "scene:" .. method .. ": tolerance"
       local function bad(tolerance, ...) refused(method, { tolerance = tolerance, duration =
@@ -149,14 +149,14 @@ describe("asking for error bars wrongly", function()
     refused("run", { tolerance = { peak_force = 1 }, duration = 0.1 }, "no quantity 'peak_force'")
   end)
 
-  it("names the line that asked", function()
+  it("is refused with the line of the script", function()
     local scene = make()
     local ok, message = pcall(function() return scene:settle{ tolerance = { tipp = 1 } } end)
     assert.is_false(ok)
     assert.matches("error_bars_wrong_spec.lua:%d+: scene:settle: tolerance: there is no", message)
   end)
 
-  it("tells which of several is meant", function()
+  it("is refused with the candidates where a name is ambiguous", function()
     local scene, wire = make()
     scene:pin(wire, { s = 1 })
     local ok, message = pcall(scene.settle, scene, { tolerance = { force = 1 } })
@@ -165,7 +165,7 @@ describe("asking for error bars wrongly", function()
     assert.is_true(scene:settle{ tolerance = { ["clamp1.force"] = 1 } }.ok)
   end)
 
-  it("is refused while processes are under way, and inside of them", function()
+  it("is refused while processes are under way, and inside them", function()
     local scene = make()
     local inner
     scene:process(function(p)
@@ -182,7 +182,7 @@ describe("asking for error bars wrongly", function()
     assert.is_true(scene:run{ duration = 0.05, tolerance = { tip = 1e-2 } }.ok)
   end)
 
-  it("cannot repeat what makes wires", function()
+  it("is refused where a process makes wires", function()
     local scene, wire = make()
     scene:process(function(p)
       scene:wire{ EA = 1, EI = 1, mass_per_length = 1, radius = 0.1, from = { 0, 0, 1 }, to = { 1, 0, 1 },
@@ -195,11 +195,11 @@ describe("asking for error bars wrongly", function()
     assert.are.equal(1, wire.length)
   end)
 
-  it("needs a wire", function()
+  it("is refused without a wire", function()
     assert.has_error(function() sw.scene{}:settle{ tolerance = { energy = 1 } } end)
   end)
 
-  it("leaves a number what it was: the error of one step", function()
+  it("is not meant by a plain number, which is the error of one step", function()
     local scene = make()
     local r = t.fine(scene:run{ duration = 0.05, tolerance = 1e-5 })
     assert.is_nil(r.quantities)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The error bar of given values of levels.
+-- The error bar computed from the values on the levels.
 package.path = "./?.lua;" .. package.path
 local estimate = require "softworld.run.estimate"
 local t = require "spec.physics.tools"
@@ -7,7 +7,7 @@ local t = require "spec.physics.tools"
 describe("the estimate", function()
   local plain, smooth = { plain = true }, {}
 
-  it("is within 1.5 of a second-order error, and covers a first-order one", function()
+  it("is 1.5 times the true error, for second and for first order", function()
     for _, order in ipairs{ 1, 2 } do
       for n = 3, 6 do
         local values = {}
@@ -20,7 +20,7 @@ describe("the estimate", function()
     t.near(1.5, estimate.bar(plain, { 5.25, 5.125 }, false) / 0.125, 0.01, "two levels, first order")
   end)
 
-  it("is no less than all of what vanishes", function()
+  it("is at least the whole value of a quantity that vanishes", function()
     local depth = { plain = true, row = true, vanishes = true }
     assert.equal(2e-6, estimate.bar(depth, { 3e-6, 2.1e-6, 2e-6 }, true))
     assert.equal(2e-6, estimate.bar(depth, { 2e-6, 2e-6 }, true))
@@ -35,15 +35,16 @@ describe("the estimate", function()
     end
   end)
 
-  it("takes what jumps about for what it is", function()
+  it("is wide for values that jump", function()
     local values = { 1, 1.1, 1.6, 1.65 }
     assert.is_true(estimate.bar(plain, values, true) >= 0.5)
     assert.is_true(estimate.bar(smooth, { 1, 1.2, 1.1 }, false) >= 0.1)
     assert.is_true(estimate.bar(smooth, { { 1, 0 }, { 1, 1 }, { 0, 1 } }, false) >= 1)
   end)
 
-  -- Changes on the levels that a bar knows, over the true error of the last, as finer ones found it.
-  it("of a motion does not take three coarse levels, or four that differ by chance, for an order", function()
+  -- Changes between the levels that a bar uses, over the true error of the last level, which finer levels
+  -- gave.
+  it("of a motion covers the error where three coarse levels, or four by chance, look convergent", function()
     for _, case in ipairs{ { smooth, false, 3.8, 0.028 }, { smooth, false, 1.1, -0.49 },
       { plain, false, 2.2, 0.46 }, { plain, false, 27, 4.1, 1.1 }, { plain, true, 1.4, 0.32 },
       { plain, true, 7.7, 1.3, 0.48 },
@@ -59,8 +60,8 @@ describe("the estimate", function()
     assert.are.equal(estimate.bar(plain, orderly, false), estimate.bar(plain, orderly, false, true))
   end)
 
-  -- Sidewall pressure of a blow in a first pass of levels; on finer ones it went on to 8 and 12.
-  it("leaves a verdict room where three levels tell of changes that grow, or hardly shrink", function()
+  -- Sidewall pressure of a blow in a first pass of levels; on finer levels it rose to 8 and 12.
+  it("leaves room where the changes over three levels grow or hardly shrink", function()
     for _, values in ipairs{ { 1.346, 1.476, 1.968 }, { 3.365, 5.241, 7.042 } } do
       local last = values[3] - values[2]
       for _, contact in ipairs{ false, true } do
@@ -71,7 +72,7 @@ describe("the estimate", function()
     assert.is_near(1.5 * 0.25, estimate.bar({ row = true, plain = true }, halved, true), 1e-12)
   end)
 
-  it("has no bar for a single level, and none of nothing", function()
+  it("is infinite for a single level, positive for equal values, zero for infinite ones", function()
     assert.are.equal(math.huge, (estimate.bar(smooth, { 1 }, false)))
     assert.is_true(estimate.bar(smooth, { 1, 1, 1 }, false) > 0)
     local straight = { math.huge, math.huge, math.huge } -- its bend radius

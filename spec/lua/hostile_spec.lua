@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Keys and values that cannot say what they are, objects in the place of tables of parameters, and
--- fields of objects that a script tries to overwrite: each gives an error that tells, at the line
--- of the script.
+-- Keys and values whose __tostring fails, objects instead of parameter tables, and writes to fields of
+-- objects: each gives a clear error at the script's line.
 local sw = require "softworld"
 
 local function raises() error("__tostring was called", 0) end
@@ -26,7 +25,7 @@ local function built()
   return o
 end
 
--- The error of f, which is a text at this file and no raw one.
+-- Checks that f raises a text without raw Lua errors and places in the library; returns the text.
 local function told(label, f, ...)
   local fine, message = pcall(f, ...)
   assert.is_false(fine, label)
@@ -37,9 +36,9 @@ local function told(label, f, ...)
   return message
 end
 
-describe("a key that cannot say what it is", function()
+describe("a key whose __tostring fails", function()
   for _, key in ipairs{ dumb, wrong } do
-    it("is told when read from any object", function()
+    it("is refused when read from any object", function()
       local o = built()
       for name, object in pairs(o) do
         if name ~= "ledger" and name ~= "cable" then -- plain tables: nil
@@ -48,14 +47,14 @@ describe("a key that cannot say what it is", function()
       end
     end)
 
-    it("is told when set on any object", function()
+    it("is refused when set on any object", function()
       local o = built()
       for _, name in ipairs{ "gripper", "clip", "channel", "tie", "process", "scene", "wire", "clamp" } do
         told(name, function() o[name][key] = 1 end)
       end
     end)
 
-    it("is told among parameters and as one", function()
+    it("is refused as the name of a parameter and as its value", function()
       local o = built()
       local s, w = o.scene, o.wire
       local calls = {
@@ -88,8 +87,8 @@ describe("a key that cannot say what it is", function()
   end
 end)
 
-describe("an object in the place of a table of parameters", function()
-  it("is told as what it is", function()
+describe("an object instead of a parameter table", function()
+  it("is named by its kind", function()
     local o = built()
     local s = o.scene
     local message = told("arm", function() s:gripper{ arm = o.process } end)
@@ -105,7 +104,7 @@ describe("an object in the place of a table of parameters", function()
     assert.truthy(message:find("got clip", 1, true), message)
   end)
 
-  it("does not make up parameters by metamethods", function()
+  it("cannot invent parameters by metamethods", function()
     local s = built().scene
     local made_up = setmetatable({}, { __index = function(_, key) return key end })
     local message = told("run", function() s:run(made_up) end)
@@ -130,7 +129,7 @@ describe("fields of objects", function()
     end)
   end
 
-  it("of a gripper that scripts may set are checked", function()
+  it("of a gripper are checked where scripts may set them", function()
     local g = built().gripper
     g.slip_tolerance, g.on_slip, g.on_crash = 0.01, "stop", print
     assert.equal(0.01, g.slip_tolerance)
@@ -176,7 +175,7 @@ describe("a gripper that two processes use", function()
   end
 
   for _, approach in ipairs{ "plates", "mixed" } do
-    it("may be let go by either: " .. approach, function()
+    it("may be released by either: " .. approach, function()
       local g, results = shared(approach, function(g) g:release{ speed = 0.1 } end)
       for _, result in ipairs(results) do
         assert.is_true(result[1] or type(result[2]) == "string"
@@ -196,7 +195,7 @@ describe("a stream for the summary", function()
 end)
 
 describe("numbers of the core's own functions", function()
-  it("that are not whole are told as what they are", function()
+  it("are refused where they must be whole", function()
     local probe = require "softworld.probe"
     assert.truthy(told("sparse", probe.sparse, 0.5):find("must be an integer", 1, true))
     assert.truthy(told("blocks_time", probe.blocks_time, 1.5, 1, 1):find("must be an integer", 1, true))

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every method of every object with wrong arguments, and called on what it is not of: an error that
--- names the call, and none of Lua's own from inside of the library.
+-- Every method of every object, called with wrong arguments and on a wrong object: the error names the
+-- call, and is no raw Lua error from inside the library.
 local sw = require "softworld"
 local core = sw.core
 
@@ -47,7 +47,7 @@ local function methods_of(object)
   return found, names
 end
 
--- An error of Lua itself, or one that names a place in the library first.
+-- Checks that an error is no raw one of Lua, and long enough to say something.
 local function check(label, ok, message)
   if ok then return end
   message = tostring(message)
@@ -66,7 +66,7 @@ describe("methods", function()
   before_each(function() print, io.write = function() end, function() end end) -- luacheck: ignore
   after_each(function() print, io.write = quiet, write end) -- luacheck: ignore
 
-  -- some of the wrong arguments are good names of files
+  -- some of the wrong arguments are valid names of files
   local files, there = { "a", "text", "x" }, {}
   setup(function()
     for _, name in ipairs(files) do
@@ -117,7 +117,7 @@ describe("methods", function()
     end)
   end
 
-  it("that were found wanting say what is wrong", function()
+  it("give clear messages in cases that once did not", function()
     local objects = zoo()
     local function says(text, f, ...)
       local ok, message = pcall(f, ...)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wrong values: the message has the object, the parameter, the value as it was written, what is allowed,
--- and the script's line.
+-- Wrong values: the message names the object, the parameter, the value as written, what is allowed, and the
+-- script's line.
 local sw = require "softworld"
 
 local HERE = debug.getinfo(1, "S").short_src

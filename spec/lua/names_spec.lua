@@ -51,7 +51,7 @@ describe("a misspelt key of", function()
   }
 end)
 
-describe("what is no option:", function()
+describe("an invalid option:", function()
   check{
     ["a word for a camera"] = { function() run:pictures{ path = path, camera = "front" } end, "'auto'" },
     ["an angle of a camera that is none"] = { function()
@@ -88,7 +88,7 @@ describe("an unknown", function()
   }
 end)
 
-it("what a run may lack reads as nil", function()
+it("results that a run may lack read as nil", function()
   for _, key in ipairs{ "quantities", "met", "advice", "levels", "last_jump" } do
     assert.is_nil(run[key])
   end
@@ -110,7 +110,7 @@ describe("within a process", function()
       :find("did you mean 'timeout'?", 1, true))
   end)
 
-  it("p.time is the scene's", function()
+  it("p.time is the scene's time", function()
     local s, seen = sw.scene{}, nil
     s:process(function(p)
       p:wait(0.25)

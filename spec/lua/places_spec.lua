@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Errors have the line of the script that called, whatever part of the library raises them, and
--- leave nothing half made.
+-- Errors have the line of the calling script, whatever part of the library raises them, and leave nothing
+-- half made.
 local sw = require "softworld"
 
 local function world()
@@ -68,7 +68,7 @@ describe("an error", function()
     end)
   end
 
-  it("in a condition has the place of the process that waits", function()
+  it("in a condition has the place of the waiting process", function()
     local other, _, hand = world()
     local line, message
     other:process(function(p)
@@ -81,7 +81,7 @@ describe("an error", function()
     assert.is_truthy(message:find("places_spec.lua:" .. line .. ": ", 1, true), message)
   end)
 
-  it("of the script's own stays as it is", function()
+  it("of the script itself stays as it is", function()
     local other, w = world()
     other:force{ kind = function() error("my own", 0) end, on = w }
     for _, call in ipairs{ function() other:settle() end, function() other:run{ duration = 0.1 } end } do
@@ -91,7 +91,7 @@ describe("an error", function()
     end
   end)
 
-  it("of a run without steps tells that the scene diverged before", function()
+  it("of a run without steps says that the scene diverged before", function()
     local other, w = world()
     local clamp = other:clamp(w, { s = 0 })
     other:clamp(w, { s = 0.25 })
@@ -103,7 +103,7 @@ describe("an error", function()
     assert.is_truthy(message:find "places_spec.lua:%d+: .*the last run diverged", message)
   end)
 
-  it("of tables that are something else, or never end, says what is wanted", function()
+  it("names what is wanted instead of another object or an endless table", function()
     local other, w = world()
     local process = other:process(function() end)
     local endless = setmetatable({}, { __index = function(_, key) return key end })
@@ -135,7 +135,7 @@ describe("an error", function()
     end
   end)
 
-  it("of a channel leaves no part of it, nor its name", function()
+  it("in a channel leaves no part of it, and its name free", function()
     local other = sw.scene{}
     local args = { name = "c", width = 0.02, depth = 0.02, points = { { 0, 0, 0 }, { 0.2, 0, 0 }, { 1e9,
       0.1, 0 } } }

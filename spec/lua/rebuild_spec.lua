@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- scene:script gives the Lua that builds a scene again with the same bits; scene:describe what it is made of.
+-- scene:script gives Lua code that builds a scene again with the same bits; scene:describe says what it is
+-- made of.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local samples = require "contract.samples"
@@ -86,7 +87,7 @@ describe("scene:script", function()
     same(scene)
   end)
 
-  it("writes more objects than a function has locals", function()
+  it("writes more objects than a function may have locals", function()
     local scene = sw.scene{}
     for i = 1, 230 do
       local wire = scene:wire{ E = 1e8, density = 1500, radius = 0.003, segments = 3,
@@ -96,7 +97,7 @@ describe("scene:script", function()
     same(scene)
   end)
 
-  it("has the arguments as they were, not what became of the tables", function()
+  it("keeps the arguments as they were given", function()
     local scene, wire = hung()
     local args = { s = 0, direction = { 1, 0, 0 } }
     scene:clamp(wire, args)
@@ -104,7 +105,7 @@ describe("scene:script", function()
     same(scene)
   end)
 
-  it("forgets what failed and what a snapshot takes back", function()
+  it("leaves out calls that failed, and what a snapshot takes back", function()
     local scene, wire = hung()
     local before = scene:script()
     assert.is_false(pcall(scene.clamp, scene, wire, { s = 7 }))
@@ -115,7 +116,7 @@ describe("scene:script", function()
     assert.equal(before, scene:script())
   end)
 
-  it("tells what came after the first step, and does not do it", function()
+  it("lists later calls as comments only", function()
     local scene, wire = hung()
     local clamp = scene:clamp(wire, { s = 0 })
     scene:run{ duration = 0.002, dt = 1e-3 }
@@ -144,7 +145,7 @@ describe("scene:script", function()
     assert.is_false(pcall(scene.script, scene))
   end)
 
-  it("refuses a scene from a file by name", function()
+  it("refuses a scene from a file, naming it", function()
     local scene = hung()
     local file = program.folder() .. "/scene.sws"
     scene:save(file)
@@ -172,7 +173,7 @@ describe("scene:describe", function()
     end
   end
 
-  it("is plain, and tells what was given and what is", function()
+  it("gives plain tables of what was given and what is now", function()
     local scene, wire = hung()
     local floor = scene:obstacle{ name = "floor", shape = "plane", friction = 0.2 }
     scene:clamp(wire, { s = 0 })
@@ -190,7 +191,7 @@ describe("scene:describe", function()
     assert.same({ "hand", "tie1" }, { d.grippers[1].name, d.fixings[1].name })
   end)
 
-  it("leaves the bits of a run as they are", function()
+  it("changes no bit of a run, nor does scene:script", function()
     local function laid(look)
       local scene, wire = hung()
       scene:obstacle{ shape = "plane" }
@@ -206,7 +207,7 @@ describe("scene:describe", function()
 end)
 
 describe("tables that contain themselves", function()
-  it("are copied, described, and refused by name", function()
+  it("are refused as arguments", function()
     local scene, wire = hung()
     local args = { s = 0 }
     for i = 1, 8 do args[i] = args end
@@ -219,7 +220,7 @@ describe("tables that contain themselves", function()
 end)
 
 describe("errors of calls that are recorded", function()
-  it("stand at the script's line, whoever raises them", function()
+  it("have the script's line, whoever raises them", function()
     local scene, wire = hung()
     local pin = scene:pin(wire, { s = 0.1 })
     scene:force{ kind = "damping", mass = 1 }

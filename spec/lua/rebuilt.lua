@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs a script up to the first step of its first scene, builds the scene again from scene:script, and
--- goes on three steps with both: softworld rebuilt.lua SCRIPT [arguments]
+-- Runs a script up to the first step of its first scene, builds the scene again from scene:script, and runs
+-- both for three steps: softworld rebuilt.lua SCRIPT [arguments]
 local sw = require "softworld"
 local core = sw.core
 
@@ -9,7 +9,7 @@ rawset(arg, 0, file)
 local run = core.class.scene.run
 local last
 
--- Places and speeds of all, with their bits.
+-- Positions and velocities of all wires and particles, with their bits.
 local function state(scene)
   local made = run(scene, { duration = 0.003, dt = 0.001 })
   local values = { made.ok, scene.time }
@@ -44,7 +44,7 @@ sw.scene = function(args)
   return last
 end
 local study = sw.study
-sw.study = function(args) -- its scenes are to be those of this process
+sw.study = function(args) -- so that its scenes are made in this process
   args.workers = 0
   return study(args)
 end

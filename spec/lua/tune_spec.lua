@@ -1,11 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+-- sw.tune.minimise: minima of functions of one and of several numbers.
 local core = require "softworld.core"
 local sw = require "softworld"
 local program = require "host.program"
 local minimise = sw.tune.minimise
 
 describe("tune.minimise", function()
-  it("finds known minima of one number", function()
+  it("finds known minima of functions of one number", function()
     -- (x - 1/3)^2 + 2: Brent knows x to about sqrt(epsilon).
     local r = minimise { f = function(x) return (x - 1 / 3) ^ 2 + 2 end, from = -1, to = 4 }
     assert.is_true(r.ok, r.reason)
@@ -27,7 +28,7 @@ describe("tune.minimise", function()
     assert.is_true(r.x < 0)
   end)
 
-  it("finds known minima of several numbers", function()
+  it("finds known minima of functions of several numbers", function()
     local r = minimise { start = { -1.2, 1 }, max_iterations = 500,
       f = function(x) return 100 * (x[2] - x[1] ^ 2) ^ 2 + (1 - x[1]) ^ 2 end }
     assert.is_true(r.ok, r.reason)
@@ -39,7 +40,7 @@ describe("tune.minimise", function()
     for i, expected in ipairs { 1, -1, 2 } do assert.is_true(math.abs(r.x[i] - expected) < 1e-6) end
   end)
 
-  it("counts what it does", function()
+  it("counts iterations and evaluations", function()
     local calls = 0
     local r = minimise { from = 0, to = 1, f = function(x)
       calls = calls + 1
@@ -54,7 +55,7 @@ describe("tune.minimise", function()
     assert.are.equal("iterations used up", r.reason)
   end)
 
-  it("tells a minimum at an end of the interval", function()
+  it("reports a minimum at an end of the interval", function()
     local r = minimise { f = function(x) return x end, from = -1, to = 4 }
     assert.is_false(r.ok)
     assert.are.equal(-1, r.x)
@@ -62,7 +63,7 @@ describe("tune.minimise", function()
     assert.is_false(minimise { f = function() return 1 end, from = 0, to = 1 }.ok) -- constant
   end)
 
-  it("leads the search away from values that are not finite", function()
+  it("keeps the search away from values that are not finite", function()
     local r = minimise { from = -2, to = 5, f = function(x)
       if x < 0 then return 0 / 0 end
       return (x - 1) ^ 2
@@ -103,7 +104,7 @@ describe("tune.minimise", function()
     assert.is_true(math.abs(r.x - 1) < 1e-5)
   end)
 
-  it("refuses wrong arguments by name", function()
+  it("refuses wrong arguments, naming them", function()
     local function f(x) return x end
     for pattern, args in pairs {
       ["f is required"] = { from = 0, to = 1 },

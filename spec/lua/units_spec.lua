@@ -1,4 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+-- Units: conversions to and from SI, and refusals.
 local units = require "softworld.units"
 
 describe("units", function()
@@ -24,7 +25,7 @@ describe("units", function()
     assert.are.equal(5, units.to.mm(0.005))
   end)
 
-  it("tell a wrong name and a wrong value", function()
+  it("refuse a wrong name and a wrong value", function()
     assert.error_matches(function() return units.Mpa end, "no unit 'Mpa'; did you mean 'MPa'")
     assert.error_matches(function() return units.to.mmm end,
       "units.to: there is no unit 'mmm'; did you mean 'mm'")

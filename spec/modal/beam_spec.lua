@@ -7,7 +7,7 @@ local modal = require "spec.modal.tools"
 -- omega sqrt(m L^4 / EI) of Euler-Bernoulli beams without rotary inertia. Independent solution:
 -- characteristic equations and Legendre-Galerkin, relative error 1e-9. load: m g L^3 / EI of a wire that
 -- hangs from its clamp (negative: stands on it), or pull L^2 / EI.
-local fine = { 100, 200, 400, 800 } -- the error changes its sign on coarser ones
+local fine = { 100, 200, 400, 800 } -- the error changes its sign on coarser meshes
 local beams = {
   { "clamped at one end", holds = "clamp", share = { 0.001, 0.005, 0.01 },
     3.516015269, 22.03449156, 61.69721441 },
@@ -41,7 +41,7 @@ describe("frequencies of a straight wire", function()
       for i = 1, 3 do t.share(case[i + 1], f[i], case.share[i], "mode " .. i) end
     end)
 
-    it("are second order: " .. case[1], function()
+    it("converge with second order: " .. case[1], function()
       local errors, meshes = {}, case.meshes or { 10, 20, 40, 80 }
       for _, n in ipairs(meshes) do
         local f = of(case, n)
@@ -60,9 +60,9 @@ describe("frequencies of a straight wire", function()
     for i = 1, 3 do t.share((i * math.pi) ^ 2, f[i], 1e-4, "mode " .. i) end
   end)
 
-  -- A free beam has the clamped one's frequencies, after two translations across, one along and two
-  -- turns without any.
-  it("begin with zeros when the wire is free", function()
+  -- A free beam has the frequencies of a beam clamped at both ends, after five zeros: two translations
+  -- across, one along, and two turns.
+  it("begin with five zeros when the wire is free", function()
     local wire, _, unit = modal.wire ""
     local f = wire:frequencies{ modes = 9 }
     for i = 1, 5 do assert.are.equal(0, f[i]) end
@@ -72,7 +72,7 @@ describe("frequencies of a straight wire", function()
     assert.are.equal(0, f.unstable)
   end)
 
-  it("do not depend on direction", function()
+  it("do not depend on the wire's direction", function()
     local random = t.random(4)
     local first = modal.wire("clamps"):frequencies{ modes = 8 }
     for _ = 1, 5 do
@@ -93,14 +93,14 @@ describe("frequencies of a straight wire", function()
 end)
 
 describe("frequencies of the string model", function()
-  it("are a string's", function()
+  it("are those of a string", function()
     local wire = modal.wire("pins", { model = "string", EI = 0, EA = 1e6, pull = 10, segments = 100 })
     local f = modal.pairs(wire, 3, 0.5 * (10 / 0.03) ^ 0.5)
     for i = 1, 3 do t.share(i, f[i], 1e-3, "mode " .. i) end
   end)
 
-  -- Zeros of the Bessel function J0, over 2.
-  it("are a hanging chain's", function()
+  -- Zeros of the Bessel function J0, divided by 2.
+  it("are those of a hanging chain", function()
     local wire = modal.wire("pin", { model = "string", EI = 0, EA = 1e6, along = { 0, 0, -1 },
       gravity = { 0, 0, -9.81 }, segments = 200 })
     local f = modal.pairs(wire, 3, 9.81 ^ 0.5 / (2 * math.pi))
@@ -109,7 +109,7 @@ describe("frequencies of the string model", function()
     end
   end)
 
-  it("are the rod's while it is straight", function()
+  it("are those of the rod while the wire is straight", function()
     local rod = modal.wire("clamps", { pull = 0.5 }):frequencies()
     local string = modal.wire("clamps", { pull = 0.5, model = "string" }):frequencies()
     for i = 1, 6 do t.share(rod[i], string[i], 1e-4, "mode " .. i) end
@@ -117,7 +117,7 @@ describe("frequencies of the string model", function()
 end)
 
 describe("shapes", function()
-  it("are orthogonal in the mass, and of unit modal mass", function()
+  it("are orthogonal in the mass matrix, with modal mass 1", function()
     local wire = modal.wire("clamp", { along = { 0.6, 0, 0.8 }, gravity = { 0, 0, -5 } })
     local shapes = wire:frequencies{ modes = 12, shapes = true }.shapes
     assert.are.equal(12, #shapes)
@@ -128,7 +128,7 @@ describe("shapes", function()
     end
   end)
 
-  -- K x of all forces together is omega^2 M x at every node that is not held.
+  -- K x of all forces together equals omega^2 M x at every free node.
   it("balance stiffness and inertia", function()
     local wire, scene = modal.wire("clamp", { along = { 0.6, 0, 0.8 }, gravity = { 0, 0, -5 } })
     local f = wire:frequencies{ modes = 4, shapes = true }
@@ -145,10 +145,10 @@ describe("shapes", function()
     end
   end)
 
-  it("of a clamped beam are a beam's", function()
+  it("of a clamped wire are those of a beam", function()
     local wire = modal.wire "clamp"
     local shape = wire:frequencies{ modes = 1, shapes = true }.shapes[1]
-    local b, c = 1.875104069, 0.7340955 -- of cosh b cos b = -1
+    local b, c = 1.875104069, 0.7340955 -- from cosh b cos b = -1
     local tip = (shape[#shape] ^ 2 + shape[#shape - 1] ^ 2) ^ 0.5
     for i = 0, 50 do
       local x = b * i / 50

@@ -18,7 +18,7 @@ local function straight(o, hold)
 end
 
 describe("frequencies of a straight wire with frames", function()
-  it("are those of one without", function()
+  it("are those of a wire without frames", function()
     local plain = straight({}):frequencies{ modes = 6 }
     for _, o in ipairs{ { rolls = true }, { EI = { 1, 1 + 1e-12 }, normal = { 0, 0, 1 } } } do
       local f = straight(o):frequencies{ modes = 6 }
@@ -48,14 +48,14 @@ describe("frequencies of a straight wire with frames", function()
 end)
 
 describe("frequencies of a wire that rolls", function()
-  -- slower than bending: a soft GJ
+  -- a soft GJ makes twist slower than bending
   local function torsion(o, hold)
     o.rolls, o.GJ = true, 1e-6
     local wire, scene = straight(o, hold)
     return wire:frequencies{ modes = 3 }, (1e-6 / wire.beam.spin_inertia) ^ 0.5, wire, scene
   end
 
-  it("count its twist too", function()
+  it("include its twist", function()
     local f, speed = torsion({}, { 0 })
     for i = 1, 3 do t.share((2 * i - 1) * speed / 4, f[i], 2e-3, "clamped once, mode " .. i) end
     f, speed = torsion({ spin_inertia = 1e-4 }, { 0, 1 })
@@ -69,7 +69,7 @@ describe("frequencies of a wire that rolls", function()
     end, "second twist")
   end)
 
-  it("begin with its free turning where nothing holds it", function()
+  it("begin with the free turn where nothing holds the twist", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ EA = 1e7, EI = 1, GJ = 1e-6, mass_per_length = 1, radius = 0.01,
       rolls = true, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
@@ -82,7 +82,7 @@ describe("frequencies of a wire that rolls", function()
     for i = 1, 2 do t.share(i * speed / 2, f[i + 1], 2e-3, "twist " .. i) end
   end)
 
-  it("leave out what is inside of a grip", function()
+  it("leave out the wire inside a grip", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ EA = 1e7, EI = 1, GJ = 1e-6, mass_per_length = 1, radius = 0.01,
       rolls = true, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
@@ -101,7 +101,7 @@ describe("frequencies of a wire that rolls", function()
   end)
 end)
 
--- A quarter of a circle that hangs out of its plane: every motion bends and twists.
+-- A quarter of a circle that sags out of its plane: every mode bends and twists.
 describe("frequencies of a curved wire", function()
   local function arc(rolls)
     local scene, path = sw.scene{ gravity = { 0, 0, -1 } }, {}
@@ -117,7 +117,7 @@ describe("frequencies of a curved wire", function()
   end
 
   for _, rolls in ipairs{ false, true } do
-    it("are those of a run" .. (rolls and ", with inertia against spin" or ""), function()
+    it("are those measured in a run" .. (rolls and ", with inertia against spin" or ""), function()
       local wire, scene = arc(rolls)
       local f = wire:frequencies{ modes = 3, shapes = true }
       assert.are.equal(0, f.unstable)

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Natural frequencies of wires that are joined, each while the others stay where they are, against beams.
+-- Natural frequencies of joined wires, of one wire while the others stay where they are, against beams.
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local EI, MASS, LENGTH = 0.01, 0.03, 0.5
-local UNIT = (EI / (MASS * LENGTH ^ 4)) ^ 0.5 / (2 * math.pi) -- of omega sqrt(m L^4/EI) [Hz]
+local UNIT = (EI / (MASS * LENGTH ^ 4)) ^ 0.5 / (2 * math.pi) -- unit of omega sqrt(m L^4/EI) [Hz]
 
--- Two wires in a row, clamped where they are not joined.
+-- Two wires in a row, joined in the middle and clamped at their other ends.
 local function row(rigid, segments)
   local scene = sw.scene { gravity = { 0, 0, 0 } }
   local function wire(from, to)
@@ -24,8 +24,8 @@ end
 local function first(wire) return wire:frequencies { modes = 1, alone = true }[1] / UNIT end
 
 describe("frequencies of a joined wire while the others stay", function()
-  -- Roots of the characteristic equations. The other wire's end gives way by the stiffness of half an edge
-  -- of it, in a rigid join, and of the spring between both: an error of the size of an edge.
+  -- Roots of the characteristic equations. The other wire's end gives way: by the stiffness of half of its
+  -- edge in a rigid join, and by the spring between both. The error is of the size of an edge.
   for word, case in pairs { ["clamped and pinned, where it turns freely"] = { false, 15.41820570 },
     ["clamped at both ends, in a rigid join"] = { true, 22.37328545 } } do
     it("are a beam's, " .. word, function()
@@ -41,7 +41,7 @@ describe("frequencies of a joined wire while the others stay", function()
     end)
   end
 
-  it("are no lower than those of both together", function()
+  it("are higher than those of both wires together", function()
     local a = row(true, 40)
     local scene = sw.scene { gravity = { 0, 0, 0 } }
     local both = scene:wire { EA = 1e6 * EI, EI = EI, mass_per_length = MASS, radius = 0.002, segments = 80,
@@ -52,7 +52,7 @@ describe("frequencies of a joined wire while the others stay", function()
     assert.is_true(first(a) > both:frequencies { modes = 1 }[1] / UNIT)
   end)
 
-  it("are those of a wire by itself where nothing is joined", function()
+  it("are those of wire:frequencies without alone where nothing is joined", function()
     local scene = sw.scene { gravity = { 0, 0, 0 } }
     local w = scene:wire { EA = 1e6 * EI, EI = EI, mass_per_length = MASS, radius = 0.002, segments = 20,
       from = { 0, 0, 0 }, to = { LENGTH, 0, 0 } }

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Frequencies about sagged and touching equilibria, and of runs.
+-- Frequencies about sagged equilibria and about equilibria with contact, also against runs.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 local modal = require "spec.modal.tools"
 
--- A nylon wire between level clamps 1 m apart. Independent solution: geometrically exact Hermite
--- elements and the eigenvalues of the exact Hessian, relative error 1e-5. Frequencies
--- are those in the plane of the sag.
+-- A nylon wire between level clamps 1 m apart. Independent solution: geometrically exact Hermite elements
+-- and the eigenvalues of the exact Hessian, relative error 1e-5. The frequencies are those of the modes in
+-- the plane of the sag [Hz].
 local nylon = {
   { name = "taut", length = 0.9995, sag = 0.001272555461, tension = 3.16969699,
     15.66381165, 31.31295496, 47.53488902 },
@@ -49,14 +49,14 @@ describe("a wire between two clamps", function()
       for i = 1, 3 do t.share(case[i], f[i], i == 1 and 0.01 or 0.02, "mode " .. i) end
     end)
 
-    it("comes to them as segments grow shorter: " .. case.name, function()
+    it("converges to them with shorter segments: " .. case.name, function()
       local f = in_plane(hung(case, 200), 8)
       for i = 1, 3 do t.share(case[i], f[i], 5e-4, "mode " .. i) end
     end)
   end
 
-  -- A mode's share of the motion, x' M (x - x0), swings as a sine of its frequency.
-  it("swings as its frequencies say", function()
+  -- A mode's share of the motion, x' M (x - x0), is a sine with the mode's frequency.
+  it("swings at its frequencies", function()
     local wire, scene = hung(nylon[2], 30)
     local f = wire:frequencies{ modes = 4, shapes = true }
     local rest, steps, dt = wire:positions(), 1000, 1 / (150 * f[3])
@@ -70,7 +70,7 @@ describe("a wire between two clamps", function()
     end
   end)
 
-  it("20000 segments long is no trouble", function()
+  it("of 20000 segments has the frequencies of a pulled string", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ EA = 1e5, EI = 1e-2, mass_per_length = 0.03, radius = 0.003,
       from = { 0, 0, 0 }, to = { 20, 0, 0 }, segments = 20000 }
@@ -89,7 +89,8 @@ describe("a wire between two clamps", function()
     end
   end)
 
-  -- Bending alone among 20000 segments: the matrix has entries 10^16 times what the first mode feels.
+  -- Bending alone with 20000 segments: the matrix has entries 10^16 times larger than what the first mode
+  -- feels.
   it("of 20000 stiff segments is still a beam", function()
     local wire, _, unit = modal.wire("clamps", { segments = 20000, EA = 1e4 })
     local f = wire:frequencies{ modes = 4 }
@@ -98,7 +99,7 @@ describe("a wire between two clamps", function()
   end)
 end)
 
--- Clamped at 0, propped at b, free at a + b: roots k of the characteristic determinant.
+-- A beam clamped at 0, propped at b, free at a + b: roots k of the characteristic determinant.
 local function propped(a, b)
   local function cosh(x) return (math.exp(x) + math.exp(-x)) / 2 end
   local function sinh(x) return (math.exp(x) - math.exp(-x)) / 2 end
@@ -127,8 +128,9 @@ describe("a wire that hangs over the edge of a table", function()
     return wire, scene, top
   end
 
-  -- Its weight lifts a length of sqrt(2) a behind the edge: there neither moment nor shift nor slope is left.
-  it("vibrates as a beam that is clamped where it lies and propped at the edge", function()
+  -- The overhang's weight lifts a length of sqrt(2) a behind the edge; at its end there is no moment, shift
+  -- or slope.
+  it("vibrates like a beam that is clamped where it lies and propped at the edge", function()
     local wire = table_with_wire()
     local f = wire:frequencies{ modes = 6, shapes = true }
     local k = propped(a, 2 ^ 0.5 * a)
@@ -140,11 +142,11 @@ describe("a wire that hangs over the edge of a table", function()
       end
     end
     assert.are.equal(3, count)
-    -- within what a cantilever of that length and one that is longer by the lifted part do
+    -- between a cantilever as long as the overhang and one longer by the lifted part
     assert.is_true(f[1] < 3.516 / a ^ 2 * unit and f[1] > 3.516 / (2.42 * a) ^ 2 * unit)
   end)
 
-  it("rings at that frequency when let go", function()
+  it("swings at that frequency when released", function()
     local wire, scene = table_with_wire()
     local f, all = wire:frequencies{ modes = 2, shapes = true }, {}
     local mode = modal.share_along(f.shapes[1], 3) > 0.5 and 1 or 2
@@ -167,7 +169,7 @@ describe("a wire that hangs over the edge of a table", function()
     t.share(f[mode], (#all - 1) / 2 / (all[#all] - all[1]), 0.02, "frequency")
   end)
 
-  it("is left as it was, contact and all", function()
+  it("is left unchanged by wire:frequencies, contact included", function()
     local wire, scene, top = table_with_wire()
     local function look()
       local x, force = wire:positions(), top:force()
@@ -185,7 +187,7 @@ describe("a wire that hangs over the edge of a table", function()
     assert.are.same(after, look())
   end)
 
-  it("has nearly the same frequencies after a run, with contact as stiff as it then was", function()
+  it("has nearly the same frequencies after a run, with the run's contact stiffness", function()
     local wire, scene = table_with_wire()
     local before = wire:frequencies{ modes = 4 }
     scene:force{ kind = "damping", on = wire, mass = 5 }

@@ -38,7 +38,7 @@ describe("strain and stress", function()
     end
   end)
 
-  -- Small load across: moment P (L - s), so E r P (L - s) / EI outside and its negative inside.
+  -- Small load across: moment P (L - s), so the strain is r P (L - s) / EI outside and its negative inside.
   it("of a bent wire are curvature times radius", function()
     local wire, scene = cantilever{ section = solid }
     local EI, load = wire.beam.EI, 2e-4
@@ -58,7 +58,7 @@ describe("strain and stress", function()
     t.share(2e9 * largest, (wire:max_stress()), 1e-12, "largest stress")
   end)
 
-  it("at a clamp are the beam's even among few segments", function()
+  it("at a clamp are those of a beam, even with few segments", function()
     for _, n in ipairs{ 5, 10, 20, 40 } do
       local wire, scene = cantilever{ section = solid, segments = n, gravity = { 0, 0, -0.01 } }
       t.fine(scene:settle())
@@ -81,7 +81,7 @@ describe("strain and stress", function()
     t.share(1e8, both:stress(0.5) / both:strain(0.5), 1e-12, "E that is given counts")
   end)
 
-  it("have their largest value, place and time over the run", function()
+  it("report their largest value, with place and time, over the run", function()
     local wire, scene = cantilever{ section = solid, gravity = { 0, 0, -9.81 } }
     t.fine(scene:run{ duration = 0.6, dt = 0.005 })
     local value, s, time = wire:max_strain()
@@ -96,12 +96,12 @@ describe("strain and stress", function()
     t.fine(scene:run{ duration = 0.1, dt = 0.005 })
     scene:restore(before)
     assert.are.same(stress, { wire:max_stress() })
-    t.fine(scene:settle()) -- starts them anew
+    t.fine(scene:settle()) -- the largest values start again
     assert.is_true(wire:max_strain() < value)
     assert.are.equal(wire:max_strain{ now = true }, (wire:max_strain()))
   end)
 
-  it("are asked for on the wire only", function()
+  it("refuse places off the wire and wrong arguments", function()
     local wire = cantilever{ section = solid }
     assert.is_false(pcall(wire.strain, wire, 1.5))
     assert.is_false(pcall(wire.strain, wire))

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the specs of vibrations share: wires, reference numbers, products with the mass.
+-- Shared by the specs of vibrations: wires, reference numbers, products with the mass.
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
@@ -27,7 +27,7 @@ function modal.wire(holds, o)
   return wire, scene, (EI / mass) ^ 0.5 / (2 * math.pi)
 end
 
---- Every other frequency of a straight wire, in the given unit: both planes are alike.
+--- Every other frequency of a straight wire, in the given unit; both planes must agree.
 function modal.pairs(wire, count, unit, tolerance)
   local f, list = wire:frequencies{ modes = 2 * count }, {}
   for i = 1, count do
@@ -37,7 +37,7 @@ function modal.pairs(wire, count, unit, tolerance)
   return list
 end
 
---- M x for the consistent mass of a wire's nodes.
+--- Returns M x with the consistent mass of a wire's nodes.
 function modal.mass_times(wire, x)
   local _, s = wire:positions()
   local mass, y = wire.beam.mass_per_length, {}
@@ -81,7 +81,8 @@ function modal.roots(f, low, high, step)
   return list
 end
 
--- How often a run swings in a shape [Hz]: from the zeros of its share of the nodes' way from rest.
+-- Frequency at which a run swings in a shape [Hz], from the zeros of the shape's share in the nodes'
+-- displacement.
 function modal.swings(wire, shape, rest, frames)
   local weights, crossings, before = modal.mass_times(wire, shape), {}, nil
   for _, frame in ipairs(frames) do

@@ -5,7 +5,8 @@ local sw = require "softworld"
 local t = require "spec.physics.tools"
 local modal = require "spec.modal.tools"
 
--- A straight wire of 1 m, EI = 1 N m2, GJ = 0.7 N m2 between clamps, one of which is turned.
+-- A straight wire of 1 m, EI = 1 N m2, GJ = 0.7 N m2 between clamps, one of which turns until `torque` [N
+-- m].
 local function twisted(torque, segments)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ EA = 1e6, EI = 1, GJ = 0.7, mass_per_length = 1, radius = 0.001,
@@ -33,14 +34,14 @@ describe("frequencies of a twisted wire", function()
     t.share(8.986819, a + (b - a) * x / (x - y), 0.003, "torque at zero")
   end)
 
-  it("are the straight one's without torque, pair by pair", function()
+  it("without torque are those of a straight wire, in pairs", function()
     local f = twisted(0.001):frequencies{ modes = 4 }
     t.share(22.37328545, 2 * math.pi * f[1], 0.001, "first")
     t.share(f[1], f[2], 1e-4, "both planes")
   end)
 
-  -- Slack, bent and twisted: not a plane curve. The twist of the whole span resists what would wind it.
-  it("are those of a run", function()
+  -- Slack, bent and twisted: no plane curve. The twist of the whole span resists further winding.
+  it("are those measured in a run", function()
     local scene = sw.scene{}
     local wire = scene:wire{ EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.002,
       from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 30 }

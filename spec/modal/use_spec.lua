@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Asking for frequencies: what is refused and how, several wires, unstable states, functions as forces.
+-- wire:frequencies: refusals, several wires, unstable states, functions as forces.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -18,7 +18,7 @@ local function cable(scene, o)
 end
 
 describe("wire:frequencies", function()
-  it("gives six by default and takes no wrong argument", function()
+  it("gives six by default and refuses wrong arguments", function()
     local wire = modal.wire "clamp"
     assert.are.equal(6, #wire:frequencies())
     assert.are.equal(6, #wire:frequencies{})
@@ -33,7 +33,7 @@ describe("wire:frequencies", function()
     refused("one table of parameters", wire.frequencies, wire, 6)
   end)
 
-  it("has no more than the wire has free unknowns", function()
+  it("gives at most one mode for each free unknown", function()
     local wire = modal.wire("clamps", { segments = 5 })
     local f = wire:frequencies{ modes = 12 }
     assert.are.equal(12, #f)
@@ -45,7 +45,7 @@ describe("wire:frequencies", function()
     end
   end)
 
-  it("refuses what is not at rest", function()
+  it("refuses a wire that is not at rest", function()
     local scene = sw.scene{}
     local wire = cable(scene)
     scene:clamp(wire, { s = 0 })
@@ -64,7 +64,7 @@ describe("wire:frequencies", function()
     refused("has gone", wire.frequencies, wire)
   end)
 
-  -- Standing on its clamp and not yet pressed by its own weight, it looks straight and still.
+  -- The wire stands on its clamp, not yet compressed by its weight: it looks straight and still.
   it("refuses a straight wire whose tension is not that of its load", function()
     local scene = sw.scene{}
     local wire = scene:wire{ EA = 1e6, EI = 0.05, mass_per_length = 0.03, radius = 0.002,
@@ -75,7 +75,7 @@ describe("wire:frequencies", function()
     assert.are.equal(0, wire:frequencies().unstable)
   end)
 
-  it("refuses a falling wire and a scene that diverged or is at work", function()
+  it("refuses a falling wire, and a scene that diverged or is in a step", function()
     local scene = sw.scene{}
     local wire = cable(scene)
     refused("not at rest", wire.frequencies, wire)
@@ -109,7 +109,7 @@ describe("wire:frequencies", function()
     assert.are.same(f, one:frequencies())
   end)
 
-  it("of a wire that is held in its middle are those of both parts", function()
+  it("of a wire held in between are those of both parts", function()
     local wire, scene, unit = modal.wire("clamps", { segments = 60 })
     scene:clamp(wire, { s = 1 / 3 })
     t.fine(scene:settle())
@@ -118,8 +118,8 @@ describe("wire:frequencies", function()
     t.share(22.37328545 / (1 / 3) ^ 2, f[3], 0.005, "short part")
   end)
 
-  -- Functions have no stiffness: their forces count, what they change by does not.
-  it("takes forces of a function as they are", function()
+  -- A function has no stiffness: its force counts, the change of its force does not.
+  it("takes the force of a function, without a stiffness", function()
     local wire, scene = modal.wire("clamp", { gravity = { 0, 0, -1 }, segments = 20 })
     local before = wire:frequencies()
     local calls = 0
@@ -138,7 +138,7 @@ describe("wire:frequencies", function()
     assert.are.same({ "mine" }, err)
   end)
 
-  it("does not mind damping", function()
+  it("ignores damping", function()
     local wire, scene = modal.wire("clamp", { gravity = { 0, 0, -1 } })
     local before = wire:frequencies()
     scene:force{ kind = "damping", on = wire, mass = 3, stiffness = 0.01 }
@@ -149,8 +149,8 @@ describe("wire:frequencies", function()
 end)
 
 describe("an equilibrium that is not stable", function()
-  -- A column of weight w L^3 / EI = 12 stands straight though it would buckle from 7.8373 on: nothing pushes
-  -- it aside. Damped steps press it to its length.
+  -- A column of weight w L^3 / EI = 12 stands straight although it would buckle from 7.8373 on: nothing
+  -- pushes it aside. Damped steps compress it to its length.
   local function column(load)
     local EI = 0.03 * 9.81 / load
     local scene = sw.scene{}
@@ -161,7 +161,7 @@ describe("an equilibrium that is not stable", function()
     return wire, (EI / 0.03) ^ 0.5
   end
 
-  it("is told, with the rate at which it would be left", function()
+  it("is reported, with its rate of growth", function()
     local wire = column(12)
     local f = wire:frequencies{ modes = 4 }
     assert.are.equal(2, f.unstable)
@@ -188,7 +188,7 @@ describe("an equilibrium that is not stable", function()
     t.share(f.growth, math.log(aside(1 / f.growth) / first) * f.growth, 0.02, "growth")
   end)
 
-  it("is stable below the load that buckles", function()
+  it("is reported as stable below the buckling load", function()
     local wire, unit = column(4)
     local f = wire:frequencies{ modes = 2 }
     assert.are.equal(0, f.unstable)
@@ -196,7 +196,7 @@ describe("an equilibrium that is not stable", function()
     t.share(2.462967202, 2 * math.pi * f[1] / unit, 1e-3, "first")
   end)
 
-  it("is refused where it is hopeless", function()
+  it("is refused where too many directions are unstable", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ model = "string", EA = 1e4, EI = 0, mass_per_length = 0.03, radius = 0.002,
       from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 200 }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- scene:advise: rules of thumb with their numbers, without running anything; and what lint makes of them.
+-- scene:advise: rules of thumb with their numbers, without running anything.
 local sw = require "softworld"
 
 local function cantilever(more)
@@ -12,7 +12,7 @@ local function cantilever(more)
 end
 
 describe("scene:advise", function()
-  it("tells slow from fast by ten first periods of the scene at rest", function()
+  it("calls a motion slow from ten first periods of the scene at rest on", function()
     local scene, w = cantilever()
     local before = scene:advise { duration = 1000 }
     assert.equal("dynamic", before.motion)
@@ -25,8 +25,8 @@ describe("scene:advise", function()
     assert.is_near(period, slow.period, 1e-12)
   end)
 
-  -- edges of a third of the radius of the axis round it, and 1.25 / n^2 for a bow
-  it("chooses edges by the sharpest round side, or by the tolerance", function()
+  -- edges of a third of the axis's radius around the peg; for a bow, an error of 1.25 / n^2
+  it("chooses edges by the sharpest round obstacle, or by the tolerance", function()
     local scene, w = cantilever()
     assert.equal(math.ceil((1.25 / 0.002) ^ 0.5), scene:advise { tolerance = 0.002 }.segments.w)
     scene:obstacle { name = "peg", shape = "cylinder", radius = 0.01, length = 0.1, at = { 0, 0, 1 } }
@@ -44,7 +44,7 @@ describe("scene:advise", function()
     assert.equal(0, scene:frame_count())
   end)
 
-  it("tells what does nothing", function()
+  it("names settings that have no effect", function()
     local scene = cantilever { rolls = true }
     assert.equal(1, #scene:advise {}.spare)
     assert.truthy(scene:advise {}.spare[1]:find("nothing here has friction", 1, true))
@@ -53,7 +53,7 @@ describe("scene:advise", function()
     assert.same({ 0, "rolling" }, { #a.spare, a.twist })
   end)
 
-  it("refuses what makes no sense", function()
+  it("refuses arguments that make no sense", function()
     local scene = cantilever()
     for text, args in pairs { ["tolerance = 2 is not allowed"] = { tolerance = 2 },
       ["duration = 0 s is not allowed"] = { duration = 0 },

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What choosing a model costs: no computation that cannot change the choice, and none by a rung that has
--- turned out to be the dearer one.
+-- The cost of choosing a model: nothing is computed that cannot change the choice, and nothing with a rung
+-- that has turned out to be the dearer one.
 local hung = require "spec.model.hung"
 local rod = require "spec.model.rod"
 local sealed = require "softworld.sealed"
@@ -24,8 +24,9 @@ describe("model = 'auto', where poses of fine edges need many iterations,", func
   end)
 end)
 
--- Two wires hang one above the other, so near that only touches tell whether they meet, and sag. The quantity
--- is another on each level, so that no bar of it is short, and is changed a little by computing touches.
+-- Two wires hang one above the other and sag, so near that only touches show whether they meet. The
+-- quantity differs from level to level, so that its bar is never short; computing touches changes it by
+-- `change`.
 local function beside(change)
   local scene = sw.scene { name = "beside" }
   scene:force { kind = "damping", mass = 5 }
@@ -47,14 +48,14 @@ local function beside(change)
 end
 
 describe("model = 'auto', where a bar stays too long,", function()
-  it("computes the next rung where that may shorten it", function()
+  it("computes the next rung if that may shorten it", function()
     local run = beside(0.015)
     assert.is_false(run.met)
     assert.equal("wires", run.model.contact, tostring(run:why()))
     assert.truthy(tostring(run:why()):find("with no touches of wires the bar of odd stays at", 1, true))
   end)
 
-  it("does not where that changes the value by far less than the bar is too long", function()
+  it("does not if the value changes by far less than the bar is too long", function()
     local run = beside(1e-5)
     assert.is_false(run.met)
     assert.equal("none", run.model.contact, tostring(run:why()))
@@ -62,7 +63,7 @@ describe("model = 'auto', where a bar stays too long,", function()
 end)
 
 describe("model = 'auto', where wires touch each other,", function()
-  it("looks no more for how near they come", function()
+  it("no longer measures how near they come", function()
     local apart, alone, touching = sw.core.frames_apart, 0, 0
     function sw.core.frames_apart(scene, ...)
       if sw.core.data(scene).touching then touching = touching + 1 else alone = alone + 1 end
@@ -77,9 +78,9 @@ describe("model = 'auto', where wires touch each other,", function()
   end)
 end)
 
--- A cable is pressed into a clip, over whose lips it jumps.
+-- A cable is pressed into a clip and jumps over its lips.
 describe("model = 'auto', where a wire jumps,", function()
-  it("computes dynamics on one level where they change hardly anything and show what rings", function()
+  it("compares with dynamics on one level, if these change little and show what rings", function()
     local scene, span, high = sw.scene { name = "clipped" }, 0.15, 0.035
     scene:clip { name = "clip", at = { span / 2, 0, 0 }, width = 0.01, insertion = 2, retention = 6,
       friction = 0.25 }
@@ -100,7 +101,7 @@ describe("model = 'auto', where a wire jumps,", function()
   end)
 end)
 
--- It falls on a table while one end is moved to the side, by less than the tolerance.
+-- A wire falls on a table while one end is moved to the side.
 describe("model = 'auto', where the scene does not rest as it begins,", function()
   local function dropped(args)
     local scene = sw.scene { name = "dropped" }
@@ -115,7 +116,7 @@ describe("model = 'auto', where the scene does not rest as it begins,", function
     return scene:run(args)
   end
 
-  it("knows by where the first poses end what coarse steps show of a swing, and stays with poses", function()
+  it("judges by where the first poses end what coarse steps show of a swing, and stays with poses", function()
     local truth = dropped { share = 0.01 }
     local run = dropped { share = 0.1, model = "auto" }
     local a, b = truth.quantities.tip, run.quantities.tip
@@ -123,7 +124,7 @@ describe("model = 'auto', where the scene does not rest as it begins,", function
     for i = 1, 3 do away = away + (a.value[i] - b.value[i]) ^ 2 end
     assert.equal("poses", run.model.motion, tostring(run:why()))
     assert.is_true(away ^ 0.5 <= a.error + b.error, ("%.3g m apart"):format(away ^ 0.5))
-    assert.is_true(away ^ 0.5 > 0.3 * b.tolerance) -- a change that is seen
+    assert.is_true(away ^ 0.5 > 0.3 * b.tolerance) -- the change is visible
   end)
 end)
 

@@ -14,8 +14,8 @@ local function wire(scene, more)
   return scene:wire(args)
 end
 
--- Trunk, branches at two angles, hands that come nearer by 40 mm and rise in 1 s; mirrored: left and right
--- change places.
+-- A trunk and branches at two angles; the hands come 40 mm nearer and rise within 1 s. mirrored: left and
+-- right are exchanged.
 local function harness(mirrored, segments)
   local scene, sign = sw.scene { name = "harness" }, mirrored and -1 or 1
   scene:obstacle { name = "table", shape = "plane", friction = 0 }
@@ -55,7 +55,7 @@ describe("model = 'auto' where coarse edges buckle to the other side", function(
         for _, name in ipairs { "hand1", "hand2" } do
           local q = run.quantities[name .. ".force"]
           local truth = fine:find(name):force()
-          -- 2 %: what 32 edges are off by themselves (0.439 N, 0.447 N on 256 edges)
+          -- 2 %: the error of 32 edges (0.439 N, against 0.447 N on 256 edges)
           assert.is_true(distance(q.value, truth) <= q.error + 0.02 * distance(truth, { 0, 0, 0 }),
             name .. ": " .. q:text())
         end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Poses that fail on fine edges only: coarse ones say nothing of that, and the run goes on with dynamics.
+-- Poses that fail on fine edges only: coarse edges do not show this, and the run goes on with dynamics.
 local hung = require "spec.model.hung"
 
 local function fails(run_once, scene, options, name)
@@ -19,7 +19,7 @@ describe("model = 'auto' where poses fail on fine edges", function()
     assert.is_true(away <= bars, ("%.3g N apart"):format(away))
   end)
 
-  it("tries no finer ones than the first that fail", function()
+  it("tries no finer poses after the first that fail", function()
     local count = 0
     hung.run(function(...)
       count = count + 1
@@ -28,7 +28,7 @@ describe("model = 'auto' where poses fail on fine edges", function()
     assert.equal(1, count)
   end)
 
-  it("keeps to poses that the script asks for, and says that they failed", function()
+  it("keeps poses that the script asks for, and reports that they failed", function()
     local run = hung.run(fails, { quasistatic = true })
     assert.is_false(run.ok)
     assert.equal("poses", run.model.motion)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- model = "auto" of wires that are joined or move together: what need not be computed to choose, and that
--- poses which jump on the coarsest edges decide nothing.
+-- model = "auto" with wires that are joined or move together: what need not be computed to choose. Poses
+-- that jump on the coarsest edges decide nothing.
 local contact = require "softworld.model.contact"
 local motion = require "softworld.model.motion"
 local rod = require "spec.model.rod"
@@ -8,7 +8,7 @@ local sw = require "softworld"
 
 local R, core = rod.radius, sw.core
 
--- f() with instead(own, ...) in place of a function of a table.
+-- Calls f() while instead(own, ...) replaces a function of a table.
 local function with(of, name, instead, f)
   local own = of[name]
   of[name] = function(...) return instead(own, ...) end
@@ -23,8 +23,8 @@ local function choice(run, name)
   end
 end
 
--- Two branches at an angle [rad] at the end of a trunk; their ends are moved. nearer: by how much each hand
--- goes to the middle [m]; join = false: clamps hold the ends where they would be joined.
+-- Two branches at an angle [rad] at the end of a trunk; their ends are moved. nearer: way of each hand to
+-- the middle [m]; join = false: clamps hold the ends where they would be joined.
 local function branched(angle, nearer, join)
   local scene = sw.scene { name = "branched" }
   scene:force { kind = "damping", mass = 5 }
@@ -46,25 +46,25 @@ local function branched(angle, nearer, join)
 end
 
 describe("model = 'auto' of a harness", function()
-  it("knows without computing touches that its wires meet where they are joined only", function()
+  it("knows without computing touches that its wires meet only where they are joined", function()
     local run = branched(0.6, 0.02)
     assert.equal("none", run.model.contact, tostring(run:why()))
     assert.equal("free", choice(run, "contact").by, tostring(run:why()))
     assert.truthy(tostring(run:why()):find("wires cannot meet", 1, true))
   end)
 
-  it("computes them where its branches come near each other elsewhere", function()
+  it("computes touches where its branches come near each other elsewhere", function()
     local run = branched(0.6, 0.2 * math.sin(0.6) - R)
     assert.is_not.equal("free", choice(run, "contact").by, tostring(run:why()))
   end)
 
-  it("does so too where the ends of wires only lie together", function()
+  it("computes touches where the ends of wires lie together without a join", function()
     local run = branched(0.6, 0.02, false)
     assert.is_not.equal("free", choice(run, "contact").by, tostring(run:why()))
   end)
 
-  -- Two halves of a wire between clamps, joined in a row. Each alone swings more quickly than the whole.
-  it("knows a period below that of all wires together", function()
+  -- Two halves of a wire between clamps, joined in a row. Each alone swings faster than the whole.
+  it("uses a period below that of all wires together", function()
     local swing
     local scene = sw.scene { name = "halves" }
     scene:force { kind = "damping", mass = 5 }
@@ -77,7 +77,7 @@ describe("model = 'auto' of a harness", function()
     with(motion, "look", function(own, ...)
       local f = own(...)
       swing = swing or f.swing
-      assert.is_nil(f.period) -- that would have to be no shorter than theirs
+      assert.is_nil(f.period) -- it would have to be no shorter than theirs
       return f
     end, function()
       scene:settle()
@@ -94,8 +94,8 @@ describe("model = 'auto' of a harness", function()
 end)
 
 describe("how near wires come by their frames", function()
-  -- Side by side, both drawn along by 0.1 m between frames: they stay as far apart as they are.
-  it("does not count what they move together", function()
+  -- Two wires side by side, both drawn along by 0.1 m between frames: their distance stays.
+  it("ignores the motion that both share", function()
     local scene = sw.scene { gravity = { 0, 0, 0 } }
     for k = 0, 1 do
       local w = rod.wire(scene, { model = "rod", name = "w" .. k, from = { 0, 0.05 * k, 0 },
@@ -107,12 +107,12 @@ describe("how near wires come by their frames", function()
     end
     scene:run { duration = 1, dt = 0.05, quasistatic = true, frame = 0.1 }
     assert.is_near(0.05, core.frames_apart(scene, 1, 2, 0, 2 * R), 1e-4)
-    assert.is_near(0.03, core.frames_apart(scene, 1, 2, 0, 2 * R, 0.03), 0) -- no more is asked for
+    assert.is_near(0.03, core.frames_apart(scene, 1, 2, 0, 2 * R, 0.03), 0) -- the search ends at this limit
   end)
 end)
 
--- One end of a wire on a rough table is drawn aside; parts(moves, rolls, level): the quantity, which is made
--- up. Poses jump, as far as the choices know.
+-- One end of a wire on a rough table is drawn aside. parts(moves, rolls, level): the quantity, which is
+-- made up. The choices are told that poses jump.
 local function drawn(parts, share)
   local scene, seen = sw.scene { name = "drawn" }, {}
   scene:force { kind = "damping", mass = 5 }
@@ -141,7 +141,7 @@ local function drawn(parts, share)
 end
 
 describe("model = 'auto', where poses on coarse edges jump to another place than on finer ones,", function()
-  it("stays with poses that suffice there, and leaves the first level out of the bar", function()
+  it("stays with poses that suffice on finer edges, and leaves the first level out of the bar", function()
     local run = drawn(function(moves, _, level) return level == 1 and not moves and 50 or 1 end, 0.1)
     assert.equal("poses", run.model.motion, tostring(run:why()))
     assert.is_true(run.met, tostring(run:why()))
@@ -149,13 +149,13 @@ describe("model = 'auto', where poses on coarse edges jump to another place than
     for _, value in ipairs(run.quantities.odd.levels) do assert.is_near(1, value, 1e-12) end
   end)
 
-  it("goes on with dynamics where they differ there too", function()
+  it("goes on with dynamics where poses differ on finer edges too", function()
     local run = drawn(function(moves, _, level) return not moves and (level == 1 and 50 or 3) or 1 end, 0.1)
     assert.equal("dynamic", run.model.motion, tostring(run:why()))
   end)
 
-  -- Of 0.2 a change of 0.02 is all that is allowed; of 1, as it is on the next level, a small part.
-  it("takes a share of a value by the finest level known", function()
+  -- A tenth of 0.2 allows a change of 0.02; of 1, the value on the next level, this is a small part.
+  it("takes a relative tolerance from the finest level known", function()
     local run, rolled = drawn(function(moves, rolls, level)
       return (level == 1 and 0.2 or 1) + (moves and 0.03 or 0) + (rolls and level == 1 and 0.02 or 0)
     end, 0.1)
@@ -167,7 +167,7 @@ describe("model = 'auto', where poses on coarse edges jump to another place than
 end)
 
 describe("what was seen of touches", function()
-  it("is not looked at again when the run has ended", function()
+  it("is not evaluated again when the run has ended", function()
     local frames = {}
     with(contact, "look", function(own, context, ...)
       local from = context.guard and context.guard.from

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Where a cheap rung is just good enough: it is not given up for want of a sharper look, nor looked at longer
--- than it takes. The quantity is made up: it tells by which rungs and on which level it was computed.
+-- Cases where a cheap rung is just good enough: it is not given up for lack of a closer look, nor looked at
+-- longer than needed. The quantity is made up: it shows by which rungs and on which level it was computed.
 local motion = require "softworld.model.motion"
 local rod = require "spec.model.rod"
 local sw = require "softworld"
@@ -14,8 +14,8 @@ local function is_moving(w)
   return false
 end
 
--- One end of a wire that lies on a rough table is drawn aside, in so many seconds. parts(moves, rolls,
--- level): by how many tolerances the quantity is more than by the cheapest rungs.
+-- One end of a wire on a rough table is drawn aside within `duration` [s]. parts(moves, rolls, level): by
+-- how many tolerances the quantity exceeds its value with the cheapest rungs.
 local function drawn(parts, duration)
   local scene = sw.scene { name = "drawn" }
   scene:force { kind = "damping", mass = 5 }
@@ -33,7 +33,7 @@ local function drawn(parts, duration)
 end
 
 describe("model = 'auto', where poses are just good enough,", function()
-  it("leaves edges and steps an eighth of the tolerance, and poses the rest", function()
+  it("leaves an eighth of the tolerance to edges and steps, and the rest to poses", function()
     local run = drawn(function(moves) return moves and 0.8 or 0 end)
     assert.equal("poses", run.model.motion, tostring(run:why()))
     assert.is_true(run.met, tostring(run:why()))
@@ -42,7 +42,7 @@ describe("model = 'auto', where poses are just good enough,", function()
     assert.equal("dynamic", run.model.motion, tostring(run:why()))
   end)
 
-  it("goes back to them where what made them too cheap has turned out not to be needed", function()
+  it("returns to poses where rolling, which made them too cheap, turns out not to be needed", function()
     local run = drawn(function(moves, rolls) return moves and 0.3 or rolls and 2 or 0 end)
     assert.equal("held", run.model.twist, tostring(run:why()))
     assert.equal("poses", run.model.motion, tostring(run:why()))
@@ -50,19 +50,19 @@ describe("model = 'auto', where poses are just good enough,", function()
     assert.is_near(0.3 * SHARE, run.quantities.odd.model_error, 1e-9)
   end)
 
-  it("does not go back where both are needed", function()
+  it("does not return where both are needed", function()
     local run = drawn(function(moves, rolls) return (moves and 2 or 0) + (rolls and 2 or 0) end)
     assert.equal("rolling", run.model.twist, tostring(run:why()))
     assert.equal("dynamic", run.model.motion, tostring(run:why()))
   end)
 end)
 
-describe("model = 'auto' looks no longer than it takes:", function()
+describe("model = 'auto' looks no longer than needed:", function()
   local function probes_of(...)
     return drawn(...).model.probes
   end
 
-  it("not at a third level where a change that is too large grows", function()
+  it("at no third level where a change that is too large grows", function()
     local function growing(rate)
       return function(moves, _, level) return moves and 1.1 * rate ^ (level - 1) or 0 end
     end
@@ -72,21 +72,22 @@ describe("model = 'auto' looks no longer than it takes:", function()
     assert.is_true(probes_of(growing(1.2)) < probes_of(growing(0.8)), tostring(shrinks:why()))
   end)
 
-  it("at one level of a fast motion that changes little, with four times that as its error", function()
+  it("at one level of a fast motion that changes little, with four times the change as its error", function()
     local function run_of(part) return drawn(function(moves) return moves and part or 0 end, 0.2) end
     local little, more = run_of(0.01), run_of(0.2)
     for _, run in ipairs { little, more } do
       assert.equal("poses", run.model.motion, tostring(run:why()))
       assert.equal("compared", run.model.choices[1].by)
     end
-    local error = little.quantities.odd.model_error -- what coarse steps show of the swing counts too: a third
+    local error = little.quantities.odd.model_error -- coarse steps show a third of the swing: it counts
     assert.is_true(error > 4 * 1.5 * 0.01 * SHARE and error < 4 * 4 * 1.5 * 0.01 * SHARE)
     assert.is_true(more.model.probes > little.model.probes)
     assert.is_near(0.2 * SHARE, more.quantities.odd.model_error, 3e-3)
   end)
 
-  -- Of seven eighths of the tolerance; by the error that is stated of a change of a hundredth of it.
-  it("at one level up to an error of two thirds of what is allowed", function()
+  -- Seven eighths of the tolerance are allowed; the stated error is known from a change of a hundredth of
+  -- it.
+  it("at one level, up to an error of two thirds of the allowed one", function()
     local function run_of(part) return drawn(function(moves) return moves and part or 0 end, 0.2) end
     local little = run_of(0.01)
     local stated = little.quantities.odd.model_error / (0.01 * SHARE)
@@ -97,7 +98,7 @@ describe("model = 'auto' looks no longer than it takes:", function()
 end)
 
 describe("model = 'auto' and the first period of a wire", function()
-  it("is told by coarse edges, however fine those are that are asked for", function()
+  it("is computed on coarse edges, however fine the edges are that are asked for", function()
     local class, most = sw.core.class.wire, 0
     local frequencies = class.frequencies
     function class.frequencies(w, ...)
@@ -130,13 +131,13 @@ describe("poses that need more iterations than dynamics", function()
     return motion.costly(1, { iterations = 100 * times }, { iterations = 100 }, k, in_doubt) ~= nil
   end
 
-  it("cost more only where dynamics on the level where poses end need fewer too", function()
+  it("count as dearer from 8 times as many on level 1, and from 2 times on level 3", function()
     assert.same({ false, true }, { costly(7.9, 1), costly(8, 1) })
     assert.same({ false, true }, { costly(1.9, 3), costly(2, 3) })
     assert.same({ true, true }, { costly(2, 4), costly(2, 5) })
   end)
 
-  it("cost more by half of that where it is not known whether they suffice", function()
+  it("count as dearer from half of that where it is unknown whether they suffice", function()
     assert.same({ false, true }, { costly(3.9, 1, true), costly(4, 1, true) })
     assert.same({ false, true }, { costly(0.9, 3, true), costly(1, 3, true) })
   end)

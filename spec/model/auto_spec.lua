@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs that choose their model: what each choice stands on, against scenes whose answer is known.
+-- Runs that choose their model: the reasons of each choice, in scenes whose answer is known.
 local sw = require "softworld"
 local rod = require "spec.model.rod"
 
@@ -13,7 +13,7 @@ end
 
 local function follow(hold, points, duration) hold:follow { points = points, duration = duration } end
 
--- A wire hangs between two clamps, and one comes nearer; more: of the wire.
+-- A wire hangs between two clamps, one of which comes nearer. more: arguments of the wire.
 local function hung(duration, tolerance, more, settled)
   local scene = sw.scene { name = "hung" }
   scene:force { kind = "damping", mass = 5 }
@@ -54,7 +54,7 @@ local function crossed(gap, down)
 end
 
 describe("model = 'auto'", function()
-  it("takes poses where motion is slow, dynamics where it is fast, and says by how much they differ",
+  it("takes poses where motion is slow and dynamics where it is fast, and says how they differ",
     function()
     local slow, fast = hung(40), hung(0.5)
     assert.equal("poses", slow.model.motion, tostring(slow:why()))
@@ -63,10 +63,10 @@ describe("model = 'auto'", function()
     assert.truthy(tostring(slow:why()):find("leaves out inertia", 1, true))
   end)
 
-  -- The same scene by the dearest model on finer edges and steps.
+  -- The truth: the same scene with the dearest model on finer edges and steps.
   it("keeps to the error that it states, and to the tolerance", function()
     for _, duration in ipairs { 0.5, 40 } do
-      local share = duration > 1 and 0.05 or 0.5 -- the force of a wire that swings is not known better
+      local share = duration > 1 and 0.05 or 0.5 -- the force of a swinging wire is not known better
       local run = hung(duration, { ["right.force"] = { relative = share },
         min_bend_radius = { relative = 0.05 } })
       local scene = sw.scene()
@@ -103,15 +103,15 @@ describe("model = 'auto'", function()
     end
   end)
 
-  it("makes wires touch where they meet, and only there", function()
+  it("lets wires touch where they meet, and only there", function()
     local meet, apart = crossed(0.02, 0.04), crossed(0.1, 0.04)
     assert.equal("wires", meet.model.contact, tostring(meet:why()))
     assert.equal("none", apart.model.contact, tostring(apart:why()))
     assert.truthy(tostring(apart:why()):find("wires cannot meet: the boxes that wires sweep stay", 1, true))
   end)
 
-  -- Two wires side by side, askew: their boxes meet, their axes stay 0.1 m/sqrt(2) apart.
-  it("looks at the axes of wires whose boxes meet, and at how near one comes to itself", function()
+  -- Two slanted wires side by side: their boxes meet, their axes stay 0.1 m/sqrt(2) apart.
+  it("measures how near axes come where boxes meet, and how near a wire comes to itself", function()
     local scene = sw.scene { gravity = { 0, 0, 0 } }
     local wires = {}
     for i, name in ipairs { "a", "b" } do
@@ -124,7 +124,7 @@ describe("model = 'auto'", function()
     local _, _, room = tostring(run:why()):find("they stay ([%d.]+) m apart")
     assert.is_near(0.1 / 2 ^ 0.5 - 2 * R, tonumber(room), 1e-3, tostring(run:why()))
     local coil, path = sw.scene { gravity = { 0, 0, 0 } }, {}
-    for i = 0, 60 do -- three turns, 0.03 m from one to the next
+    for i = 0, 60 do -- three turns with a pitch of 0.03 m
       local a = 2 * math.pi * i / 20
       path[#path + 1] = { 0.05 * math.cos(a), 0.05 * math.sin(a), 0.03 * a / (2 * math.pi) }
     end
@@ -149,7 +149,7 @@ describe("model = 'auto'", function()
     assert.truthy(tostring(run:why()):find("no mesh mends that", 1, true), tostring(run:why()))
   end)
 
-  it("tells what choosing took beside the run, levels that it left to it being the run's", function()
+  it("reports the cost of choosing apart from the run's; levels that both use count as the run's", function()
     local run = hung(2)
     local sum = 0
     for _, level in ipairs(run.levels) do sum = sum + level.cpu end
@@ -170,7 +170,7 @@ describe("model = 'auto'", function()
     end
   end)
 
-  -- 2 mu F of the pads is what they hold: 29 % are free, 3 times as much slips.
+  -- Pads hold 2 mu F by friction. A load of 29 % of that needs no comparison; at F = 0.02 N the wire gives.
   it("grips by friction only where that may slip", function()
     local function carry(force)
       local scene = sw.scene { name = "carry" }
@@ -193,7 +193,7 @@ describe("model = 'auto'", function()
     assert.is_true(hand:over(0).slip > 0) -- it is held by friction, which gives a little
   end)
 
-  it("says when no section that stays round suffices", function()
+  it("says when no round section suffices", function()
     local scene = sw.scene { name = "soft" }
     scene:obstacle { name = "edge", shape = "cylinder", radius = 0.01, length = 0.2, at = { 0.2, 0, -0.0126 },
       rotation = { math.cos(math.pi / 4), math.sin(math.pi / 4), 0, 0 }, friction = 0 }
@@ -209,7 +209,7 @@ describe("model = 'auto'", function()
       tostring(run:why()))
   end)
 
-  it("tells first what is not known of the cable, and refines no further than that", function()
+  it("first reports what is unknown of the cable, and refines no further than that allows", function()
     local scene = sw.scene()
     scene:force { kind = "damping", mass = 5 }
     local w = scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.4, 0, 0 },
@@ -226,7 +226,7 @@ describe("model = 'auto'", function()
     assert.is_true(#run.levels <= 3)
   end)
 
-  -- Poses cannot tell that the wire is crushed: what cannot be checked is not met.
+  -- Poses cannot show that the wire does not bear this motion; what cannot be checked is not met.
   it("is not met where the dearer model cannot be computed", function()
     local scene = sw.scene()
     local w = rod.wire(scene, { E = 1e4 })
@@ -242,7 +242,7 @@ describe("model = 'auto'", function()
     end
   end)
 
-  it("stands in the summary and on the page", function()
+  it("is in the summary and on the page", function()
     local run = hung(2)
     local words = {}
     run:summary { write = function(_, ...)
@@ -259,7 +259,7 @@ describe("model = 'auto'", function()
     assert.truthy(text:find("no friction torque: nothing with friction touches a wire", 1, true))
   end)
 
-  it("gives the same bits twice, and leaves nothing behind", function()
+  it("gives the same bits in a second run, and leaves nothing behind", function()
     local one, two = hung(2), hung(2)
     assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))
     local a, b = tostring(one:why()):gsub(", [%d.e-]+ s; the run.*", ""), tostring(two:why()):gsub(
@@ -271,7 +271,7 @@ describe("model = 'auto'", function()
     assert.is_nil(scene:script():find("wire_contact", 1, true))
   end)
 
-  -- A process that fails is the script's: its error comes as it is, and the scene is as before.
+  -- An error of a process is the script's: it comes out unchanged, and the scene is as before.
   it("passes on errors of processes, and puts the scene back", function()
     local scene = sw.scene()
     local w = rod.wire(scene)
@@ -288,7 +288,7 @@ describe("model = 'auto'", function()
     assert.equal(0, scene.time)
   end)
 
-  it("refuses what cannot be chosen", function()
+  it("refuses runs without a tolerance, and wrong arguments", function()
     local scene = sw.scene()
     local w = rod.wire(scene)
     scene:clamp(w, { s = 0 })
@@ -307,8 +307,8 @@ describe("model = 'auto'", function()
     fails(function() plain:run { duration = 0.01 }:why() end, "was not chosen", "model = 'auto'")
   end)
 
-  -- 1 % of a parameter changes the value by about as much, and the choice in few cases.
-  it("does not jump under small changes of the scene", function()
+  -- Changes of 1 % in a parameter change the value by about as much, and the choice in few cases.
+  it("changes little under small changes of the scene", function()
     local other, base = 0, hung(3)
     local q = base.quantities.min_bend_radius
     for k = 1, 6 do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The example of models that are chosen, run as a user would run it.
+-- The example of chosen models, run as a user would run it.
 local program = dofile "spec/host/program.lua"
 
 describe("example 25", function()

@@ -1,13 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What happens in a plane twists no wire: friction across it is none. So rolling need not be computed.
+-- Motion in a plane does not twist a wire, because no friction acts across the plane. Then rolling need not
+-- be computed.
 local rod = require "spec.model.rod"
 local sw = require "softworld"
 local vec = require "softworld.vec"
 
 local none = { 1, 0, 0, 0 }
 
--- A wire over a rough peg is drawn along and down by its start, all turned by o.turn. o.aside: way of the
--- hand across the plane [m]; o.spin: by how much it turns the wire about itself [rad]; o.shift: where all is.
+-- A wire over a rough peg is drawn along and down by its start. o.turn, o.shift: pose of the whole scene;
+-- o.aside: way of the hand across the plane [m]; o.spin: turn of the hand about the wire [rad].
 local function drawn(o)
   local turn, shift = o.turn or none, o.shift or { 0, 0, 0 }
   local function at(x, y, z) return vec.add(shift, vec.rotate(turn, { x, y, z })) end
@@ -27,23 +28,23 @@ local function drawn(o)
   return vec.rotate(vec.conjugate(turn), hand:force()), sw.core.frames_flat(scene, 1, 0), run
 end
 
--- By how much of the force another scene's is off.
+-- Returns by which share of the force another scene's differs.
 local function off(o, than)
   local force = drawn(than)
   return vec.norm(vec.sub(drawn(o), force)) / vec.norm(force)
 end
 
 describe("a wire that stays in a plane", function()
-  it("is drawn with the same force whether it rolls or not", function()
+  it("is drawn with the same force with and without rolling", function()
     local share = off({ rolls = true, segments = 160 }, { segments = 160 })
     print(("measured: %.2g"):format(share))
-    assert.is_true(share < 2e-3, share) -- one that rolls meets the peg by chords: 6 % off on 40 edges
+    assert.is_true(share < 2e-3, share) -- a rolling wire meets the peg by chords: 6 % off on 40 edges
     share = off({ rolls = true, segments = 160, spin = 1 }, { segments = 160, spin = 1 })
     print(("measured, turned about itself: %.2g"):format(share))
     assert.is_true(share > 0.01, share)
   end)
 
-  it("is known as one, in any plane", function()
+  it("is recognised, in any plane", function()
     local _, flat = drawn {}
     assert.is_true(flat)
     local elsewhere = { turn = vec.turn({ 0.36, -0.48, 0.8 }, 1.3), shift = { 0.4, -0.7, 0.2 } }
@@ -54,13 +55,13 @@ describe("a wire that stays in a plane", function()
 
   for name, o in pairs { ["leaves it by 0.1 mm"] = { aside = 1e-4 },
     ["is turned about itself"] = { spin = 0.1 } } do
-    it("is none if it " .. name, function()
+    it("is not recognised if it " .. name, function()
       local _, flat = drawn(o)
       assert.is_false(flat)
     end)
   end
 
-  it("is not computed with rolling by model = 'auto', which says why", function()
+  it("is not computed with rolling by model = 'auto', which gives the reason", function()
     local _, _, run = drawn { auto = true }
     assert.equal("held", run.model.twist, tostring(run:why()))
     assert.truthy(tostring(run:why()):find("forces on it stay in a plane", 1, true), tostring(run:why()))

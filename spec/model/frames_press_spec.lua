@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What stored frames tell of how lines are pressed (core.frames_press), by which a run chooses meshes:
--- against weight, pads and T/R, wherever nodes are and however the scene is turned.
+-- core.frames_press: how lines are pressed, from stored frames, by which a run chooses meshes. Compared
+-- with weight, pads and T/R, for any nodes and orientation.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
 local capstan = require "spec.check.capstan"
 
-local PLACE = 0.1 -- of the largest load of a frame: from there a node is pressed
+local PLACE = 0.1 -- nodes count as pressed from this share of a frame's largest load on
 
--- Rows { load [N/m], from both sides [N/m], first node, last one, nodes } of frames from start on, outside of
--- { middle, half length, ... } [m].
+-- Rows { load [N/m], load from both sides [N/m], first node, last node, nodes } of frames from start on,
+-- without the places { middle, half length, ... } [m].
 local function rows_of(scene, start, but)
   local flat, rows = core.frames_press(scene, 1, start or 0, PLACE, but or {}), {}
   for i = 1, #flat, 5 do rows[#rows + 1] = { table.unpack(flat, i, i + 4) } end
@@ -51,15 +51,15 @@ describe("frames of a wire on a table", function()
     end)
   end
 
-  it("leave out places that do not count, with an edge and a half beside", function()
+  it("leave out given places, with an edge and a half beside them", function()
     local scene = lying(40, 0) -- edges of 10 mm
     local row = last_of(scene, { 0, 0.102, 0.4, 0.05 })
     assert.same({ 12, 33, 41 }, { row[3], row[4], row[5] })
     near(weight, row[1], 0.01, "load")
-    assert.is_nil(last_of(scene, { 0.2, 0.2 })) -- all of it
+    assert.is_nil(last_of(scene, { 0.2, 0.2 })) -- the whole wire
   end)
 
-  it("are silent of what nothing touches", function()
+  it("give no rows where nothing touches the wire", function()
     local scene = sw.scene{}
     local wire = scene:wire{ EA = 1e4, EI = 1e-3, mass_per_length = 0.05, radius = 0.003, from = { 0, 0, 1 },
       to = { 0.4, 0, 1 }, segments = 20 }
@@ -70,7 +70,8 @@ describe("frames of a wire on a table", function()
 end)
 
 describe("frames of a wire between pads", function()
-  -- Each of two pads of width b presses by F: 2 F / b from both sides, on the nodes from s - b/2 to s + b/2.
+  -- Each of two pads of width b presses with F: 2 F / b from both sides, on the nodes from s - b/2 to s +
+  -- b/2.
   local F, b, s = 2, 0.02, 0.05
 
   local function gripped(segments, axis, table_below)
@@ -91,22 +92,22 @@ describe("frames of a wire between pads", function()
   end
 
   for name, axis in pairs{ ["along x"] = { 1, 0, 0 }, ["turned"] = { 0.6, 0.8, 0 } } do
-    it("tell 2 F / b from both sides, where they are, " .. name, function()
+    it("give 2 F / b from both sides, at the pads, " .. name, function()
       for _, n in ipairs{ 60, 120 } do -- pads end at nodes
         local row, edge = last_of(gripped(n, axis)), 0.12 / n
-        near(2 * F / b, row[1], 0.01, "load") -- nodes at the pads' ends bear half of an edge
+        near(2 * F / b, row[1], 0.01, "load") -- nodes at the pads' ends bear half an edge
         near(2 * F / b, row[2], 0.01, "from both sides")
         assert.same({ (s - b / 2) / edge, (s + b / 2) / edge, n + 1 },
           { row[3] + 0.0, row[4] + 0.0, row[5] + 0.0 })
       end
-      local row, edge = last_of(gripped(47, axis)), 0.12 / 47 -- and between nodes
+      local row, edge = last_of(gripped(47, axis)), 0.12 / 47 -- pads end between nodes
       near(2 * F / b, row[2], 0.05, "from both sides")
       assert.is_near(s - b / 2, row[3] * edge, 1.01 * edge)
       assert.is_near(s + b / 2, row[4] * edge, 1.01 * edge)
     end)
   end
 
-  it("tell what else presses, without the pads", function()
+  it("give the other loads where the pads are left out", function()
     local scene = gripped(60, { 1, 0, 0 }, true)
     near(2 * F / b, last_of(scene)[2], 0.01, "from both sides")
     local row = last_of(scene, { s, b / 2 })
@@ -116,19 +117,19 @@ describe("frames of a wire between pads", function()
 end)
 
 describe("frames of a wire round a cylinder", function()
-  it("tell T/R, from one side, over its arc", function()
+  it("give T/R, from one side, over its arc", function()
     local angle, n = 2 * math.pi / 3, 200
     local scene, wire = capstan.scene{ friction = 0, angle = angle, segments = n }
     scene:run{ duration = 0.5, dt = 0.005, frame = 0.1 }
     local row, Rw = last_of(scene), capstan.R + capstan.RADIUS
-    near(1 / Rw, row[1], 0.06, "load") -- chords turn by turns too much and too little
+    near(1 / Rw, row[1], 0.06, "load") -- chords turn by too much and by too little in turn
     assert.equal(0, row[2])
     assert.is_near(angle * Rw, (row[4] - row[3]) * wire.length / n, 2 * wire.length / n)
   end)
 end)
 
 describe("frames_press", function()
-  it("names what is wrong", function()
+  it("refuses wrong arguments, naming them", function()
     local scene = sw.scene{}
     scene:wire{ EA = 1e4, EI = 1e-3, mass_per_length = 0.05, radius = 0.003, from = { 0, 0, 1 },
       to = { 0.4, 0, 1 } }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs that choose their model, watched while they go on: what a free check stood on breaks on the way, and
--- the run goes on with the next rung from a snapshot before that; or it begins again.
+-- Runs that chose their model are watched. Where the condition of a free check breaks on the way, the run
+-- goes on with the next rung from an earlier snapshot, or begins again.
 local sw = require "softworld"
 local core = sw.core
 
@@ -20,8 +20,9 @@ local function choice(run, name)
   end
 end
 
--- A wire hangs between two clamps at rest. In the second half one clamp moves gently in the first run, and
--- sets off at once in all from a number on, here the second: what coarse poses took for slow is not in these.
+-- A wire hangs between two clamps at rest. In the second half of the time one clamp moves gently in the
+-- first run, and starts abruptly in all runs from number `since` on (2): the coarse poses come first and
+-- take the motion for slow.
 local function sets_off(options, more, since)
   local scene, count = sw.scene { name = "off" }, 0
   scene:force { kind = "damping", mass = 5 }
@@ -58,7 +59,7 @@ describe("a run that chose its model", function()
     assert.is_true(off ^ 0.5 <= q.error + t.error, ("%g off, %g stated"):format(off ^ 0.5, q.error))
   end)
 
-  it("gives the same bits twice", function()
+  it("gives the same bits in a second run", function()
     local one, two = sets_off(), sets_off()
     assert.equal(tostring(one:error_bars()), tostring(two:error_bars()))
     local _, scene, w = sets_off()
@@ -66,7 +67,7 @@ describe("a run that chose its model", function()
     assert.is_true(math.abs(scene.time - 40) < 1e-9)
   end)
 
-  -- What the coarse run did not have happens in those after it: a script that counts its runs.
+  -- A script that counts its runs: the later runs contain something that the coarse run does not.
   -- aside: the way of the table across the plane in which the wire hangs [m].
   local function lifted(turn, aside)
     local scene, count = sw.scene { name = "rub" }, 0
@@ -88,7 +89,7 @@ describe("a run that chose its model", function()
     return scene:run { quasistatic = true, tolerance = { ["left.force"] = { relative = 0.1 } } }, w
   end
 
-  it("lets a wire roll from where something begins to rub", function()
+  it("lets a wire roll from where something begins to rub it", function()
     local run, w = lifted(nil, 0.03)
     assert.equal("switched", choice(run, "twist").by, tostring(run:why()))
     assert.equal("rolling", run.model.twist)
@@ -97,20 +98,20 @@ describe("a run that chose its model", function()
     assert.is_not_nil(w:get().spin_inertia)
   end)
 
-  it("lets it not where nothing rubs across the plane in which it hangs", function()
+  it("does not let it roll where nothing rubs across the plane in which it hangs", function()
     local run, w = lifted()
     assert.equal("free", choice(run, "twist").by, tostring(run:why()))
     assert.is_nil(w:get().spin_inertia)
   end)
 
-  it("begins again where a wire that is twisted cannot go on rolling, and says why", function()
+  it("begins again where a twisted wire cannot go on rolling, and says why", function()
     local run = lifted(1)
     assert.are_not.equal("switched", choice(run, "twist").by)
     assert.truthy(tostring(run:why()):find("and the run began again: ", 1, true), tostring(run:why()))
     assert.truthy(tostring(run:why()):find("is twisted by", 1, true), tostring(run:why()))
   end)
 
-  -- The same way in a fifth of the time bears more on the pads: 29 % become more than 50 %.
+  -- The same way in a fifth of the time loads the pads more: 29 % become more than 50 %.
   it("ends a run whose pads bear too much, compares the grip and begins again", function()
     local scene, count = sw.scene { name = "carry" }, 0
     scene:force { kind = "damping", mass = 8 }
@@ -133,8 +134,8 @@ describe("a run that chose its model", function()
     assert.are_not.equal("free", choice(run, "grip").by)
   end)
 
-  -- Looked at between two frames of a run on the way, as the checks before it were.
-  it("watches what presses on wires and what pads bear, by rung", function()
+  -- The checks between two frames on the way, which are those made before the run.
+  it("checks the pressure on wires and the load of pads, by rung", function()
     local f = { share = 0.03, q = 9.7, wire = "w", flat = 0.2, wall = 0.2 }
     assert.truthy(section.broken(f, 0.02, 1):find("'w' was pressed by 9.7", 1, true))
     assert.is_nil(section.broken(f, 0.04, 1))
@@ -168,9 +169,9 @@ describe("a run that chose its model", function()
   end)
 end)
 
--- v = (x - x before)/span at free nodes; of lines with as many nodes alone.
+-- v = (x - x before)/span at free nodes; only for lines with the same number of nodes.
 describe("core.came_from", function()
-  it("gives the speed of the way", function()
+  it("gives the velocity of a displacement", function()
     local scene = sw.scene()
     local w = rod.wire(scene, { model = "rod", segments = 4 })
     scene:clamp(w, { s = 0 })

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A wire that hangs between two clamps, of which one comes nearer slowly: its model is chosen while what
--- runs of a rung tell goes through a function of the spec.
+--- A wire hangs between two clamps, one of which comes nearer slowly. Its model is chosen while runs of a
+--- rung go through a function of the spec.
 local refine = require "softworld.run.refine"
 local rod = require "spec.model.rod"
 local sw = require "softworld"
 
 local hung = {}
 
-local FINE = 20 -- segments from which edges are fine
+local FINE = 20 -- from this number of segments on, edges are fine
 
--- f() while runs of a model go through instead(run_once, scene, options, name, why).
+-- Calls f() while instead(run_once, scene, options, name, why) replaces the runs of a model.
 local function computing(instead, f)
   local computer = refine.computer
   function refine.computer(job, steps, run_once, total)
@@ -21,8 +21,8 @@ local function computing(instead, f)
   return result
 end
 
---- Its run; more: arguments of it. of_fine(run_once, scene, options, name, why): instead of run_once where
--- poses on fine edges are computed; nil: as they are.
+--- Returns its run; more: arguments of the run. of_fine(run_once, scene, options, name, why) is called
+--- instead of run_once for poses on fine edges; nil: no replacement.
 function hung.run(of_fine, more)
   local scene = sw.scene { name = "hung" }
   scene:force { kind = "damping", mass = 5 }
@@ -40,7 +40,7 @@ function hung.run(of_fine, more)
   end, function() return scene:run(args) end)
 end
 
---- How far the forces of two runs are apart, and what their bars allow [N].
+--- Returns how far the forces of two runs are apart, and the sum of their bars [N].
 function hung.apart(one, other)
   local a, b, sum = one.quantities["right.force"], other.quantities["right.force"], 0
   for i = 1, 3 do sum = sum + (a.value[i] - b.value[i]) ^ 2 end

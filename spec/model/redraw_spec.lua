@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What choosing a model stands on: tolerances as shares, wires drawn again with other stiffnesses.
+-- Parts of choosing a model: relative tolerances, and core.redraw, which draws a wire again with or without
+-- rolling.
 local sw = require "softworld"
 
 local core = sw.core
@@ -15,7 +16,7 @@ local function fails(f, ...)
 end
 
 describe("tolerance = { relative = share }", function()
-  it("is of the value", function()
+  it("is a share of the value", function()
     local scene = sw.scene()
     local w = rod.wire(scene, { model = "rod" })
     scene:clamp(w, { s = 0 })
@@ -31,7 +32,7 @@ describe("tolerance = { relative = share }", function()
   end)
 end)
 
--- What core.redraw makes of a wire is what scene:wire would have made.
+-- core.redraw must give the wire that scene:wire would have made.
 describe("core.redraw", function()
   local function swing(rolls, change)
     local scene = sw.scene()
@@ -44,12 +45,12 @@ describe("core.redraw", function()
     return w:positions(), w
   end
 
-  it("gives the bits of a wire that was made so", function()
+  it("gives the same bits as a wire made that way", function()
     assert.same(swing(true), (swing(nil, function(_, w) core.redraw(w, true) end)))
     assert.same(swing(nil), (swing(true, function(_, w) core.redraw(w, false) end)))
   end)
 
-  it("leaves a wire that has settled at rest, and holds as they hold", function()
+  it("leaves a settled wire at rest, with the same forces of its holds", function()
     local scene = sw.scene()
     local w = rod.wire(scene, { model = "rod", EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3 })
     local left = scene:clamp(w, { s = 0 })
@@ -62,8 +63,8 @@ describe("core.redraw", function()
     assert.is_near(force[1], left:force()[1], 1e-6 * math.abs(force[1]))
   end)
 
-  -- Of a wire with the bend of a spool, of one with two stiffnesses: as one that rolls from the start.
-  it("keeps the frames of a wire that has settled", function()
+  -- A wire bent at rest and one with two stiffnesses move like one that rolls from the start.
+  it("keeps the frames of a settled wire", function()
     local arc = {}
     for i = 0, 20 do arc[#arc + 1] = { 0.2 * math.sin(i / 10), 0.2 * (1 - math.cos(i / 10)), 0 } end
     for _, args in ipairs { { path = arc, rest = "path" },
@@ -87,7 +88,7 @@ describe("core.redraw", function()
     end
   end)
 
-  it("refuses what would lose twist, and meshes", function()
+  it("refuses twisted wires and meshes", function()
     local scene = sw.scene()
     local w = rod.wire(scene, { model = "rod" })
     scene:clamp(w, { s = 0 })

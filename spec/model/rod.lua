@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- The soft wire of the specs of models that are chosen.
+--- The soft wire of the specs of chosen models.
 local rod = { radius = 0.0025 } -- [m]
 
 function rod.wire(scene, more)

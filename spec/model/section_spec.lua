@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The choice of section: what its free checks stand on, and squeezed wires whose force is known.
+-- The choice of section: its free checks, and squeezed wires whose force is known.
 local sw = require "softworld"
 local flat = require "softworld.model.flat"
 local mesh = require "softworld.model.mesh"
@@ -12,7 +12,7 @@ local SOLID = { { 0.01, 0.004979935294 }, { 0.05, 0.03443902533 }, { 0.1, 0.0840
 local TUBE_1, TUBE_10 = 0.0004365450778, 0.004049114355 -- inner radius 0.7 R, at 1 % and 10 %
 local SOLID_STUCK_10 = 0.08485878573                    -- between plates that stick
 
--- A round wire, or a tube of the same material told by its stiffness.
+-- A round wire, or a tube of the same material given by its stiffness.
 local function section(inner)
   if not inner then return { E = E, nu = 0.3, density = 1000, radius = R } end
   local area, EI = math.pi * R ^ 2 * (1 - inner ^ 2), E * math.pi / 4 * R ^ 4 * (1 - inner ^ 4)
@@ -28,7 +28,7 @@ end
 
 local function body(args) return flat.body(wire_of(sw.scene {}, args)) end
 
--- A piece of a long wire between long plates that come nearer by a share of its width.
+-- A piece of a long wire between long plates that approach by a share of its width.
 local function plates(args, share, more)
   local scene = sw.scene { gravity = { 0, 0, 0 } }
   local w = wire_of(scene, args, { model = "auto" })
@@ -46,7 +46,7 @@ end
 
 local function force_of(run) return run.quantities["top.force"].value[3] / (E * R * R) end
 
--- A weight of wire on a table: pressed, but hardly.
+-- A wire on a table under its weight: pressed, but hardly.
 local function lying()
   local scene = sw.scene {}
   scene:obstacle { name = "table", shape = "plane", friction = 0 }
@@ -57,8 +57,8 @@ local function lying()
 end
 
 describe("flattening", function()
-  -- Johnson's line contact is for small strips; measured off by 0.1 to 0.5 % up to a tenth.
-  it("is that of a solid cylinder between plates", function()
+  -- Johnson's line contact is for narrow strips; it is off by 0.1 to 0.5 % up to a tenth.
+  it("agrees with a solid cylinder between plates", function()
     local b = body(section())
     assert.is_nil(b.inner)
     for _, row in ipairs(SOLID) do
@@ -66,8 +66,8 @@ describe("flattening", function()
     end
   end)
 
-  -- Roark's ring counts shear and stretch of the wall; a thin ring alone is 20 % too stiff here.
-  it("is that of a thick ring, of a tube that EA and EI tell", function()
+  -- Roark's ring includes shear and stretch of the wall; a thin ring alone is 20 % too stiff here.
+  it("agrees with a thick ring, for a tube given by EA and EI", function()
     local b = body(section(0.7))
     assert.is_near(0.7 * R, b.inner, 1e-6 * R)
     assert.is_near(E, b.E, 1e-6 * E)
@@ -79,22 +79,22 @@ describe("flattening", function()
     assert.is_near(flat.thin * mean ^ 3 / EI, flat.ring(thin), 0.002 * flat.ring(thin))
   end)
 
-  it("is not known where EA and EI are of no one material, and then E is the most there may be", function()
+  it("is not known where EA and EI fit no single material; then E is an upper bound", function()
     local b = body { EA = 1e4, EI = 2e-3, GJ = 2e-3, mass_per_length = 0.03, radius = 0.0018 }
     assert.is_false(b.known)
     assert.is_near(1e4 / (math.pi * 0.0018 ^ 2), b.E, 1)
   end)
 
-  it("is of the line force that its stiffness tells", function()
+  it("is consistent with its stiffness", function()
     local b = body(section())
     local K = flat.stiffness(b, 0.05)
     assert.is_near(0.05, flat.share(b, K * 0.05 * 2 * R), 1e-6)
-    assert.is_near(flat.stiffness(b, 0.1), flat.stiffness(b, 0.5), 1e-9 * K) -- no more than a tenth
+    assert.is_near(flat.stiffness(b, 0.1), flat.stiffness(b, 0.5), 1e-9 * K) -- at most a tenth counts
   end)
 end)
 
--- EA and EI tell the inner radius but for rounding, which must not ask for more cubes across.
-it("a tube whose wall is a quarter of its radius has elements, of 16 cubes across", function()
+-- EA and EI give the inner radius up to rounding, which must not ask for more cubes across.
+it("a tube whose wall is a quarter of its radius has elements, with 16 cubes across", function()
   for _, inner in ipairs{ 0.75, 0.7500000001, 0.7499999999 } do
     local b = body(section(inner))
     assert.is_near(0.25 * R, b.wall, 1e-9 * R)
@@ -103,8 +103,8 @@ it("a tube whose wall is a quarter of its radius has elements, of 16 cubes acros
   end
 end)
 
--- By the rule, by what the level before took, and by what that grew by over the rule.
-it("a level is expected to take what those before it did, and to grow as they did", function()
+-- Expected time: the rule, times what the level before took over the rule, with the growth of that factor.
+it("a level is expected to take the time of those before it, and to grow as they did", function()
   local wire = { body = body(section(0.7)), share = 0.1, length = 0.1 }
   local context = { probes = {}, pressed_fixed = { wire }, iterations = 100 }
   local rungs = { motion = 1, twist = 1, contact = 1, grip = 1, section = mesh.springs }
@@ -116,14 +116,14 @@ it("a level is expected to take what those before it did, and to grow as they di
   took(2, 15 * rule(2))
   assert.is_near(15 * 1.5 * rule(3), probe.expected(context, rungs, 3), 1e-6 * rule(3))
   assert.is_near(15 * 1.5 ^ 2 * rule(4), probe.expected(context, rungs, 4), 1e-6 * rule(4))
-  local levels = { [3] = { ok = true, cpu = rule(3) } } -- faster than feared
+  local levels = { [3] = { ok = true, cpu = rule(3) } } -- faster than expected
   assert.is_near(rule(4), probe.expected(context, rungs, 4, levels), 1e-9 * rule(4))
   rungs.section = 1
   assert.is_nil(probe.expected(context, rungs, 3))
 end)
 
 describe("the choice of section", function()
-  it("stays round at no cost where next to nothing presses", function()
+  it("stays round at no cost where almost nothing presses", function()
     local run, w = lying()
     assert.equal("round", run.model.section, tostring(run:why()))
     assert.equal("rod", w.model)
@@ -132,14 +132,14 @@ describe("the choice of section", function()
     end
   end)
 
-  it("takes springs for a tube between plates, whose force is within the stated error", function()
+  it("takes springs for a tube between plates, with a force within the stated error", function()
     local scene, w, args = plates(section(0.7), 0.1)
     local run = scene:run(args)
     assert.equal("springs", run.model.section, tostring(run:why()))
     assert.equal("tube", w.model)
     assert.is_true(run.met, tostring(run:why()))
     assert.truthy(tostring(run:why()):find("is squeezed from both sides, as no line can be", 1, true))
-    assert.equal("held", run.model.twist) -- a mesh rolls by itself, also where something rubs on the way
+    assert.equal("held", run.model.twist) -- a mesh rolls by itself, also where something rubs it on the way
     for _, e in ipairs(run.events) do assert.are_not.equal("model", e.kind) end
     local q = run.quantities["top.force"]
     assert.is_true(q.model_error > 0)
@@ -147,7 +147,7 @@ describe("the choice of section", function()
       ("%g, not %g"):format(force_of(run), TUBE_10))
   end)
 
-  it("tells of a thin-walled hose that its wall has no mesh, and is not met", function()
+  it("reports that the wall of a thin-walled hose has no mesh, and is not met", function()
     local scene, _, args = plates(section(0.9), 0.1)
     local run = scene:run(args)
     assert.is_false(run.met)
@@ -158,8 +158,8 @@ describe("the choice of section", function()
     assert.truthy(why:find("no mesh of it can be computed", 1, true), why)
   end)
 
-  -- The second level of a wall of 0.3 R has 20 cubes across, and 16 is the most.
-  it("computes no elements of one level only, and is not met where springs leave out too much", function()
+  -- The second level of a wall of 0.3 R needs 20 cubes across; at most 16 are possible.
+  it("computes no elements for one level only, and is not met where springs leave out too much", function()
     local scene, _, args = plates(section(0.7), 0.1, { tolerance = { ["top.force"] = { relative = 0.03 } } })
     local run = scene:run(args)
     assert.equal("springs", run.model.section, tostring(run:why()))
@@ -168,7 +168,7 @@ describe("the choice of section", function()
     assert.is_true(run.model.probes <= 4)
   end)
 
-  it("takes elements for a solid wire between plates, whose force is within the stated error", function()
+  it("takes elements for a solid wire between plates, with a force within the stated error", function()
     local scene, w, args = plates(section(), 0.1)
     local run = scene:run(args)
     assert.equal("elements", run.model.section, tostring(run:why()))
@@ -179,7 +179,7 @@ describe("the choice of section", function()
       ("%g, not %g"):format(force_of(run), SOLID_STUCK_10))
   end)
 
-  -- Rods find no rest here, and what was stored before tells how they are pressed.
+  -- Rods find no equilibrium here; what was stored before shows how they are pressed.
   for _, row in ipairs { { 0.16, 0.12 }, { 0.1, 0.05 } } do
     local length, at = table.unpack(row)
     it(("makes a mesh of a hose of %g m also where poses of lines fail"):format(length), function()
@@ -204,8 +204,8 @@ describe("the choice of section", function()
     end)
   end
 
-  -- Choices look at frames, which are theirs: the script's may be too few to see anything press.
-  it("is not blind where the script keeps no frames, or few", function()
+  -- The choices use frames of their own: the script's may be too few to show any pressure.
+  it("sees the pressure although the script keeps no frames, or few", function()
     for _, row in ipairs { { frames = false }, { frame = 10 } } do
       local scene, _, args = plates(section(0.7), 0.1, row)
       local run = scene:run(args)
@@ -215,8 +215,8 @@ describe("the choice of section", function()
     end
   end)
 
-  -- Each choice by itself leaves out less than 3/4 of the tolerance: springs two thirds, poses an eighth.
-  it("leaves no more out together with the others than they may", function()
+  -- Each choice alone leaves out less than 3/4 of the tolerance: springs two thirds, poses an eighth.
+  it("keeps what all choices leave out together within 3/4 of the tolerance", function()
     local scene, _, args = plates(section(0.7), 0.115, { duration = 0.05 })
     args.quasistatic = nil
     for _, name in ipairs { "low", "top" } do
@@ -230,7 +230,7 @@ describe("the choice of section", function()
     assert.is_true(q.model_error <= 0.75 * q.tolerance, ("%g of %g"):format(q.model_error, q.tolerance))
   end)
 
-  it("gives the same bits twice, and chooses anew where it has left a mesh", function()
+  it("gives the same bits in a second run, and chooses again after leaving a mesh", function()
     local values = {}
     for k = 1, 2 do
       local scene, _, args = plates(section(0.7), 0.05)
@@ -249,7 +249,7 @@ describe("the choice of section", function()
     assert.truthy(again.model)
   end)
 
-  it("reads what only a section that changes has", function()
+  it("reads quantities that only a changing section has", function()
     local scene, w, args = plates(section(0.7), 0.1)
     args.tolerance = { { name = "height", relative = 0.1, unit = "m",
       of = function() return w:width(R / 2, { 0, 0, 1 }) end } }
@@ -258,8 +258,8 @@ describe("the choice of section", function()
     assert.is_near(0.9 * 2 * R, run.quantities.height.value, 0.02 * R)
   end)
 
-  -- A ring of particles lies within 0.9 of the radius, so the tube's wall may not be thinner.
-  it("says so where the wire cannot be such a mesh", function()
+  -- A ring of particles lies within 0.9 of the radius, so the wall of a tube cannot be thinner.
+  it("reports that the wire cannot be such a mesh", function()
     local scene, w, args = plates(section(0.95), 0.1)
     local run = scene:run(args)
     assert.is_not_true(run.ok and run.met)
@@ -270,8 +270,8 @@ describe("the choice of section", function()
     assert.equal("rod", w.model)
   end)
 
-  -- Springs do not feel walls that touch: the event `walls`, where their middles are one thickness apart.
-  it("is not met where the walls of a mesh have gone through each other", function()
+  -- Springs do not feel walls that touch. The event `walls`: the middles of walls are one thickness apart.
+  it("is not met where the walls of a mesh have passed through each other", function()
     for share, enough in pairs{ [0.6] = true, [0.85] = false } do
       local scene, w, args = plates(section(0.75), share)
       args.tolerance = { ["top.force"] = { relative = 0.9 } }
@@ -286,8 +286,8 @@ describe("the choice of section", function()
     end
   end)
 
-  -- Of a wire squeezed by E that nobody told, the force is anyone's guess.
-  it("is not met where the stiffness of the section is not known", function()
+  -- If E of the section is not given, the squeezing force is unknown.
+  it("is not met where the stiffness of the section is unknown", function()
     local scene, _, args = plates({ EA = 2e3, EI = 5e-4, GJ = 4e-4, mass_per_length = 0.3, radius = R }, 0.1)
     local fine, run = pcall(scene.run, scene, args)
     assert.is_true(fine, tostring(run))

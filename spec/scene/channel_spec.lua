@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Channels: troughs of mitred prisms, what lies in them, forces, lid.
+-- Channels: troughs of mitred prisms; wires in them, forces, friction, the lid, refusals.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -29,7 +29,7 @@ describe("a channel", function()
     for k = 0, 20 do
       t.near(R, wire:position(wire.length * k / 20)[3], 5e-5, "height over its floor")
     end
-    -- about its first point: weight times the lever of the centre of mass
+    -- moment about the channel's first point: weight times lever of the centre of mass
     local p = { 0, 0 }
     for k = 1, 2000 do
       local q = wire:position(wire.length * (k - 0.5) / 2000)
@@ -54,13 +54,13 @@ describe("a channel", function()
         local p = { x[k], x[k + 1] }
         local inside = math.abs(p[2]) < WIDTH / 2 - R + 1e-4 and p[1] < 0.2 + WIDTH / 2
           or math.abs(p[1] - 0.2) < WIDTH / 2 - R + 1e-4 and p[2] > -WIDTH / 2
-        -- along its legs the wire may slide out at the ends
+        -- the wire may slide out of the legs' ends
         assert.is_true(inside, ("(%.4f, %.4f) is not inside"):format(p[1], p[2]))
       end
     end
   end)
 
-  -- Corners of neighbouring parts are the same points, and mitres lie in the bisecting plane.
+  -- Neighbouring legs share the corner points of floor and walls; the mitres lie in the bisecting plane.
   it("closes at its corners", function()
     local _, _, duct = bent{ points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.15, 0.08, 0 }, { 0.15, 0.2, 0.02 } } }
     local function vertices(part)
@@ -82,7 +82,7 @@ describe("a channel", function()
     end
   end)
 
-  it("has a lid that holds wires in, is refused on top of one, and comes off", function()
+  it("has a lid that holds wires in, does not close on a wire that stands out, and comes off", function()
     local scene, wire, duct = bent{ z = DEPTH }
     local parts = #scene:run{ duration = 0.01, dt = 5e-3, frame = 0.01 }:document().obstacles
     local ok, message = pcall(duct.close, duct)
@@ -113,14 +113,14 @@ describe("a channel", function()
     assert.is_true(duct.closed)
   end)
 
-  it("lies whichever way up says", function()
+  it("lies the way that up says", function()
     local scene, wire, duct = bent{ up = { 0, 0, -1 }, gravity = { 0, 0, 9.81 }, z = -0.005 }
     t.fine(scene:run{ duration = 0.5, dt = 5e-3 })
     t.near(1, duct:contains(wire), 0, "share")
     t.share(wire.beam.mass_per_length * wire.length * 9.81, duct:force()[3], 1e-3, "force")
   end)
 
-  it("rubs: a straight wire is pulled along by mu m g", function()
+  it("exerts friction mu m g on a straight wire that slides in it", function()
     local scene = sw.scene{}
     local wire = scene:wire{ E = 1e9, density = 1500, radius = R, from = { 0.02, 0, R }, to = { 0.12, 0, R },
       segments = 20 }
@@ -132,7 +132,7 @@ describe("a channel", function()
     t.share(0.3 * 9.81 * 0.1, wire:velocity(0.05)[1], 0.02, "speed") -- a = mu g
   end)
 
-  it("is told in the summary, shown in pictures, and taken away", function()
+  it("is in the summary and in pictures, and can be released", function()
     local scene, wire, duct = bent{ lid = true }
     local run = t.fine(scene:run{ duration = 0.05, dt = 5e-3, frame = 0.05 })
     local document = run:document()
@@ -148,7 +148,7 @@ describe("a channel", function()
     t.below(-0.1, wire:position(0.1)[3], "height of the wire without it")
   end)
 
-  it("refuses what makes no channel, by name", function()
+  it("refuses invalid arguments, naming them", function()
     local function refused(message, args)
       local scene = sw.scene{}
       local a = { name = "d", points = { { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.1, 0 } }, width = 0.01,

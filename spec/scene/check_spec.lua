@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps that are refused: states that nobody can believe, and explicit steps above the method's
--- own limit.
+-- Refused steps: states with impossible values, and explicit steps above their method's stability limit.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local bench = require "bench.rows"
@@ -26,14 +25,14 @@ local function believable(values, most, what)
   end
 end
 
-describe("a state with velocities that are no numbers", function()
+describe("a state with infinite or huge velocities", function()
   it("is never accepted", function()
     local failed = 0
     for _, method in ipairs(samples.registry.integrators) do
       for _, force in ipairs{ 1e308, 1e200 } do
         local scene, wire = soft()
         local h = 1e-4
-        -- a force at the very end of the step moves the nodes in the next one only
+        -- a force at the very end of the step moves the nodes only in the next step
         scene:force{ on = wire, kind = function(time, _, _, f)
           for i = 1, time > 0.99 * h and #f or 0 do f[i] = force end
         end }
@@ -53,7 +52,7 @@ describe("a state with velocities that are no numbers", function()
 end)
 
 describe("solid elements", function()
-  it("are torn by steps that are too long, and never metres large", function()
+  it("in steps above the limit stay within 1 m, or the run fails and names the torn wire", function()
     local failed, torn = 0, 0
     for _, method in ipairs(explicit) do
       for _, share in ipairs{ 1.5, 3, 20 } do
@@ -76,10 +75,10 @@ describe("solid elements", function()
       end
     end
     t.above(20, failed, "failed runs")
-    t.above(20, torn, "torn wires") -- the others had no finite places at once
+    t.above(20, torn, "torn wires") -- the other wires had non-finite places at once
   end)
 
-  it("may be stretched to many times their length", function()
+  it("can be stretched to six times their length", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 1e5, density = 1150, radius = 0.005, model = "cubic", body = "solid",
       from = { 0, 0, 0 }, to = { 0.02, 0, 0 } }
@@ -92,7 +91,7 @@ describe("solid elements", function()
 end)
 
 describe("an explicit step above its method's limit", function()
-  it("is refused by every explicit method, and nothing has moved", function()
+  it("is refused by every explicit method, and nothing moves", function()
     t.above(7.5, #explicit, "explicit methods")
     for _, method in ipairs(explicit) do
       local scene, wire = soft()
@@ -108,7 +107,7 @@ describe("an explicit step above its method's limit", function()
     end
   end)
 
-  it("is taken with unstable = true, and told when the wire is torn", function()
+  it("is taken with unstable = true; the run then fails and names the wire", function()
     for _, method in ipairs(explicit) do
       local scene, wire = soft()
       wire:set_velocity{ 1, 0, 1 }
@@ -119,14 +118,14 @@ describe("an explicit step above its method's limit", function()
     end
   end)
 
-  it("is no matter of quasi-static runs, implicit methods and one short step", function()
+  it("does not concern quasi-static runs, implicit methods and one short step", function()
     local scene = soft()
     t.fine(scene:run{ duration = 0.1, dt = 0.1, integrator = "rk4", quasistatic = true })
     t.fine(scene:run{ duration = 0.1, dt = 0.1 })
     t.fine(scene:run{ duration = scene:stable_dt(), dt = 1, integrator = "rk4" })
   end)
 
-  it("is refused at any level of a run with error bars, which leaves the scene as it was", function()
+  it("is refused at any level of a run with error bars; the scene stays as it was", function()
     local scene, wire = soft()
     local before = wire:positions()
     for _, dt in ipairs{ 0.1, 0.03 } do
@@ -140,7 +139,7 @@ describe("an explicit step above its method's limit", function()
     t.fine(scene:run{ duration = 0.02, dt = 1e-3 })
   end)
 
-  it("has limits that are those of the stability polynomials", function()
+  it("is judged by limits that match the stability polynomials", function()
     for _, method in ipairs(explicit) do
       t.share(bench.limit(method.name, 20000, 100), method.leapfrog_limit, 2e-3, method.name)
     end
@@ -149,7 +148,7 @@ describe("an explicit step above its method's limit", function()
     end
   end)
 
-  it("has limits that a straight wire shows", function()
+  it("is judged by limits that a straight wire confirms", function()
     for _, method in ipairs(explicit) do
       for _, share in ipairs{ 0.98, 1.05 } do
         local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -160,7 +159,7 @@ describe("an explicit step above its method's limit", function()
         local start, dt = scene:energy().total, share * method.leapfrog_limit / 2 * scene:stable_dt()
         local run = scene:advance({ dt = dt, integrator = method.name, unstable = true }, 4000 * dt)
         local grown = run.ok and run.rejected == 0 and scene:energy().total / start or math.huge
-        -- methods that let swings grow slowly do so by up to 100 in 20000 steps at the limit
+        -- methods whose swings grow slowly reach factors up to 100 in 20000 steps at the limit
         if share < 1 then t.below(10, grown, "growth below the limit with " .. method.name) end
         if share > 1 and method.order ~= 5 then
           t.above(1e3, grown, "growth above the limit with " .. method.name)
@@ -171,11 +170,11 @@ describe("an explicit step above its method's limit", function()
 end)
 
 describe("implicit-midpoint", function()
-  it("is remarked once where wires touch something, for it gains energy there", function()
+  it("is warned of once where wires touch something, because it gains energy there", function()
     local function events(method, floor)
       local scene = soft()
       scene:obstacle{ shape = "plane", at = { 0, 0, floor } }
-      scene:run{ duration = 0.1, dt = 0.002, integrator = method } -- the referee may not be content
+      scene:run{ duration = 0.1, dt = 0.002, integrator = method } -- the run may end with ok = false
       local list = {}
       for _, event in ipairs(scene:events()) do
         if event.kind == "integrator" then list[#list + 1] = event end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Two holds never hold one node or particle, however they come together.
+-- No two holds ever hold the same node or particle, in whatever order they are made.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -13,7 +13,7 @@ local function make(args)
   return scene, scene:wire(given)
 end
 
--- Raises, and the message has all of these words.
+-- f must raise an error whose message contains all of these words.
 local function refused(words, f, ...)
   local ok, message = pcall(f, ...)
   assert.is_false(ok)
@@ -32,7 +32,7 @@ local meshes = {
 }
 
 describe("two holds at one place", function()
-  it("are refused on a line, and so are those with nothing between them", function()
+  it("are refused on a rod, and so are holds less than 0.3 um apart", function()
     for _, gap in ipairs{ 0, 2e-10, 5e-10, 1e-8, 2.9e-7 } do
       local scene, wire = make()
       scene:clamp(wire, { s = 0.1, name = "first" })
@@ -84,7 +84,7 @@ describe("two holds at one place", function()
     goes_on(scene, wire)
   end)
 
-  it("that come from rings of a mesh which overlap on a line stop the way back", function()
+  it("stop remodelling a mesh to a rod where their grips would overlap", function()
     local ended = { [true] = 0, [false] = 0 }
     for gap = 0.1, 3, 0.3 do
       local scene, wire = make()
@@ -102,7 +102,7 @@ describe("two holds at one place", function()
     assert.is_true(ended[true] > 0 and ended[false] > 0)
   end)
 
-  it("do not come about in any order of making, remodelling, releasing and going back", function()
+  it("never arise in any order of making, joining, remodelling, releasing and restoring", function()
     local names = { "remodel", "hold", "release", "back", "keep", "save", "join" }
     local done, refusals = 0, 0
     for seed = 1, 24 do
@@ -146,7 +146,7 @@ describe("two holds at one place", function()
         done = done + 1
         local reason = fine and run.reason or run
         assert.is_nil(reason:find "memory", ("seed %d, after %s"):format(seed, what))
-        -- edges of a fortieth of a millimetre may be too stiff; nothing goes on from what has diverged
+        -- edges of 0.025 mm may be too stiff; a diverged run is not continued
         if not fine or not run.ok then break end
         local x = wire:position(0.2)
         assert.is_true(x[1] == x[1], ("seed %d, after %s"):format(seed, what))
@@ -158,7 +158,7 @@ describe("two holds at one place", function()
 end)
 
 describe("a pin", function()
-  it("is not lost where the new mesh has no particle to be held by", function()
+  it("stops remodelling to a mesh without particles on the axis, and stays", function()
     for _, mesh in ipairs{ { model = "tube", core = false }, { model = "cubic", across = 3 } } do
       local scene, wire = make()
       scene:pin(wire, { s = 0.1, name = "hinge" })

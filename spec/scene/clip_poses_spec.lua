@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire that is pressed into a clip and drawn out again in poses: over the lips it springs, and comes to
--- rest in the seat, not beyond it, whatever the pose step.
+-- A wire pressed into a clip and drawn out again in poses (quasi-static steps): the wire springs over the
+-- lips and comes to rest in the seat, not beyond, for any pose step.
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local SPAN, HIGH, DOWN = 0.16, 0.035, 0.05
 
--- Ends go down past the clip in poses of dt [s] (nil: in motion, and then to rest), which takes 1 s. Gravity
--- to the side breaks the symmetry.
+-- Moves the ends down past the clip within 1 s, in poses of dt [s]; dt = nil: in motion, then at rest.
+-- Gravity to the side breaks the symmetry.
 local function pressed(insertion, dt, side, segments)
   local scene = sw.scene { gravity = { 0, side, -9.81 } }
   local clip = scene:clip { name = "clip", at = { SPAN / 2, 0, 0 }, width = 0.01, insertion = insertion,
@@ -36,16 +36,16 @@ describe("a wire that is pressed into a clip in poses", function()
         insertion, dt, side, segments), function()
         local clip, held, run = pressed(insertion, dt, side, segments)
         assert.is_true(clip:seated())
-        -- it is bent over the clip's width, so that not all of it is at the lips' top at once
+        -- the wire is bent over the clip's width, so its places do not all reach the lips' top at once
         t.share(insertion, clip.inserted.peak_force, 0.01, "peak of the lips")
         assert.equal(1, run.jumps)
-        -- one mesh or another: edges of 10 mm bend 7 % less than these
+        -- with 16 segments: edges of 10 mm bend 7 % less than edges of 5 mm
         t.share(moved, held:force()[3], segments == 32 and 0.01 or 0.1, "force of a hand")
       end)
     end
   end
 
-  it("lets go at the retention", function()
+  it("leaves the clip at the retention force", function()
     local clip, _, _, scene, ends = pressed(0.5, 0.02, 0, 32)
     for _, hand in ipairs(ends) do
       hand:follow { relative = true, duration = 1, points = { { 0, 0, 0 }, { 0, 0, DOWN } } }

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire in a clip that comes to rest under a force.
+-- A wire in a clip comes to rest (settle) under a force.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 
--- Found at rest from the seat or from above: the floor bears 500 N, the lips 8 N in and 25 N out. Once an
--- equilibrium below the clip's floor was taken from 1 N on, with ok.
+-- Equilibria from the seat and from above. The floor bears 500 N, the lips 8 N on the way in and 25 N on
+-- the way out. Regression: an equilibrium below the clip's floor was accepted, with ok, from 1 N on.
 describe("a wire in a clip that comes to rest under a force", function()
   local function pressed(cable, force, height, hold)
     local s = sw.scene{ gravity = { 0, 0, 0 } }
@@ -28,7 +28,7 @@ describe("a wire in a clip that comes to rest under a force", function()
           local clip, z = pressed(cable, force, 0, hold)
           local what = ("%g N: z = %g m"):format(force, z)
           assert.is_true(clip:seated(), what)
-          -- the hold bears its share: bending over 50 mm takes less than 2 %
+          -- the hold bears less than 2 %, through the bending of 50 mm of wire
           assert.is_true(math.abs(clip:force()[3] + force) < 0.02 * math.abs(force), what)
         end
         assert.is_false((pressed(cable, 30, 0, hold)):seated())
@@ -36,7 +36,7 @@ describe("a wire in a clip that comes to rest under a force", function()
     end
   end
 
-  it("goes over the lips from above at their force, not below it", function()
+  it("passes the lips from above with more than their 8 N, not with less", function()
     local function guided(s, w)
       for _, place in ipairs{ 0, 0.05, 0.1 } do s:slider(w, { s = place, direction = { 0, 0, 1 } }) end
     end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Snap-in clips: the force on the way in and out against the law, energy over a closed cycle,
--- what a seated wire bears, friction along it, independence of nodes and of the way up.
+-- Snap-in clips: force on the way in and out against the law, energy over a closed cycle, loads on a seated
+-- wire, friction along the wire, independence of nodes and orientation.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -10,7 +10,7 @@ local WAY = 1.5 * RADIUS -- as help says
 local FLANK_OUT = WAY * INTO / (INTO + OUT)
 local FLANK_IN = WAY - FLANK_OUT
 
--- The lips' force on a wire at height u over the seat.
+-- Returns the lips' force on a wire at height u above the seat [N].
 local function law(u)
   if u <= 0 or u >= WAY then return 0 end
   if u < FLANK_OUT then return -OUT * math.sin(math.pi * u / FLANK_OUT) end
@@ -22,7 +22,7 @@ local function turned(q, v)
   return { x, y, z }
 end
 
--- A wire along the turned x axis at height z over a clip at the origin.
+-- A wire along the turned x axis at height z above a clip at the origin.
 local function scene_with(options)
   local o = options or {}
   local q = o.turn or { 1, 0, 0, 0 }
@@ -40,7 +40,7 @@ local function scene_with(options)
   return scene, wire, clip, at
 end
 
--- A load that grows in ten parts, so that nothing swings far beyond it.
+-- Applies a load in ten parts, so that the overshoot stays small.
 local function load_slowly(scene, wire, kind, force, s)
   for _ = 1, 10 do
     scene:force{ kind = kind, on = wire, s = s, force = { force[1] / 10, force[2] / 10, force[3] / 10 } }
@@ -48,7 +48,8 @@ local function load_slowly(scene, wire, kind, force, s)
   end
 end
 
--- Two holds beside the clip that go up and down together.
+-- Two holds beside the clip. Returns a function that moves both up or down, and one that returns their
+-- force.
 local function hands(scene, wire, apart)
   local middle = wire.length / 2
   local list = { scene:grip(wire, { s = middle - apart, width = 0.004, name = "left" }),
@@ -65,11 +66,11 @@ local function hands(scene, wire, apart)
 end
 
 describe("a clip", function()
-  -- The wire is one with a wide grip, so that its height is what the grip says: force against the
-  -- law at every step, and its work over the cycle. The edges beside the grip's nodes are of another
-  -- length, where the sum over the window is not exact (16 places: 2e-4). Of the work the
-  -- trapezoidal rule loses about (pi 80 um / 1.1 mm)^2 / 12 = 4e-3 of the steep flank.
-  it("pushes and pulls as the law says, and takes no work over a cycle, whichever way it lies", function()
+  -- A wide grip keeps the wire straight, so the wire's height is the grip's. Checked: the force against the
+  -- law at every step, and the work over the cycle. The edges beside the grip's nodes differ in length; the
+  -- sum over the window is not exact there (16 places: 2e-4). The trapezoidal rule loses about (pi 80 um /
+  -- 1.1 mm)^2 / 12 = 4e-3 of the steep flank's work.
+  it("pushes and pulls by its law and takes no work over a cycle, in any orientation", function()
     local random = t.random(7)
     for k = 1, 3 do
       local scene, wire, clip, at = scene_with{ segments = 80, turn = k > 1 and t.turn(random) or nil }
@@ -91,7 +92,7 @@ describe("a clip", function()
       end
       go(-0.008, 1)
       assert.is_true(clip:seated())
-      -- the energy at the top is 2/pi insertion (length of the outer flank)
+      -- the energy at the top is 2/pi times the insertion force times the length of the outer flank
       t.share(2 / math.pi * INTO * FLANK_IN, -half, 1e-3, "work up to the lips' top")
       t.near(0, total, 5e-3 * -half, "work to the seat")
       go(0.008, 1)
@@ -101,8 +102,8 @@ describe("a clip", function()
     end
   end)
 
-  -- Held 25 mm to either side, where the wire is not rigid: it snaps. The peak is what steps see of it:
-  -- in steps of 40 um the sine is missed by at most (pi/2 * 40 um / 3.4 mm)^2 / 2 = 2e-4.
+  -- The wire is held 25 mm to either side, is not rigid there, and snaps. The peak is sampled at steps of
+  -- 40 um, which miss the sine's peak by at most (pi/2 * 40 um / 3.4 mm)^2 / 2 = 2e-4.
   it("lets a wire in at its insertion force and out at its retention force, on any mesh", function()
     for _, segments in ipairs{ 20, 40, 80 } do
       for _, x in ipairs{ 0, 0.0013 } do -- wherever nodes are
@@ -118,13 +119,13 @@ describe("a clip", function()
         move({ 0, 0, 0.012 }, 1)
         t.fine(scene:run{ duration = 1, dt = 1 / 300, quasistatic = true })
         assert.is_nil(clip.wire)
-        t.share(OUT, clip.pulled_out.peak_force, 0.01, "retention") -- 40 um of 1.1 mm: 1.6e-3 and bend
+        t.share(OUT, clip.pulled_out.peak_force, 0.01, "retention") -- 40 um of 1.1 mm: 1.6e-3, and bending
         t.share(1, clip:ratio(), 0.01, "ratio")
       end
     end
   end)
 
-  it("does so in motion, and tells when", function()
+  it("does so in motion, and records the time", function()
     local scene, wire, clip = scene_with()
     scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
     local move = hands(scene, wire, 0.025)
@@ -133,8 +134,8 @@ describe("a clip", function()
     t.fine(scene:run{ duration = 1, dt = 2e-3 })
     assert.is_true(clip:seated())
     t.share(INTO, clip.peak_insertion_force, 5e-3, "insertion")
-    -- at the lips' top they do not push: there the wire is as high as the hands. It counts as
-    -- in between there and the middle of the inner flank
+    -- The lips' force is zero at their top, so there the wire is as high as the hands. The wire counts as
+    -- inserted between the top and the middle of the inner flank.
     t.above((0.008 - FLANK_OUT) / 0.009, clip.inserted.time, "time")
     t.below((0.008 - 0.5 * FLANK_OUT) / 0.009 + 2e-3, clip.inserted.time, "time")
     assert.are.equal(wire, clip.inserted.wire)
@@ -153,16 +154,16 @@ describe("a clip", function()
       move({ 0, 0, -0.008 }, 1)
       t.fine(scene:run{ duration = still and 1 or 1.5, dt = 5e-3, quasistatic = still })
       assert.is_true(clip:seated())
-      -- rings are up to 3 mm apart; the width that a bent wire has of the lips differs
+      -- rings are up to 3 mm apart, so the width over which the lips act on a bent wire differs
       t.share(INTO, clip.inserted.peak_force, 0.02, "insertion")
       t.near(0, force()[3] + clip:force()[3], 1e-3 * INTO, "balance with the hands")
     end)
   end
 
-  -- A stiff rod, free but for the clip, pulled by a point force in its middle: on the inner flank
-  -- OUT sin(pi u / out) = pull. Without friction it would tilt and slide away, as a rod on one
-  -- support does.
-  it("holds what pulls at it where the law says", function()
+  -- A stiff rod, held by the clip alone, is pulled by a point force at its middle. On the inner flank OUT
+  -- sin(pi u / FLANK_OUT) = pull. Without friction the rod would tilt and slide away, like a rod on one
+  -- support.
+  it("holds a pulled wire at the height that its law gives", function()
     for _, share in ipairs{ 0.2, 0.5, 0.9 } do
       local scene, wire, clip = scene_with{ half = 0.02, z = 0, E = 2e11, segments = 16, friction = 0.3 }
       scene:force{ kind = "damping", on = wire, mass = 2000 }
@@ -170,12 +171,13 @@ describe("a clip", function()
       t.fine(scene:run{ duration = 0.2, dt = 2e-3 })
       t.near(FLANK_OUT / math.pi * math.asin(share), clip:height(), 2e-3 * FLANK_OUT, "height")
       t.near(-share * OUT, clip:force()[3], 1e-3 * OUT, "force")
-      t.above(share * 0.999, clip:ratio(), "ratio") -- the last tenth of the load may swing too far
+      t.above(share * 0.999, clip:ratio(), "ratio") -- the last tenth of the load may overshoot
       t.below(share * 1.1, clip:ratio(), "ratio")
     end
   end)
 
-  -- Nothing else keeps it from sliding along its axis: the first solve does not know yet what presses.
+  -- Only friction keeps the wire from sliding along its axis, and the first solve does not know the normal
+  -- force.
   for _, model in ipairs{ "string", "rod", "radial" } do
     it("bears a " .. model .. " that lies in two of them alone, settled at once", function()
       local scene = sw.scene{}
@@ -192,12 +194,12 @@ describe("a clip", function()
         up = up + clip:force()[3]
       end
       t.share(wire.beam.mass_per_length * wire.length * 9.81, up, 1e-3, "force upwards")
-      -- friction's springs are up to W/200 long, in either clip
+      -- the friction springs are up to W/200 long in either clip
       t.near(0.08, wire:position(0.08)[1], 2 * WIDTH / 200, "place along the axis")
     end)
   end
 
-  it("gives way by force over stiffness at floor and walls", function()
+  it("yields by force over stiffness at floor and walls", function()
     for _, side in ipairs{ { 0, 0, -1 }, { 0, 1, 0 }, { 0, -1, 0 } } do
       local scene, wire = scene_with{ half = 0.02, z = 0, E = 2e11, segments = 16, stiffness = 1e5,
         seat = 1.1 * RADIUS, friction = 0.3 }
@@ -209,10 +211,10 @@ describe("a clip", function()
     end
   end)
 
-  -- A rod that lies in two clips under its weight m g is pulled along them. It sticks below mu m g,
-  -- and beyond is accelerated by what is left. The spring of friction is W/200 = 40 um long; a
-  -- load put on at once swings up to twice as far, so that half of it is what just sticks.
-  it("rubs with mu N along its axis", function()
+  -- A rod lies in two clips under its weight m g and is pulled along them. Below mu m g it sticks; above,
+  -- the excess accelerates it. The friction spring is W/200 = 40 um long. A load put on at once overshoots
+  -- up to twice as far, so the largest such load that sticks is half of mu m g.
+  it("exerts friction mu N along the wire's axis", function()
     local g, mu, radius = 9.81, 0.3, RADIUS
     local function pulled(share, before)
       local scene = sw.scene{}
@@ -222,7 +224,7 @@ describe("a clip", function()
         scene:clip{ at = { x, 0, 0 }, width = WIDTH, insertion = INTO, retention = OUT, friction = mu }
       end
       scene:force{ kind = "damping", on = wire, stiffness = 1e-3 }
-      t.fine(scene:run{ duration = 0.1, dt = 2e-3 }) -- friction knows what presses
+      t.fine(scene:run{ duration = 0.1, dt = 2e-3 }) -- until friction has its normal force
       local m = wire.beam.mass_per_length * wire.length
       scene:force{ kind = "line", on = wire, force = { share * mu * m * g / wire.length, 0, 0 } }
       t.fine(scene:run{ duration = before, dt = 1e-3 })
@@ -233,31 +235,31 @@ describe("a clip", function()
     t.below(WIDTH / 200, math.abs(pulled(0.49, 1e-3)), "creep while it sticks")
     local _, gain, scene, wire = pulled(2, 0.02)
     t.share(mu * g * 0.05, gain, 5e-3, "gain of speed under twice the friction")
-    -- work of friction: mu m g times the way
+    -- work of friction: mu m g times the distance
     local m, way = wire.beam.mass_per_length * wire.length, wire:position(0.2)[1]
     t.share(mu * m * g * way, scene:energy().dissipated, 0.02, "work")
   end)
 
-  -- Two clips, so that the rod does not tilt as it slides off their middle.
-  it("takes friction from the lips too, in sliding steady state", function()
+  -- Two clips keep the rod from tilting as it slides off their middle.
+  it("has friction at the lips too, in steady sliding", function()
     local scene, wire, clip = scene_with{ half = 0.05, z = 0, x = -0.03, E = 2e11, segments = 40,
       friction = 0.4 }
     local other = scene:clip{ at = { 0.03, 0, 0 }, width = WIDTH, insertion = INTO, retention = OUT,
       friction = 0.4 }
     scene:force{ kind = "damping", on = wire, mass = 2000 }
     load_slowly(scene, wire, "line", { 0, 0, 24 / 0.1 })
-    -- at a steady speed v through this damping: 2000/s m v = F - mu N
+    -- steady speed v with this damping: 2000/s m v = F - mu N
     local m, N = wire.beam.mass_per_length * wire.length, 24
     scene:force{ kind = "line", on = wire, force = { 1.05 * 0.4 * N / 0.1, 0, 0 } }
     local from = wire:position(0.05)[1]
     t.fine(scene:run{ duration = 0.03, dt = 5e-4 })
     t.near(-0.4 * N, clip:force()[1] + other:force()[1], 0.01 * 0.4 * N, "friction")
-    t.share(0.05 * 0.4 * N / (2000 * m), wire:velocity(0.05)[1], 0.2, "speed") -- 1 % of 0.4 N
+    t.share(0.05 * 0.4 * N / (2000 * m), wire:velocity(0.05)[1], 0.2, "speed") -- 1 % of mu N
     t.above(5e-4, wire:position(0.05)[1] - from, "way so far")
     t.near(-N, clip:force()[3] + other:force()[3], 1e-2 * N, "pull of the lips")
   end)
 
-  it("leaves a wire alone that lies under or beside it, and keeps it out", function()
+  it("exerts no force on a wire below it, and keeps out a wire that comes from below", function()
     local scene, wire, clip = scene_with{ z = -0.012, E = 2e11, segments = 40 }
     t.fine(scene:run{ duration = 0.05, dt = 2e-3 })
     t.near(0, t.norm(clip:force()), 1e-12, "force on a wire below")
@@ -270,7 +272,7 @@ describe("a clip", function()
     assert.is_nil(clip.wire)
   end)
 
-  it("is restored bit by bit from a snapshot in the middle of an insertion", function()
+  it("is restored bit for bit from a snapshot in the middle of an insertion", function()
     local scene, wire, clip = scene_with{ friction = 0.3 }
     scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
     local move = hands(scene, wire, 0.025)
@@ -308,8 +310,8 @@ describe("a clip", function()
     assert.is_true(clip:seated())
   end)
 
-  -- Of all explicit methods velocity Verlet has the limit that stable_dt is about.
-  it("tells explicit methods how large a step may be", function()
+  -- Velocity Verlet is the explicit method whose limit stable_dt states.
+  it("limits the step of explicit methods to stable_dt", function()
     local scene, wire, clip = scene_with{ half = 0.03, z = 0, segments = 12, model = "string",
       stiffness = 1e7 }
     wire:set_velocity{ 0, 0.05, 0 }
@@ -319,7 +321,7 @@ describe("a clip", function()
     assert.is_true(clip:seated())
   end)
 
-  it("goes with error bars", function()
+  it("works with error bars", function()
     local scene, wire, clip = scene_with{ segments = 20 }
     scene:force{ kind = "damping", on = wire, mass = 5, stiffness = 1e-3 }
     local move = hands(scene, wire, 0.025)
@@ -339,7 +341,7 @@ describe("a clip", function()
     local shown = document.obstacles[#document.obstacles]
     assert.are.equal("c", shown.name)
     assert.are.equal("mesh", shown.shape)
-    for i = 1, #shown.vertices, 3 do -- all of it is within a few radii of the seat
+    for i = 1, #shown.vertices, 3 do -- all vertices lie within a few radii of the seat
       t.below(4 * RADIUS, t.norm{ shown.vertices[i], shown.vertices[i + 1], shown.vertices[i + 2] })
     end
     assert.is_truthy(require "softworld.output.vtk".objects(document):find('"c"', 1, true))
@@ -365,7 +367,7 @@ describe("a clip", function()
       assert.are.equal("empty", scene:clip(a):state()) -- the name is still free
     end
 
-    it("what makes no sense, by name", function()
+    it("arguments that make no sense, naming them", function()
       refused("clip 'd': insertion = -3 N is not allowed; it must be above 0 N", { insertion = -3 })
       refused("clip 'd': width = 0 m is not allowed", { width = 0 })
       refused("clip 'd': insertion = 9.2e+18 N and retention = 5 N are not", { insertion = 9.2e18 })
@@ -388,7 +390,7 @@ describe("a clip", function()
       refused("clip 'd': friction = 'a' is not allowed", { friction = "a" })
     end)
 
-    it("a thicker wire than its seat, later", function()
+    it("a wire, made later, that is thicker than the seat", function()
       local scene = scene_with{ seat = 0.004 }
       assert.has_error(function()
         scene:wire{ E = 1e9, density = 1000, radius = 0.006, from = { 0, 1, 0 }, to = { 1, 1, 0 } }

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a clip's floor and walls bear, and wires that meet it in ways that it does not describe:
--- it never pushes with more than it bears, and all of that is told.
+-- Strength of a clip's floor and walls, and wires that meet the clip in ways that its law does not
+-- describe: the clip never pushes with more than its strength, and reports every such case.
 local sw = require "softworld"
 local t = require "physics.tools"
 
 local INTO, OUT = 10, 30
 local STRENGTH = 20 * OUT -- as help says
 
--- A cable over a clip at the origin, held on both sides. from, to: where it lies.
+-- A cable above a clip at the origin, held on both sides. from, to: the cable's ends.
 local function scene_with(from, to, options)
   local o = options or {}
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -20,7 +20,7 @@ local function scene_with(from, to, options)
   return scene, wire, clip, hands
 end
 
--- Moves the hands; returns the run, the largest force of the clip and its last events.
+-- Moves the hands; returns the run, the clip's largest force and its events.
 local function move(scene, clip, hands, way, speed, run)
   local duration, most = t.norm(way) / speed, 0
   for _, hand in ipairs(hands) do
@@ -44,7 +44,7 @@ local function line(y, z) return { -0.1, y, z }, { 0.1, y, z } end
 describe("a clip's strength", function()
   for _, case in ipairs{ { "sideways", { 0, -0.03, -0.01 }, "a wall" },
     { "downwards", { 0, 0, -0.03 }, "its floor" } } do
-    it("is all that a seated wire swept " .. case[1] .. " has to break, at any step", function()
+    it("is the force that a seated wire swept " .. case[1] .. " has to break, at any step", function()
       for _, dt in ipairs{ 1e-3, 5e-3, 1e-2 } do
         local from, to = line(0, 0)
         local scene, wire, clip, hands = scene_with(from, to)
@@ -63,7 +63,7 @@ describe("a clip's strength", function()
     end)
   end
 
-  -- A wide grip keeps the wire straight, so that the force is that of the law at every place.
+  -- A wide grip keeps the wire straight, so the force follows the law at every place.
   it("is reached and not exceeded where the wire is pressed slowly", function()
     for _, strength in ipairs{ 50, 200, false } do
       local from, to = line(0, 0)
@@ -76,7 +76,7 @@ describe("a clip's strength", function()
     end
   end)
 
-  it("can be given with a stiffness", function()
+  it("can be given together with a stiffness", function()
     local from, to = line(0, 0)
     local scene, _, clip, hands = scene_with(from, to, { wide = 0.03, strength = 100, stiffness = 4e5 })
     local _, most = move(scene, clip, hands, { 0, -0.004, 0 }, 0.004, { dt = 1 / 400, quasistatic = true })
@@ -96,7 +96,7 @@ describe("a clip's strength", function()
       strenght = 3 })))
   end)
 
-  it("goes back with snapshots and on from files", function()
+  it("is whole again after a restore; files keep the overload", function()
     local from, to = line(0, 0)
     local scene, _, clip, hands = scene_with(from, to)
     local before = scene:snapshot()
@@ -112,7 +112,7 @@ describe("a clip's strength", function()
   end)
 end)
 
-describe("a clip tells of a wire that", function()
+describe("a clip reports a wire that", function()
   for _, case in ipairs{ { 90, 1 }, { 60, 1 }, { 30, 0 } } do
     local angle = math.rad(case[1])
     local c, s = 0.1 * math.cos(angle), 0.1 * math.sin(angle)
@@ -128,7 +128,7 @@ describe("a clip tells of a wire that", function()
     end)
   end
 
-  -- Whatever the step, it is not let through without a word.
+  -- At any step, the wire does not pass without a report.
   for name, case in pairs{
     ["comes from behind"] = { { 0, -0.03 }, { 0, 0, 0.06 } },
     ["comes from the side"] = { { 0.03, 0 }, { 0, -0.06, 0 } },
@@ -147,7 +147,7 @@ describe("a clip tells of a wire that", function()
     end)
   end
 
-  it("does none of this: goes in and out, lies beside, under or over it", function()
+  it("goes in and out, or lies beside, under or over it: no report", function()
     local from, to = line(0, 0.02)
     local scene, _, clip, hands = scene_with(from, to)
     local ways = { { 0, 0, -0.022 }, { 0, 0, 0.03 }, { 0, 0.02, 0 }, { 0, 0, -0.04 }, { 0, -0.02, 0 } }

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- gripper:clip: a gripper presses the wire that it holds into a clip, and tells where that fails.
+-- gripper:clip presses the gripper's wire into a clip, and reports where that fails.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local RADIUS, INTO, OUT = 0.003, 10, 30
 
--- A wire along x, 8 mm over the clip at the origin.
+-- A wire along x, 8 mm above the clip at the origin.
 local function made()
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ name = "w", E = 1e9, density = 1200, radius = RADIUS, segments = 40,
@@ -31,7 +31,7 @@ describe("gripper:clip", function()
     return clip, result, ok, run
   end
 
-  it("presses the wire in and says with what", function()
+  it("presses the wire in and returns the forces", function()
     local clip, result, ok, run = laid(function(guide, clip)
       return guide:clip{ into = clip, max_force = 60 }
     end)
@@ -62,7 +62,7 @@ describe("gripper:clip", function()
     t.share(INTO, clip.peak_insertion_force, 0.1, "lips, of a wire at a slant")
   end)
 
-  it("says which force was reached where it does not go in", function()
+  it("reports the force reached where the wire does not go in", function()
     local clip, _, ok, message = laid(function(guide, clip)
       return guide:clip{ into = clip, max_force = 6 }
     end)
@@ -76,7 +76,7 @@ describe("gripper:clip", function()
     assert.is_truthy(result[2]:find "above max_force = 6 N")
   end)
 
-  it("refuses what it cannot do", function()
+  it("refuses invalid arguments, and a gripper that holds nothing", function()
     local function says(text, args, before)
       local _, _, ok, message = laid(function(guide, clip)
         if before then before(guide, clip) end
@@ -88,7 +88,7 @@ describe("gripper:clip", function()
     end
     says("into is required, a clip of the gripper's scene", { into = 3 })
     says("speed = -1 m/s is not allowed", { speed = -1 })
-    says("speed = 1e+15 m/s is too fast", { speed = 1e15 }) -- steps of the way in no time at all
+    says("speed = 1e+15 m/s is too fast", { speed = 1e15 }) -- the way would take almost no time
     says("there is no parameter 'sped'; did you mean 'speed'?", { sped = 1 })
     says("it holds nothing; grasp a wire before", {}, function(guide) guide:release() end)
     local scene, wire, clip = made()
@@ -98,8 +98,8 @@ describe("gripper:clip", function()
   end)
 end)
 
--- Held on one side only, a wire is peeled out of its clip. No formula: the force at which it leaves is
--- compared with that of edges of a sixteenth of the clip's width.
+-- A wire held on one side only is peeled out of its clip. There is no formula: the force at which the wire
+-- leaves is compared with the force with edges of a sixteenth of the clip's width.
 describe("a wire that is pulled out askew", function()
   local function pulled(segments, shift)
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -118,7 +118,7 @@ describe("a wire that is pulled out askew", function()
     return clip.pulled_out.peak_force, told
   end
 
-  it("leaves at the same force with edges of a quarter of the width, wherever nodes are", function()
+  it("leaves at the same force with edges of a quarter of the clip's width, wherever nodes are", function()
     local fine = pulled(160, 0)
     for _, shift in ipairs{ 0, 0.7e-3, 1.6e-3 } do
       local force, told = pulled(40, shift)
@@ -127,7 +127,7 @@ describe("a wire that is pulled out askew", function()
     end
   end)
 
-  it("says so where edges are longer", function()
+  it("is warned of where edges are longer", function()
     local _, told = pulled(20, 0)
     local advice = "its edges of 5 mm should be a quarter of the clip's width"
     assert.is_truthy(told and told:find(advice, 1, true), told)

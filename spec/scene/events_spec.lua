@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The one list of what happened in a run.
+-- Events: the list of what happened in a run.
 local sw = require "softworld"
 
 local function scene()
@@ -24,7 +24,7 @@ describe("events", function()
     assert.same({ 0.2, 3 }, { e.s, e.value })
   end)
 
-  it("repeated soon are one with a count, the largest and its place", function()
+  it("repeated within a short time are merged into one, with count, largest value and its place", function()
     local s = scene()
     s:process(function(p)
       for k = 1, 9 do
@@ -42,7 +42,7 @@ describe("events", function()
     assert.near(0.08, list[1].time, 1e-9)
   end)
 
-  it("are bounded", function()
+  it("are limited to 512; the others are counted as dropped", function()
     local s = scene()
     for k = 1, 2000 do s:tell{ kind = "k" .. k, text = "one" } end
     local list, dropped = s:events()
@@ -50,7 +50,7 @@ describe("events", function()
     assert.equal(2000 - 512, dropped)
   end)
 
-  it("after a snapshot go with it", function()
+  it("told after a snapshot are gone once it is restored", function()
     local s = scene()
     s:run{ duration = 0.1 }
     s:tell{ kind = "kept", text = "kept" }
@@ -61,7 +61,7 @@ describe("events", function()
     for _, e in ipairs((s:events())) do assert.not_equal("gone", e.kind) end
   end)
 
-  it("refuse what they do not know", function()
+  it("refuse missing and unknown parameters", function()
     local s = scene()
     assert.has_error(function() s:tell{ kind = "x" } end, "scene:tell: text is required [-]: one sentence")
     assert.has_error(function() s:tell{ kind = "", text = "x" } end,

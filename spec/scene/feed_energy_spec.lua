@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Energy of wire that is fed: what the feed's force does is what the wire gains, and nodes that go
--- into the guide push nothing into what the wire lies on.
+-- Energy of fed wire: the work of the feed is the energy that the wire gains, and nodes that enter the
+-- guide do not push the wire into the table below.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 
@@ -16,8 +16,8 @@ local function scene_of(cable, segments, from, to)
   return s, w, s:feed(w, { s = 0 })
 end
 
--- A wire on a table, its guide a tenth of a millimetre above: sunk deepest in it, highest above
--- it, energy made of that in play.
+-- A wire on a table, with its guide 0.1 mm above. Returns the deepest penetration [m], the largest lift [m]
+-- and the largest share of the energy in play that was made [-].
 local function drawn(cable, segments, speed, dt)
   local height = 0.0031
   local s, w, f = scene_of(cable, segments, { 0, 0, height }, { 1, 0, height })
@@ -36,14 +36,14 @@ local function drawn(cable, segments, speed, dt)
 end
 
 describe("energy of wire that is fed", function()
-  it("is not made where nodes go into a guide beside a table", function()
+  it("is not made where nodes enter a guide beside a table", function()
     for _, case in ipairs{ { SOFT, 20, 6.25e-4 }, { SOFT, 20, 2.5e-3 }, { SOFT, 35, 1e-2 },
       { STIFF, 35, 1e-3 } } do
       for _, speed in ipairs{ -0.3, 0.3 } do
         local sunk, up, made = drawn(case[1], case[2], speed, case[3])
-        if case[1] == SOFT then -- the stiff one falls 2 mm first
+        if case[1] == SOFT then -- the stiff wire falls 2 mm first
           local text = ("%.3g m deep, %.3g m up at %g m/s, dt %g"):format(sunk, up, speed, case[3])
-          -- what is pushed may buckle upwards
+          -- wire that is pushed out may buckle upwards
           assert.is_true(sunk < 3e-5 and (speed > 0 or up < 2e-4), text)
         end
         assert.is_true(made < 0.01, ("made %.3g of what is in play, %g m/s"):format(made, speed))
@@ -51,7 +51,7 @@ describe("energy of wire that is fed", function()
     end
   end)
 
-  it("is judged like any other", function()
+  it("is balanced within 1 % of the energy in play", function()
     for _, cable in ipairs{ SOFT, CABLE, STIFF } do
       for _, speed in ipairs{ 0.3, -0.3, 0.05, -1 } do
         local s, w, f = scene_of(cable, 25, { 0, 0, 0.05 }, { 0.8, 0, 0.05 })
@@ -68,8 +68,8 @@ describe("energy of wire that is fed", function()
     end
   end)
 
-  -- A guide in the middle of a hanging wire brings none in. The two ways are mirror images.
-  it("is the same both ways through a guide in mid-wire, wherever it is", function()
+  -- A guide in the middle of a hanging wire brings no wire in. The two directions are mirror images.
+  it("is the same in both directions through a guide in mid-wire, at any height", function()
     for _, cable in ipairs{ "GXL 1.5", "FLRY-B 10" } do
       for _, height in ipairs{ -20, 0, 0.1, 5 } do
         local work = {}
@@ -85,7 +85,7 @@ describe("energy of wire that is fed", function()
           assert.is_true(run.ok, run.reason)
           local l = run:ledger()
           work[i] = l.work.feeds
-          local off = math.abs(l.gap) + math.abs(l.lost.integrator) -- 0.7 of what is in play before
+          local off = math.abs(l.gap) + math.abs(l.lost.integrator) -- once 0.7 of play
           assert.is_true(off < 0.02 * l.play,
             ("%s at %g m: %.3g J of %.3g J"):format(cable, height, off, l.play))
         end
@@ -94,8 +94,8 @@ describe("energy of wire that is fed", function()
     end
   end)
 
-  -- Wire from a spool brings its height in, which counts from the world's origin.
-  it("is judged the same wherever the world's origin is", function()
+  -- Wire from a spool brings in its potential energy, which counts from the world's origin.
+  it("is balanced the same wherever the world's origin is", function()
     for _, length in ipairs{ 0.2, -0.2 } do
       local first
       for _, height in ipairs{ 0, 7, -100 } do
@@ -115,7 +115,7 @@ describe("energy of wire that is fed", function()
     end
   end)
 
-  -- Start at once with 0.3 m/s: what the step does not know of that jolt falls with the step.
+  -- The feed starts abruptly at 0.3 m/s. The share of the jolt that a step misses falls with the step.
   it("balances better with smaller steps", function()
     local gaps = {}
     for i, dt in ipairs{ 0.01, 0.0025, 0.000625 } do
@@ -124,7 +124,7 @@ describe("energy of wire that is fed", function()
       local run = s:run{ duration = 0.5, dt = dt, parts = false }
       assert.is_true(run.ok, run.reason)
       local l = run:ledger()
-      gaps[i] = l.gap + l.lost.integrator -- all that is not known, whatever its sign
+      gaps[i] = l.gap + l.lost.integrator -- everything unexplained, whatever its sign
     end
     assert.is_true(gaps[2] < 0.5 * gaps[1] and gaps[3] < 0.7 * gaps[2],
       ("%.3g, %.3g, %.3g J"):format(table.unpack(gaps)))

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- scene:wires, scene:obstacles, scene:grippers: what is in a scene, in the order made, also of a scene that
--- was loaded or built by a script of its own.
+-- scene:wires, scene:obstacles, scene:grippers: lists of what is in a scene, in the order made, also of a
+-- scene that was loaded or built by its own script.
 local sw = require "softworld"
 
 local function names_of(list)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- wire:folded(): sections of springs that are pressed through themselves do not go unseen.
+-- wire:folded() reports voxels of springs that were pressed through themselves.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -24,7 +24,7 @@ local function squeeze(options, share)
 end
 
 describe("wire:folded", function()
-  it("tells where and when voxels of springs have folded, and so does the summary", function()
+  it("reports where and when voxels of springs have folded, and so does the summary", function()
     local wire, run = squeeze({ model = "cubic" }, 0.4)
     local s, when = wire:folded()
     assert.is_true(s >= 0 and s <= wire.length)
@@ -37,7 +37,7 @@ describe("wire:folded", function()
     assert.is_truthy(table.concat(text):find "FOLDED")
   end)
 
-  it("tells nothing of sections that keep their sides", function()
+  it("reports nothing where no voxel has folded", function()
     for _, options in ipairs{ { model = "cubic" }, { model = "tube" }, { model = "radial" } } do
       assert.is_nil((squeeze(options, 0.1):folded()))
     end

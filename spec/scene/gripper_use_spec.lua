@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Using grippers with pads: verbs of processes, events, what is refused, snapshots.
+-- Grippers with pads: verbs in processes, events, refusals, snapshots.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -25,7 +25,7 @@ local function run(scene, body, dt)
 end
 
 describe("a gripper with pads", function()
-  it("makes no pads where a wire that is a mesh in its middle is a line", function()
+  it("makes no pads where the wire is a line, beside its mesh region", function()
     local scene, wire = new_scene()
     wire:remodel{ model = "radial", region = { 0.08, 0.12 } }
     local g = scene:gripper{ name = "hand", pads = pads }
@@ -46,7 +46,7 @@ describe("a gripper with pads", function()
     assert.are.equal(before, table.concat(require("softworld.core").items(scene), " "))
   end)
 
-  it("is refused what cannot be, by name", function()
+  it("refuses invalid arguments and calls, naming them", function()
     local scene, wire = new_scene()
     local function refused(text, f)
       local ok, message = pcall(f)
@@ -96,7 +96,7 @@ describe("a gripper with pads", function()
     refused("only a mixed grasp can be frozen", function() g:freeze() end)
   end)
 
-  it("is refused wires of other scenes", function()
+  it("refuses wires of other scenes", function()
     local scene = new_scene()
     local g = scene:gripper{ name = "hand", at = { 0.1, 0.05, 0.05 }, rotation = { 1, 0, 0, 0 }, pads = pads }
     local _, wire = new_scene()
@@ -105,7 +105,7 @@ describe("a gripper with pads", function()
     end, "belongs to another scene")
   end)
 
-  it("says that it closed on nothing", function()
+  it("reports that it closed on nothing", function()
     local scene, wire = new_scene()
     local g = scene:gripper{ name = "hand", at = { 0.1, 0.05, 0.05 }, rotation = { 1, 0, 0, 0 }, pads = pads }
     local why
@@ -124,8 +124,8 @@ describe("a gripper with pads", function()
     assert.equal(wire, g.wire)
   end)
 
-  it("says when it presses on another wire than it was to grasp, or on one more", function()
-    -- a at height z, b on the axis between the pads
+  it("reports that it presses on another wire, instead of its own or besides it", function()
+    -- wire a is at height z, wire b on the axis between the pads
     local function two(z, body)
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local wires = {}
@@ -149,7 +149,7 @@ describe("a gripper with pads", function()
       .. "not on wire 'a', which", why)
     assert.is_nil(g.wire)
     assert.equal("grasp", scene:events()[1].kind)
-    -- outside of a process nobody waits: the list of the run tells it
+    -- outside a process no call waits; the events of the run report it
     local told = {}
     for _, z in ipairs{ 0.1, 0.0075, 0 } do
       scene = two(z, function(world, hand, wire)
@@ -170,7 +170,7 @@ describe("a gripper with pads", function()
     assert.same({}, clean:events())
   end)
 
-  it("that is told to move or to press in a wrong way has made nothing", function()
+  it("makes nothing when a move or a press has invalid arguments", function()
     for _, given in ipairs{ pads, { width = 0.02 } } do
       local scene = new_scene()
       local g = scene:gripper{ name = "hand", at = { 0, 0, 1 }, pads = given }
@@ -205,7 +205,7 @@ describe("a gripper with pads", function()
     end
   end)
 
-  it("crushes it when told to by an opening, and says so", function()
+  it("crushes the wire when an opening demands it, and reports it", function()
     local scene, wire = new_scene{ E = 2e6 }
     local g = scene:gripper{ name = "hand", pads = pads }
     run(scene, function()
@@ -218,7 +218,7 @@ describe("a gripper with pads", function()
     assert.is_true(scene:run{ duration = 0.02, dt = 0.005 }.ok)
   end)
 
-  it("tells of slip once, and stops, warns or calls when told", function()
+  it("reports slip once, calls a function, and stops the run where asked to", function()
     local scene, wire = new_scene()
     local g = scene:gripper{ name = "hand", pads = { width = 0.02, friction = 0.1, opening = 3 * r } }
     local calls = {}
@@ -230,7 +230,7 @@ describe("a gripper with pads", function()
       p:wait(0.2)
     end)
     assert(scene:run{ dt = 0.005 }.ok)
-    assert.equal(2, #calls) -- it slips, and then it is lost
+    assert.equal(2, #calls) -- slip, then loss
     assert.equal("lost", calls[2][2].kind)
     assert.equal(g, calls[1][1])
     assert.equal("slip", calls[1][2].kind)
@@ -249,7 +249,7 @@ describe("a gripper with pads", function()
     t.near(g.events[1].time, result.time, 1e-9, "time of the slip")
   end)
 
-  it("tells of parts that run into obstacles", function()
+  it("reports its parts that run into obstacles", function()
     local scene, wire = new_scene()
     scene:obstacle{ name = "wall", shape = "box", size = { 0.01, 0.2, 0.1 }, at = { 0.3, 0, 0.05 } }
     local g = scene:gripper{ name = "hand", pads = pads, arm = { radius = 0.01, length = 0.1 } }
@@ -267,7 +267,7 @@ describe("a gripper with pads", function()
     assert.is_truthy(seen[2]:find "^hand.finger[12] table$")
   end)
 
-  it("refuses a jump of its trajectory", function()
+  it("refuses a trajectory that begins away from where it is", function()
     local scene, wire = new_scene()
     local g = scene:gripper{ name = "hand", pads = pads }
     run(scene, function()
@@ -290,7 +290,7 @@ describe("a gripper with pads", function()
       left:grasp(wire, { s = 0.05, approach = "plates", force = 3 })
       left:move{ by = { 0, 0, 0.15 }, duration = 0.5 }
       p:wait(1)
-      t.share(weight, left:force()[3], 0.15, "weight") -- its end may lie on the table
+      t.share(weight, left:force()[3], 0.15, "weight") -- the wire's end may lie on the table
       left:handover(right, { s = 0.15, approach = "plates", force = 3 })
       assert.is_nil(left.wire)
       p:wait(0.5)
@@ -300,10 +300,10 @@ describe("a gripper with pads", function()
       t.above(0.5, force, "pressed")
       t.above(0.01, way, "way down")
     end, 0.005)
-    for _, e in ipairs(right.events) do assert.equal("crash", e.kind) end -- with the table, pressed
+    for _, e in ipairs(right.events) do assert.equal("crash", e.kind) end -- with the table, while it presses
   end)
 
-  it("waits for conditions told as tables", function()
+  it("waits for conditions given as tables", function()
     local scene, wire = new_scene()
     local wall = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.01 }, at = { 0.1, 0, 0.105 } }
     local g = scene:gripper{ name = "hand", pads = pads }
@@ -335,7 +335,7 @@ describe("a gripper with pads", function()
     assert.is_false(times.slip)
   end)
 
-  it("goes back to snapshots bit by bit", function()
+  it("goes on from a snapshot bit for bit", function()
     local scene, wire = new_scene{ model = "radial", body = "solid", to = { 0.1, 0, r } }
     local g = scene:gripper{ name = "hand", pads = pads }
     run(scene, function() g:grasp(wire, { s = 0.05, approach = "plates", force = 3 }) end)
@@ -359,7 +359,7 @@ describe("a gripper with pads", function()
 end)
 
 describe("a gripper that two processes use", function()
-  it("says that its wire was let go of while its jaws closed", function()
+  it("reports that its wire was released while its jaws closed", function()
     for _, time in ipairs{ 0.001, 0.05, 0.3 } do
       local scene = sw.scene{}
       local wire = scene:wire{ E = 1e7, density = 1000, radius = 0.003, segments = 6, from = { 0, 0, 0.1 },

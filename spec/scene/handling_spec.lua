@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Grippers over a day of handling: several grasps, several wires, moves while empty.
+-- Grippers over several grasps: one series, several wires, moves while empty; what a run draws and writes.
 local sw = require "softworld"
 local core = require "softworld.core"
 local vec = require "softworld.vec"
@@ -35,7 +35,7 @@ describe("a gripper that grasps three times", function()
     assert.is_true(run.ok)
   end)
 
-  it("has one series, which goes on over all grasps", function()
+  it("has one series for all grasps", function()
     local _, count = names_of(run):gsub("hand%S*%.force ", "")
     assert.are.equal(1, count)
     assert.is_nil(names_of(run):find("hand#", 1, true))
@@ -52,7 +52,7 @@ describe("a gripper that grasps three times", function()
     for k = 1, 3 do assert.is_true(held[k] > 3, ("grasp %d"):format(k)) end
   end)
 
-  it("has a gap where it holds nothing", function()
+  it("has a gap in its series where it holds nothing", function()
     local force, time = column(run, "hand.force")
     for i, t in ipairs(time) do
       if t > times[1].to + 0.02 and t < times[2].from - 0.02 then
@@ -61,7 +61,7 @@ describe("a gripper that grasps three times", function()
     end
   end)
 
-  it("means over the time in which it holds", function()
+  it("averages over the time in which it holds a wire", function()
     local sum, duration = 0, 0
     for _, span in ipairs(times) do
       local m = hand:over(span.from, span.to)
@@ -70,7 +70,7 @@ describe("a gripper that grasps three times", function()
     assert.near(sum / duration, hand.mean_force, 1e-9 * hand.peak_force)
   end)
 
-  it("is one in pictures, where it is", function()
+  it("is one gripper in pictures, at its place", function()
     local doc = run:document()
     assert.are.equal(1, #doc.grips)
     assert.are.equal("hand", doc.grips[1].name)
@@ -88,7 +88,7 @@ describe("a gripper that grasps three times", function()
     for k = 1, 3 do assert.is_true(seen[k] > 2) end
   end)
 
-  it("lies along the wire in pictures, whatever its direction", function()
+  it("is drawn along the wire, whatever the wire's direction", function()
     local s = sw.scene{}
     local wire = s:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 10, from = { 0, 0, 0 },
       to = { 0, 0.5, 0 } }
@@ -103,8 +103,8 @@ describe("a gripper that grasps three times", function()
   end)
 end)
 
-describe("what a run draws and writes besides", function()
-  it("has clamps, pins and feeds with their kind, and none before they hold", function()
+describe("pictures and series of a run", function()
+  it("have clamps, pins and feeds with their kind, a pin only while it holds", function()
     local scene, wires = scene_with(2)
     scene:clamp(wires[1], { s = 0 })
     scene:feed(wires[2], { s = 0 })
@@ -127,7 +127,7 @@ describe("what a run draws and writes besides", function()
     end
   end)
 
-  it("has pads and obstacles from when they are there, and then no other gripper", function()
+  it("have pads from when they exist, and from then on no imposed gripper", function()
     local scene, wires = scene_with(1)
     local hand = scene:gripper{ at = { 0.1, 0, 0.05 } }
     scene:process(function(p)
@@ -148,7 +148,7 @@ describe("what a run draws and writes besides", function()
     assert.is_false(last.grips[1])
   end)
 
-  it("has no obstacle that was taken away", function()
+  it("have no obstacle after its removal", function()
     local scene = scene_with(1)
     local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 1, 0.05 } }
     scene:process(function(p)
@@ -161,7 +161,7 @@ describe("what a run draws and writes besides", function()
     assert.is_false(frames[#frames].obstacles[2])
   end)
 
-  it("has columns of tension, bend radius, clips and ties", function()
+  it("have columns of tension, bend radius, clips and ties", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 50e6, density = 1500, radius = 0.002, segments = 20,
       from = { 0, 0, 0 }, to = { 0.4, 0, 0 } }
@@ -188,7 +188,7 @@ describe("what a run draws and writes besides", function()
     assert.near(scene:find "t1":tension(), tie[last], 1e-9)
   end)
 
-  it("has a column of a tie between two wires, nothing once it broke", function()
+  it("have a column of a tie between two wires, which is zero once the tie broke", function()
     for _, strength in ipairs{ 1e3, 0.2 } do
       local scene = sw.scene{}
       local wires = {}
@@ -215,7 +215,7 @@ describe("what a run draws and writes besides", function()
     end
   end)
 
-  it("keeps these records in files and gives them back with snapshots", function()
+  it("are kept in files and restored by snapshots", function()
     local scene, wires = scene_with(1)
     scene:clamp(wires[1], { s = 0 })
     scene:run{ duration = 0.1, dt = 0.01 }
@@ -233,7 +233,7 @@ describe("what a run draws and writes besides", function()
 end)
 
 describe("an empty gripper", function()
-  it("moves, waits, approaches and retreats, and its time counts", function()
+  it("moves, waits, approaches and retreats, each in its time", function()
     local scene, wires = scene_with(1)
     local hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.3 } }
     local begun = {}
@@ -261,11 +261,11 @@ describe("an empty gripper", function()
     assert.is_true(begun.there > 1.5)
     assert.are.equal(1, #run:document().obstacles) -- the table: an imposed grip has no pads
     local grips = run:document().frames
-    assert.near(0.3, grips[1].grips[1].position[3], 0.3 * 2 ^ -24) -- frames have 32 bits
+    assert.near(0.3, grips[1].grips[1].position[3], 0.3 * 2 ^ -24) -- frames hold 32-bit floats
     assert.is_false(grips[1].grips[1].held)
   end)
 
-  -- An imposed grip may hold one point; a finger is a body.
+  -- An imposed grip may hold one point; a finger is a body and needs a width.
   it("makes no fingers without a width, and leaves nothing half made", function()
     for _, shape in ipairs{ "flat", "v" } do
       local scene = scene_with(1)
@@ -279,7 +279,7 @@ describe("an empty gripper", function()
     end
   end)
 
-  it("may begin anywhere by an approach", function()
+  it("takes its place from an approach if it has none", function()
     local scene, wires = scene_with(1)
     local hand = scene:gripper{}
     scene:process(function()
@@ -291,7 +291,7 @@ describe("an empty gripper", function()
     assert.is_true(scene.time > 0.5)
   end)
 
-  it("says what it lacks", function()
+  it("names what is missing: at, s", function()
     local scene, wires = scene_with(1)
     local hand = scene:gripper{ name = "hand" }
     assert.has_error(function() hand:wait(1) end, nil)
@@ -302,7 +302,7 @@ describe("an empty gripper", function()
     assert.truthy(why:find("give s [m]", 1, true), why)
   end)
 
-  it("is where it was after a snapshot", function()
+  it("is back at its place after a restore, and repeats the same bits", function()
     local scene, wires = scene_with(2)
     local hand = scene:gripper{ name = "hand", at = { 0.1, 0, 0.1 } }
     local before = scene:snapshot()

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- One gripper, several wires.
+-- One gripper that holds several wires.
 local sw = require "softworld"
 local vec = require "softworld.vec"
 local side_by_side = require "spec.scene.side_by_side"
@@ -9,7 +9,7 @@ local G = 9.81
 local function weight_of(wire) return wire.beam.mass_per_length * wire.length * G end
 
 describe("a gripper with several wires", function()
-  it("carries them by one move, sums their forces, and lets go of one or all", function()
+  it("carries them in one move, sums their forces, and releases one or all", function()
     local scene, wires = scene_with(2)
     local hand = scene:gripper{ name = "hand" }
     local one, both, rest, places
@@ -45,7 +45,7 @@ describe("a gripper with several wires", function()
     assert.near(2 * w, column(run, "hand.force")[390], 0.1 * w)
   end)
 
-  it("takes a list between pads and tells the force on each", function()
+  it("takes a list between pads and gives the force on each", function()
     local scene, wires = sw.scene{}, {}
     scene:obstacle{ shape = "plane", friction = 0.3 }
     for i = 1, 2 do
@@ -76,7 +76,7 @@ describe("a gripper with several wires", function()
     assert.is_true(scene:run{ dt = 0.002 }.ok)
   end)
 
-  it("refuses what cannot be, and changes nothing", function()
+  it("refuses invalid grasps and releases, and changes nothing", function()
     local scene, wires = scene_with(3)
     local hand = scene:gripper{ name = "hand" }
     hand:grasp(wires[1], { s = 0.1 })

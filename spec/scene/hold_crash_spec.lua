@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that grips, clamps, feeds drive into obstacles: nothing stops them, so it is told.
+-- Wires that grips, clamps or feeds drive into obstacles: nothing stops these holds, so events report it.
 local sw = require "softworld"
 local t = require "physics.tools"
 
@@ -18,7 +18,7 @@ local function of_kind(list, kind)
   return found
 end
 
--- A gripper that goes by a way.
+-- A gripper that moves its wire by way [m].
 local function gripped(way, options)
   local scene, wire = new_scene(options)
   if options.add then options.add(scene) end
@@ -33,7 +33,7 @@ local function gripped(way, options)
 end
 
 describe("an imposed grip", function()
-  it("that is driven into a table is an event of the run and of the gripper", function()
+  it("driven into a table gives an event of the run and of the gripper", function()
     local run, hand, _, wire = gripped({ 0, 0, -0.15 }, {})
     local crashes = of_kind(run.events, "crash")
     assert.equal(1, #crashes)
@@ -51,7 +51,7 @@ describe("an imposed grip", function()
     t.share(hand:over(0, run.time, { window = 0 }).peak_force, overload[1].value, 1e-12, "force told")
   end)
 
-  it("that is driven through a peg is an event at any step", function()
+  it("driven through a peg gives an event at any step", function()
     for _, dt in ipairs{ 2e-3, 1e-2, 2e-2 } do
       local run = gripped({ 0, 0.2, 0 }, { speed = 1, dt = dt, add = function(scene)
         scene:obstacle{ name = "peg", shape = "cylinder", radius = 0.002, length = 0.05,
@@ -63,12 +63,12 @@ describe("an imposed grip", function()
     end
   end)
 
-  it("is told of in a quasi-static run too", function()
+  it("is reported in a quasi-static run too", function()
     local run = gripped({ 0, 0, -0.12 }, { quasistatic = true, dt = 0.05 })
     assert.is_table(of_kind(run.events, "crash")[1])
   end)
 
-  it("does what on_crash says", function()
+  it("stops the run or calls a function, as on_crash says", function()
     local run = gripped({ 0, 0, -0.15 }, { on_crash = "stop" })
     assert.is_truthy(run.reason:find("'hand' runs into 'table'", 1, true), run.reason)
     t.below(0.004, of_kind(run.events, "crash")[1].value, "depth when it stopped")
@@ -79,7 +79,7 @@ describe("an imposed grip", function()
     assert.same({ { "hand", "table" } }, calls)
   end)
 
-  it("that lays a wire on the table, and lifts it, is none", function()
+  it("that lays a wire on the table gives no event", function()
     local run, hand = gripped({ 0, 0, -0.1 + 0.002 }, {})
     t.fine(run)
     assert.equal(0, #of_kind(run.events, "crash"))
@@ -97,7 +97,7 @@ describe("clamps and feeds", function()
     return of_kind(run.events, "crash")[1], hold
   end
 
-  it("driven into a table are events", function()
+  it("driven into a table give an event", function()
     for _, make in ipairs{ function(s, w) return s:clamp(w, { s = 0 }) end,
       function(s, w) return s:pin(w, { s = 0.1 }) end,
       function(s, w) return s:feed(w, { s = 0, speed = 0.01 }) end } do
@@ -111,7 +111,7 @@ describe("clamps and feeds", function()
     end
   end)
 
-  it("are none where the wire comes out of a wall, until they go deeper", function()
+  it("give none where the wire comes out of a wall, until they go deeper", function()
     local function walled(way)
       local scene, wire = new_scene()
       scene:obstacle{ name = "wall", shape = "box", size = { 0.1, 0.2, 0.2 }, at = { -0.05, 0, 0.1 } }
@@ -123,7 +123,7 @@ describe("clamps and feeds", function()
     assert.equal(1, walled{ -0.02, 0, 0 })
   end)
 
-  it("are driven into by what moves", function()
+  it("give an event when a moving obstacle runs into them", function()
     local scene, wire = new_scene()
     scene:clamp(wire, { name = "held", s = 0 })
     local ram = scene:obstacle{ name = "ram", shape = "sphere", radius = 0.01, at = { -0.1, 0, 0.1 } }
@@ -134,7 +134,7 @@ describe("clamps and feeds", function()
     assert.is_truthy(e.text:find("'ram'", 1, true), e.text)
   end)
 
-  it("go back with snapshots and on from files", function()
+  it("have crashes that snapshots undo and files keep", function()
     local scene, wire = new_scene()
     local clamp = scene:clamp(wire, { s = 0 })
     clamp:follow{ relative = true, points = { { 0, 0, 0 }, { 0, 0, -0.11 } }, duration = 0.5 }

@@ -23,13 +23,13 @@ describe("scene:remove with grippers", function()
   end
 
   for _, approach in ipairs{ "imposed", "plates", "mixed" } do
-    it("a gripper lets its wire fall and is a dead handle, " .. approach, function()
+    it("a gripper lets its wire fall, and its handle refuses further calls, " .. approach, function()
       local run, scene, hand, a = table_with(approach, function(scene, hand, _, p)
         scene:remove(hand)
         p:wait(0.05)
       end)
       assert.is_true(run.ok, run.reason)
-      -- in 0.05 s it falls freely by g t^2 / 2 = 12 mm from 52.5 mm, held back by what of it still lies
+      -- free fall in 0.05 s: g t^2 / 2 = 12 mm from 52.5 mm; the part that still lies holds the wire back
       local z = a:position(0.02)[3]
       assert.is_true(z < 0.05 and z > 0.040, tostring(z))
       assert.are.equal("rod", a.model)
@@ -61,7 +61,7 @@ describe("scene:remove with grippers", function()
     end
   end
 
-  it("ends a process from under which its gripper is taken, and the run goes on", function()
+  it("ends a process whose gripper is taken away, and the run goes on", function()
     local scene = sw.scene()
     local a = rod(scene, "a", 0)
     local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.1 } }
@@ -81,7 +81,7 @@ describe("scene:remove with grippers", function()
     assert.are.near(0.1, later, 1e-9)
     assert.are.near(0.05, run.events[2].time, 1e-9)
     assert(run.events[2].text:find("process 1 ends: .*gripper 'hand' was taken away at t = 0.02 s"))
-    -- what a process takes away itself is its own mistake
+    -- a process that uses what it removed itself: an error of the script
     local other = sw.scene()
     local b = rod(other, "b", 0)
     rod(other, "c", 0.1)
@@ -93,8 +93,8 @@ describe("scene:remove with grippers", function()
     refused("'b' was taken away from scene", function() other:run{ dt = 0.005 } end)
   end)
 
-  it("ends a process whose wire is taken away in the middle of a grasp, or before it", function()
-    -- the jaws take 0.475 s to 4.5 mm, at 20 mm/s from 14 mm; a mixed grasp rests for 40 ms at least
+  it("ends a process whose wire is taken away during or before a grasp", function()
+    -- the jaws close from 14 mm to 4.5 mm at 20 mm/s, in 0.475 s; a mixed grasp waits for at least 40 ms
     for _, case in ipairs{ { "plates", 0.2, distance = 0.0045 }, { "mixed", 0.46, force = 2 },
       { "tie", 0.005 }, { "imposed", 0.005 } } do
       local how, when = case[1], case[2]
@@ -119,7 +119,7 @@ describe("scene:remove with grippers", function()
     end
   end)
 
-  it("leaves everything as it was when a motion of what holds the wire fails", function()
+  it("leaves everything as it was when the motion of a hold on the wire fails", function()
     local scene, a = three()
     local hand = scene:gripper{ name = "hand", pads = { friction = 0.6, opening = 0.014 } }
     hand:grasp(a, { s = 0.02, approach = "plates", force = 2 })
@@ -138,7 +138,7 @@ describe("scene:remove with grippers", function()
     assert.is_nil(hand.wire)
   end)
 
-  it("refuses a part of a gripper, and its grip, and names it", function()
+  it("refuses a gripper's part and its grip, and names the gripper", function()
     table_with("plates", function(scene, hand)
       refused("is a part of gripper 'hand'; remove that", function()
         scene:remove(hand.obstacles[1])
@@ -149,7 +149,7 @@ describe("scene:remove with grippers", function()
     end)
   end)
 
-  it("gives the gripper back with a snapshot", function()
+  it("is undone by a snapshot: the gripper is back with its wire", function()
     local scene = sw.scene()
     local a = rod(scene, "a", 0)
     local hand = scene:gripper{ name = "hand", at = { 0, 0, 0.1 } }

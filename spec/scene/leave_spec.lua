@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- scene:remove: what leaves a scene takes with it what belongs to it, and nothing else; what it did
--- before stays to be read.
+-- scene:remove: an object leaves the scene with what belongs to it, and nothing else. Its earlier results
+-- stay readable.
 local sw = require "softworld"
 local leaving = require "spec.scene.leaving"
 
@@ -9,7 +9,7 @@ local core = sw.core
 local R = 0.0025
 
 describe("scene:remove", function()
-  it("takes a wire with all that holds it, and leaves the others alone", function()
+  it("takes a wire with everything that holds it, and leaves the others alone", function()
     local scene, a, b, c = three()
     local clamp, pin = scene:clamp(b, { s = 0 }), scene:pin(c, { s = 0 })
     local force = scene:force{ kind = "point", on = b, s = 0.3, force = { 0, 0, 0.01 } }
@@ -21,7 +21,7 @@ describe("scene:remove", function()
     assert.is_true(pin.held)
     assert.is_true(own:exists())
     assert.are.same({ true, false, true }, { a.present, b.present, c.present })
-    -- handles of the others name what they named: c, whose place in the scene's list is another one now
+    -- handles of other wires stay valid, also of c, whose place in the scene's list has changed
     assert.are.near(0.1, c:position(0.2)[2], 1e-12)
     assert.are.near(0, a:position(0.2)[2], 1e-12)
     assert.is_false(core.exists(b))
@@ -29,7 +29,7 @@ describe("scene:remove", function()
     assert.are.equal("wire 'b' (taken away)", tostring(b))
   end)
 
-  it("says of what is gone that it is, when, and refuses what is none of the scene's", function()
+  it("tells when a removed object left, and refuses objects of other scenes", function()
     local scene, a, b = three()
     scene:run{ duration = 0.01, dt = 0.005 }
     scene:remove(b)
@@ -46,7 +46,7 @@ describe("scene:remove", function()
   end)
 
   it("books the energy that leaves as a change of the scene, without a gap", function()
-    -- energy is what each wire has by itself: without b the total is that of a and c
+    -- each wire has its own energy: without b the total is that of a and c
     local scene, _, b = three()
     local before, after
     at(scene, 0.05, function()
@@ -61,8 +61,8 @@ describe("scene:remove", function()
     assert.is_true(math.abs(ledger.gap) < 1e-9 * before)
   end)
 
-  it("moves what stays as if what left had never been there", function()
-    -- three wires fall freely, not touching: a and c of the scene with b, and of a scene without
+  it("moves the remaining wires as if the removed one had never been there", function()
+    -- three wires fall freely and do not touch; a and c must fall by g t^2 / 2
     local scene, a, b, c = three()
     at(scene, 0.05, function() scene:remove(b) end)
     scene:run{ duration = 0.1, dt = 0.005, integrator = "tr-bdf2" }
@@ -70,9 +70,9 @@ describe("scene:remove", function()
     for _, wire in ipairs{ a, c } do assert.are.near(fall, wire:position(0.25)[3], 1e-6) end
   end)
 
-  it("keeps what was touched touching, with its friction", function()
-    -- On a slope of 15 degrees with friction 0.4 > tan(15 degrees) a wire stays; friction that was
-    -- forgotten, or was of another wire, would let it creep.
+  it("keeps the contacts of the remaining wires, with their friction", function()
+    -- On a slope of 15 degrees with friction 0.4 > tan(15 degrees) a wire stays. Friction that was lost, or
+    -- that was another wire's, would let it creep.
     local g, slope = 9.81, math.rad(15)
     local scene = sw.scene{ gravity = { 0, g * math.sin(slope), -g * math.cos(slope) } }
     scene:obstacle{ shape = "plane", friction = 0.4 }
@@ -86,7 +86,7 @@ describe("scene:remove", function()
     assert.are.near(before, b:position(0.25)[2], 1e-6)
   end)
 
-  it("lets frames, series, events and pictures tell of it until it went", function()
+  it("keeps the wire in frames, series, events and pictures until it left", function()
     local scene, _, b = three()
     at(scene, 0.05, function() scene:remove(b) end)
     local run = scene:run{ duration = 0.1, dt = 0.005, frame = 0.01 }
@@ -117,7 +117,7 @@ describe("scene:remove", function()
     os.execute(("rm -rf %s %s.* %s_*"):format(path, path, path))
   end)
 
-  it("is undone by a snapshot from before, also one with fewer wires than there are", function()
+  it("is undone by a snapshot from before, also by one with fewer wires than there are", function()
     local scene, _, b, c = three()
     local clamp = scene:clamp(b, { s = 0 })
     local empty = scene:snapshot()
@@ -140,7 +140,7 @@ describe("scene:remove", function()
     assert.are.equal(0, scene.time)
   end)
 
-  it("makes its name free, and is written as a script has it", function()
+  it("frees the name; scene:script writes what is there", function()
     local scene, _, b = three()
     scene:remove(b)
     rod(scene, "b", 0.07)
@@ -174,8 +174,8 @@ describe("scene:remove", function()
     assert.are.same((c:positions()), (copy:find("c"):positions()))
   end)
 
-  -- Without wires nothing is solved: obstacles and grippers follow their motions, functions of time, whatever
-  -- the method of the run, and it ends when it would have ended.
+  -- Without wires nothing is solved. Obstacles and grippers follow their motions, which are functions of
+  -- time, with any method, and the run ends at its usual time.
   for _, how in ipairs{ { dt = 0.005 }, { tolerance = 1e-5 }, { dt = 0.005, quasistatic = true },
     { dt = 0.005, wear = true }, { dt = 0.005, integrator = "bdf2" },
     { dt = 2e-5, integrator = "velocity-verlet" }, { dt = 2e-5, integrator = "gsl-rk4" } } do
@@ -206,14 +206,14 @@ describe("scene:remove", function()
       local run = scene:run(how)
       assert.is_true(run.ok, run.reason)
       assert.are.same({ false, false }, { clamp.held, a.present })
-      assert.is_true(force.held) -- it is of all wires that there are
+      assert.is_true(force.held) -- it acts on all wires of the scene
       assert.are.near(when + 0.05 + 0.02 + 0.01, run.time, 2 * (how.dt or 0.01))
       assert.are.near(0.31, hand:position()[3], 1e-9)
       assert.are.near(0.05 + math.min(run.time, 0.1), (box:pose()[3]), 1e-9)
       assert.are.same({ 0, 0, 0 }, box:force())
       assert.is_true(looks >= 8)
       assert(run.events[1].text:find("wire 'a' is taken away; no wire is left", 1, true))
-      -- what it was until then stays, and what reads it now is told that it is gone
+      -- its earlier results stay; reading its present state is refused
       local doc, ledger = run:document(), run:ledger()
       assert.are.equal(0, #doc.frames[#doc.frames].wires[1])
       assert.are.equal(63, #doc.frames[1].wires[1])
@@ -224,7 +224,7 @@ describe("scene:remove", function()
       assert.are.same({ "OPEN", "OPEN" }, { check.verdict, check:row "removed".verdict })
       assert.are.equal(run.time, run:series().time[#run:series().time])
       assert.are.equal(0, scene:energy().total)
-      -- and a wire that comes is moved as ever: it falls, damped by 1/s: v' = -g - v
+      -- a wire made later moves as usual: it falls, damped by 1/s: v' = -g - v
       local b = rod(scene, "b", 0.2)
       local more = { duration = 0.02, dt = how.dt, integrator = how.integrator or "tr-bdf2" }
       local next = scene:run(more)
@@ -233,7 +233,7 @@ describe("scene:remove", function()
     end)
   end
 
-  it("of the last wire, and a wire that comes later in the same run", function()
+  it("of the last wire lets another wire come in the same run", function()
     local scene = sw.scene()
     local a, b = rod(scene, "a", 0), nil
     at(scene, 0.02, function() scene:remove(a) end)
@@ -245,7 +245,7 @@ describe("scene:remove", function()
     assert.are.near(0.1, b:position(0.25)[2], 1e-12)
   end)
 
-  it("of the last wire is undone by a snapshot, and goes through a file", function()
+  it("of the last wire is undone by a snapshot and kept in a file", function()
     local scene = sw.scene()
     local a = rod(scene, "a", 0)
     local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 0, 1 }, name = "box" }
@@ -272,7 +272,7 @@ describe("scene:remove", function()
     refused("there is no wire", function() scene:settle() end)
   end)
 
-  it("of the last wire in a run that is written, and goes on from its file", function()
+  it("of the last wire, in a run with save, can be resumed from the file", function()
     local path = os.tmpname()
     os.remove(path)
     local function made(stops)
@@ -299,7 +299,7 @@ describe("scene:remove", function()
     assert.are.near(1.1, hand:position()[3], 1e-9)
   end)
 
-  it("of the last wire between runs leaves a scene in which a process may make another", function()
+  it("of the last wire between runs lets a process make another", function()
     for _, emptied in ipairs{ true, false } do
       local scene, b = sw.scene(), nil
       if emptied then scene:remove(rod(scene, "a", 0)) end
@@ -312,7 +312,7 @@ describe("scene:remove", function()
     end
   end)
 
-  it("of the last wire between runs leaves an empty scene, in which none begins", function()
+  it("of the last wire between runs leaves an empty scene, in which no run begins", function()
     local scene = sw.scene()
     scene:remove(rod(scene, "a", 0))
     refused("there is no wire", function() scene:run{ duration = 0.01 } end)
@@ -321,7 +321,7 @@ describe("scene:remove", function()
     assert.is_true(b.present)
   end)
 
-  it("goes with error bars before a run, and is told when it comes within", function()
+  it("works before a run with error bars, and is refused within one", function()
     local function run(work)
       local scene, a, b = three()
       scene:clamp(a, { s = 0 })
@@ -337,7 +337,7 @@ describe("scene:remove", function()
     refused("'b' was taken away on the way", function() run(function(scene, b) scene:remove(b) end) end)
   end)
 
-  it("takes everything else that can go", function()
+  it("takes obstacles, clamps, forces and ties", function()
     local scene, a, b = three()
     local box = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.1 }, at = { 0, 1, 0 }, name = "box" }
     local clamp = scene:clamp(a, { s = 0 })

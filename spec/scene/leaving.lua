@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires of which some are taken away, for specs of scene:remove.
+-- Wires, some of which are removed, for specs of scene:remove.
 local assert = require "luassert"
 local sw = require "softworld"
 
@@ -17,7 +17,7 @@ local function three()
   return scene, rod(scene, "a", 0), rod(scene, "b", 0.05), rod(scene, "c", 0.1)
 end
 
--- Do f between two steps, at the first state from time t on.
+-- Calls f between two steps, at the first state from time t on.
 local function at(scene, t, f)
   local done
   scene:observe{ call = function(o)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Work of what moves a wire that touches something. Forces of a method's stages may be off at the
--- ends of steps; the impulse on the wire is not. So work hardly depends on the step, and nothing
--- comes from nowhere: shares of what is in play.
+-- Work of what moves a wire that touches something. Forces of a method's stages may be off at the steps'
+-- ends; the impulse on the wire is not. So the work hardly depends on the step, and almost no energy is
+-- unexplained. Both are shares of the energy in play.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -21,7 +21,7 @@ local function wire_in(s, kind, length, height, segments)
   return w
 end
 
--- Lies over a peg; one end is carried away from it and down. Force that holds the bend, or none.
+-- A wire lies over a peg; one end is moved back and down. bend: makes a bending force from EI, or nil.
 local function over_peg(kind, bend)
   return function(s)
     local w = wire_in(s, kind, 0.4, 0.2, 40)
@@ -47,7 +47,7 @@ local function stick_slip(EI)
   return { kind = "stick_slip", EI_stick = 4 * EI, friction_moment = 5 * EI }
 end
 
--- Pulled out of a clip by a hand on either side.
+-- A wire pulled out of a clip by a gripper on either side.
 local function out_of_clip(kind)
   return function(s)
     local w = wire_in(s, kind, 0.3, 0.03, 48)
@@ -63,7 +63,7 @@ local function out_of_clip(kind)
   end
 end
 
--- A guide that is moved back over a table lays wire down.
+-- A guide that moves back above a table lays wire down.
 local function laid(kind)
   return function(s)
     local w = wire_in(s, kind, 0.1, 0.05, 10)
@@ -75,7 +75,7 @@ local function laid(kind)
   end
 end
 
--- A plate pushes a hanging wire aside, and comes back.
+-- A plate pushes a hanging wire aside and comes back.
 local function pushed(kind)
   return function(s)
     local w = wire_in(s, kind, 0.3, 0.2, 30)
@@ -111,13 +111,13 @@ end
 describe("the ledger of a wire that touches something", function()
   for _, case in ipairs(cases) do
     local name, build, worker = table.unpack(case)
-    it("knows the work: " .. name, function()
+    it("gives the same work at any step: " .. name, function()
       local fine = ledger(build, 5e-4)
       for _, dt in ipairs{ 2e-2, 1e-2, 5e-3, 2e-3 } do
         local l, run = ledger(build, dt)
         local what = (" at steps of %g s"):format(dt)
         t.below(5e-3, l.gap / l.play, "from nowhere [-]" .. what)
-        -- a feed starts at once: how fast the wire follows is the step's
+        -- a feed starts abruptly: the step decides how fast the wire follows
         t.near(0, (l.work[worker] - fine.work[worker]) / fine.play, worker == "feeds" and 0.025 or 0.005,
           "work [-]" .. what)
         t.below(0.03, l.redone.count / run.steps, "steps redone [-]" .. what)
@@ -125,9 +125,9 @@ describe("the ledger of a wire that touches something", function()
     end)
   end
 
-  -- What flowed in a step is lost, not stored until the step is taken: a run in parts, each of
-  -- which looks again at what is there, finds nothing changed between them.
-  it("counts once what a history lost", function()
+  -- Energy that flowed in a step is lost at once, not stored until the step is taken. Each of the ten runs
+  -- reads the scene's energy again, and must find no change in between.
+  it("counts the loss of plastic bending once", function()
     local s = sw.scene{}
     over_peg("FLRY-B 0.5", plastic)(s)
     local changes, lost, play = 0, 0, 0

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What ties, clips and channels refuse names them, their parameter, the value and the range, not the
--- obstacles that they are made of, and not the matrix that such a stiffness would spoil.
+-- Refusals of ties, clips and channels name the object, the parameter, the value and the range. They do not
+-- name the obstacles that it is made of, nor the matrix that such a stiffness would spoil.
 local sw = require "softworld"
 
 local function made(kind, given)
@@ -18,7 +18,7 @@ end
 
 local SIZE, FRICTION = "at least 1e-06 m and at most 1000 m", "at least 0 and at most 100"
 
-describe("a number that is too small or large for", function()
+describe("the range of a number that is too small or too large for", function()
   for _, case in ipairs{
     { "channel", "width", 1e300, SIZE }, { "channel", "width", 1e-300, SIZE },
     { "channel", "depth", 1e300, SIZE }, { "channel", "thickness", 1e-9, SIZE },
@@ -40,7 +40,7 @@ describe("a number that is too small or large for", function()
   end
 end)
 
-describe("the ends of what is allowed", function()
+describe("the limits of allowed ranges", function()
   for _, case in ipairs{ { "tie", "stiffness", 1e12 }, { "clip", "stiffness", 1e12 },
     { "clip", "strength", 1e12 }, { "clip", "snap", 1000 }, { "clip", "way", 1e-6 },
     { "channel", "width", 1e-6 }, { "channel", "thickness", 1e-6 }, { "channel", "friction", 100 } } do

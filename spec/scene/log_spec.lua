@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- object:log(t1, t2): the steps between two times and one more on each side; and what is read from these
--- is what is read from all.
+-- object:log(t1, t2) returns the steps between two times and one more on each side. Loads computed from
+-- these equal the loads computed from all steps.
 local sw = require "softworld"
 
 local function scene_of()
@@ -61,7 +61,7 @@ describe("object:log", function()
     scene:close()
   end)
 
-  it("leaves loads between two times as they are of all steps up to there", function()
+  it("leaves loads as they are: two halves add up to the whole", function()
     local scene, _, objects = scene_of()
     local half, ends = scene.time / 2, scene.time
     for name, object in pairs(objects) do

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A net of particles.
 
--- n x n particles in a plane, threads and bending between them.
+-- Makes n x n particles in a plane, with threads and bending stiffness between them.
 local function net(scene, n, more)
   local positions, pairs_, triples = {}, {}, {}
   local function add(list, ...) for _, k in ipairs{ ... } do list[#list + 1] = k end end

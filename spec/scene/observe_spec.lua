@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Observers look at a scene between two steps of a run: when they are due, without a change of a bit, with
--- a way to hold it, to end it, and to hand changes in.
+-- Observers look at a scene between two steps of a run: they are called when due, change no bit, and can
+-- hold the run, end it and hand in changes.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local saving = require "spec.scene.saving"
@@ -16,7 +16,7 @@ local function falling(height)
   return scene, wire, floor
 end
 
--- Everything that can be read of a scene.
+-- Reads everything that a scene offers.
 local function read_all(scene)
   saving.all(scene)
   scene:describe()
@@ -31,8 +31,8 @@ local function read_all(scene)
 end
 
 describe("an observer", function()
-  -- Steps of 0.01 s meet the times k * 0.04 s; at others it is the first step's end after them.
-  it("is called at the first accepted step from each of its times on", function()
+  -- Step ends meet the times k * 0.04 s. For times between step ends it is the first step end after them.
+  it("is called at the first accepted step at or after each of its times", function()
     local scene = falling()
     local times, between = {}, {}
     scene:observe { every = 0.04, call = function(o) times[#times + 1] = o.scene.time end }
@@ -44,7 +44,7 @@ describe("an observer", function()
     for k, time in ipairs { 0.03, 0.05, 0.08, 0.1 } do t.near(time, between[k], 1e-12) end
   end)
 
-  it("counts its times from the beginning of each run, and sees every step without any", function()
+  it("counts its times from the start of each run; without times it sees every step", function()
     local scene = falling(5)
     local times, steps = {}, 0
     scene:observe { every = 0.02, call = function(o) times[#times + 1] = o.scene.time end }
@@ -58,8 +58,8 @@ describe("an observer", function()
     assert.equal(6, each.calls)
   end)
 
-  -- Each look holds the run for 4 ms, so 10 steps last longer than 2 looks at 20 ms.
-  it("is called when time on the clock is due", function()
+  -- Each look holds the run for 4 ms, so 10 steps last longer than two intervals of 20 ms.
+  it("is called at intervals of clock time", function()
     local scene = falling(5)
     local begun, calls = sw.core.clock(), 0
     scene:observe { wall = 0.02, call = function() calls = calls + 1 end }
@@ -73,7 +73,7 @@ describe("an observer", function()
   local looked = 0
   for _, list in ipairs { saving.cases, states.cases } do
     for _, case in ipairs(list) do
-      it("leaves every bit as it is when it reads all there is: " .. case.name, function()
+      it("changes no bit by reading everything: " .. case.name, function()
         local function after(watched)
           local scene, calls = case.build(), 0
           case.before(scene)
@@ -94,9 +94,9 @@ describe("an observer", function()
     end
   end
 
-  it("did so at many steps", function() assert.is_true(looked > 1000) end)
+  it("was called at more than 1000 steps in these cases", function() assert.is_true(looked > 1000) end)
 
-  it("ends a run, whose numbers are good", function()
+  it("ends a run, with ok = true and the reason given", function()
     local scene = falling()
     scene:observe { every = 0.03, call = function(o) o:stop "low enough" end }
     local run = scene:run { duration = 1, dt = 0.01 }
@@ -110,7 +110,7 @@ describe("an observer", function()
     end)())
   end)
 
-  it("hands changes in, which are made between this step and the next", function()
+  it("hands in changes, which are made between this step and the next", function()
     local scene, wire = falling(2)
     local at
     scene:observe { every = 0.05, call = function(o)
@@ -122,7 +122,7 @@ describe("an observer", function()
     t.near(-9.81 * 0.05, wire:velocity(0.1)[3], 1e-9) -- no gravity since
   end)
 
-  it("is called no more once it is removed, also by itself", function()
+  it("is no longer called once it is removed, also by itself", function()
     local scene = falling()
     local calls = 0
     local o = scene:observe { call = function(self)
@@ -138,7 +138,7 @@ describe("an observer", function()
     assert.equal(1, calls)
   end)
 
-  it("may make others and remove them while they are called", function()
+  it("may make other observers, and remove them, while they are called", function()
     local scene = falling()
     local made, seen = nil, 0
     scene:observe { call = function(o)
@@ -149,7 +149,7 @@ describe("an observer", function()
     assert.equal(2, seen)
   end)
 
-  it("is part of the process, not of the scene: restoring a snapshot leaves it", function()
+  it("belongs to the process, not to the scene: restoring a snapshot keeps it", function()
     local scene = falling()
     local start, calls = scene:snapshot(), 0
     scene:observe { call = function() calls = calls + 1 end }
@@ -159,7 +159,7 @@ describe("an observer", function()
     assert.equal(4, calls)
   end)
 
-  it("sees processes go on, and quasi-static and adaptive steps", function()
+  it("works with processes, and in quasi-static and adaptive steps", function()
     for _, args in ipairs { { dt = 0.01 }, { tolerance = 1e-5 }, { quasistatic = true, dt = 0.05 } } do
       local scene = sw.scene {}
       local wire = scene:wire { E = 5e7, density = 1500, radius = 0.003, segments = 12, from = { 0, 0, 0 },
@@ -178,7 +178,7 @@ describe("an observer", function()
   end)
 end)
 
-describe("what goes wrong in an observer", function()
+describe("an error in an observer", function()
   local here = "observe_spec.lua:"
 
   local function message_of(call)
@@ -200,7 +200,7 @@ describe("what goes wrong in an observer", function()
     assert.equal(own, message_of(function() error(own) end))
   end)
 
-  it("is told when it changes the scene, runs it, or takes it away", function()
+  it("is raised when the observer changes, runs or restores the scene", function()
     for _, call in ipairs {
       function(_, _, _, floor) floor:set { friction = 0.1 } end,
       function(_, scene) scene:set { gravity = { 0, 0, 0 } } end,
@@ -215,7 +215,7 @@ describe("what goes wrong in an observer", function()
     end
   end)
 
-  it("leaves nothing of what it handed in", function()
+  it("discards the changes that it handed in", function()
     local scene, _, floor = falling()
     local o = scene:observe { call = function(o)
       o:change(function() floor:set { friction = 0.9 } end)
@@ -227,7 +227,7 @@ describe("what goes wrong in an observer", function()
     t.near(0.3, floor:get().friction, 0)
   end)
 
-  it("is an error of the call for wrong arguments", function()
+  it("is raised by the call itself for wrong arguments", function()
     local scene = falling()
     local function wrong(args, text)
       local fine, message = pcall(scene.observe, scene, args)

@@ -1,4 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+-- Obstacles give their shape and its triangles; energies of the first frame.
 local sw = require "softworld"
 
 local tetrahedron = [[
@@ -13,7 +14,7 @@ f 2 3 4
 ]]
 
 describe("obstacle", function()
-  it("shows its shape", function()
+  it("gives its shape, until it is removed", function()
     local scene = sw.scene {}
     local mesh = scene:obstacle { shape = "mesh", data = tetrahedron, format = "obj", at = { 5, 0, 0 } }
     local vertices, indices = mesh.shape:triangles()
@@ -24,7 +25,7 @@ describe("obstacle", function()
     assert.error(function() return mesh.shape end)
   end)
 
-  it("gives pictures the triangles of meshes, counted from 0", function()
+  it("gives pictures the triangles of a mesh, with indices from 0", function()
     local scene = sw.scene {}
     scene:wire { E = 1e9, density = 1000, radius = 0.001, from = { 0, 0, 3 }, to = { 1, 0, 3 } }
     scene:obstacle { shape = "mesh", data = tetrahedron, format = "obj" }

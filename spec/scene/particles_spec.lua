@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Objects of particles: what they are made of, how they move, what they refuse.
+-- Objects of particles: their parts, their motion, their refusals.
 local sw = require "softworld"
 local nets = require "spec.scene.nets"
 
@@ -19,7 +19,7 @@ local function momentum(object, mass)
 end
 
 describe("objects of particles", function()
-  it("tell what they are", function()
+  it("report their name, counts, mass and radius", function()
     local scene = sw.scene{}
     local object = net(scene, 3, { name = "net" })
     assert.are.equal("net", object.name)
@@ -32,7 +32,7 @@ describe("objects of particles", function()
     assert.are.equal(27, #object:positions())
   end)
 
-  it("take lists of any form", function()
+  it("take lists in either form", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local a = scene:particles{ positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } },
       masses = { 1, 2, 3 }, links = { { 1, 2, k = 10 }, { 2, 3, k = 20, rest = 0.5 } } }
@@ -69,15 +69,15 @@ describe("objects of particles", function()
       local run = scene:run{ duration = 0.1, dt = method == "velocity-verlet" and 1e-3 or 5e-3,
         integrator = method }
       assert.is_true(run.ok, run.reason)
-      -- forces between particles are opposite to the last bit; the solver's are to its rounding
+      -- forces between particles are opposite to the last bit, the solver's to rounding
       local after = momentum(object, 0.01)
       for k = 1, 3 do near(before[k], after[k], 1e-13, method) end
       assert.is_true(math.abs(object:energy().stretch) > 1e-5)
     end
   end)
 
-  -- A weight between two springs that go off to both sides: 2 k (l - l0) z / l = m g.
-  it("find the equilibrium of a network computed by hand", function()
+  -- A weight between two springs that lead to both sides: 2 k (l - l0) z / l = m g.
+  it("find the equilibrium of a network that was computed by hand", function()
     local scene = sw.scene{}
     local object = scene:particles{ positions = { -1, 0, 0, 0, 0, -0.1, 1, 0, 0 }, masses = 0.5,
       links = { { 1, 2, k = 40, rest = 0.9 }, { 2, 3, k = 40, rest = 0.9 } } }
@@ -97,7 +97,7 @@ describe("objects of particles", function()
   end)
 
   -- The same springs and masses as a wire of the model string: half a mass at each end.
-  it("hang as a string of the same springs does", function()
+  it("hang like a string with the same springs", function()
     local scene = sw.scene{}
     local n, positions, masses, pairs_ = 20, {}, {}, {}
     for i = 0, n do
@@ -122,8 +122,8 @@ describe("objects of particles", function()
     assert.is_true(x[3 * n // 2] < -0.05)
   end)
 
-  -- Stress of a neo-Hookean bar that may narrow: see the foam of the examples.
-  it("of solid elements stretch as their material does", function()
+  -- Stress of a neo-Hookean bar that is free to narrow, as in the foam example.
+  it("made of solid elements stretch as their material law says", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local positions = {}
     for z = 0, 1 do
@@ -173,9 +173,9 @@ describe("objects of particles", function()
       assert.is_true(scene:run{ duration = 0.01, dt = 1e-3 }.ok)
       nearest = math.min(nearest, object:particle(2)[1] - object:particle(1)[1])
     end
-    -- 1/2 k d^2 = 1/2 m v^2 of the motion against each other, m = 1/150 kg, v = 0.2 m/s
-    near(0.02 - math.sqrt(0.2 ^ 2 / 150 / 50), nearest, 2e-4) -- seen every 10 ms
-    local v = object:velocities() -- an elastic blow; the scheme's error, which damps or drives a little
+    -- 1/2 k d^2 = 1/2 m v^2 of the relative motion, with the reduced mass m = 1/150 kg and v = 0.2 m/s
+    near(0.02 - math.sqrt(0.2 ^ 2 / 150 / 50), nearest, 2e-4) -- sampled every 10 ms
+    local v = object:velocities() -- an elastic blow; the method damps or drives it a little
     near(0.1 - 4 / 3 * 0.2, v[1], 1e-3)
     near(-0.1 + 2 / 3 * 0.2, v[4], 1e-3)
     near(0, scene:energy().repel, 0)
@@ -190,13 +190,13 @@ describe("objects of particles", function()
     scene:force{ kind = "damping", on = object, mass = 5 }
     local run = scene:run{ duration = 2, dt = 0.01 }
     assert.is_true(run.ok, run.reason)
-    near(-0.25 * G, floor:force()[3], 1e-4 * G) -- what damped swinging leaves
+    near(-0.25 * G, floor:force()[3], 1e-4 * G) -- remainder of the damped swinging
     for i = 1, 25 do near(0.005, object:particle(i)[3], 1e-5) end
   end)
 end)
 
 describe("surfaces of particles", function()
-  it("are the edges of triangles, and particles alone if so wanted", function()
+  it("touch with the edges of triangles, or with particles alone where asked to", function()
     for _, case in ipairs{ { { { 1, 2, 3 } }, true }, { { { 1, 2 } }, true }, { "particles", false } } do
       local scene = sw.scene{}
       local object = scene:particles{ positions = { 0, 0, 0.1, 1, 0, 0.1, 0, 1, 0.1 }, masses = 0.1,
@@ -242,7 +242,7 @@ describe("holds of particles", function()
 end)
 
 describe("forces on particles", function()
-  it("push some of them", function()
+  it("push only the given particles", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local object = net(scene, 3)
     local push = scene:force{ kind = "push", on = object, particles = { 2, 5 }, force = { 0, 0, 4 } }
@@ -252,7 +252,7 @@ describe("forces on particles", function()
     assert.is_nil(scene:evaluate(object).push)
   end)
 
-  it("are functions that get flat arrays", function()
+  it("may be functions, which get flat arrays", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local object = net(scene, 3)
     scene:force{ on = object, kind = function(_, x, v, f)
@@ -267,7 +267,7 @@ describe("forces on particles", function()
     assert.is_truthy(tostring(message):find "no such wind")
   end)
 
-  it("of wires are refused by name where they need a wire", function()
+  it("that need a wire are refused by name, and so are such holds and read-outs", function()
     local scene = sw.scene{}
     local object = net(scene, 3, { name = "net" })
     local wire = scene:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 2 },
@@ -315,7 +315,7 @@ describe("snapshots of particles", function()
     assert.is_true(#first == 75)
   end)
 
-  it("of before the object was made take it away, and its name is free again", function()
+  it("from before the object was made remove it and free its name", function()
     local scene = sw.scene{}
     local snapshot = scene:snapshot()
     local object = net(scene, 3, { name = "net" })
@@ -330,7 +330,7 @@ describe("snapshots of particles", function()
 end)
 
 describe("frames", function()
-  it("have wires and particles in lists of their own", function()
+  it("list wires and particles separately", function()
     local scene = sw.scene{}
     local object = net(scene, 3)
     scene:wire{ E = 1e8, density = 1e3, radius = 1e-3, from = { 0, 0, 2 }, to = { 1, 0, 2 },

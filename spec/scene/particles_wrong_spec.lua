@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Objects of particles that are wrong are refused by name.
+-- Invalid objects of particles are refused, with a message that names the fault.
 local sw = require "softworld"
 local nets = require "spec.scene.nets"
 
 local net = nets.net
 local core = sw.core
 
-describe("particles that are wrong", function()
+describe("particles", function()
   local good = { positions = { 0, 0, 0, 1, 0, 0, 2, 0, 0 }, masses = 1 }
   local nan, huge = 0 / 0, math.huge
   local cases = {
@@ -67,7 +67,7 @@ describe("particles that are wrong", function()
     end)
   end
 
-  it("refuse elements inside out and without volume", function()
+  it("refuse elements that are inside out or have a negative modulus", function()
     local scene = sw.scene{}
     local corners = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1 }
     local function make(nodes, E)
@@ -79,7 +79,7 @@ describe("particles that are wrong", function()
     assert.has_error(function() make({ 1, 2, 3, 4, 5, 6 }, -1) end)
   end)
 
-  it("refuse wrong numbers of particles afterwards", function()
+  it("refuse invalid particle numbers in later calls", function()
     local scene = sw.scene{}
     local object = net(scene, 3)
     assert.has_error(function() object:particle(0) end)
@@ -98,7 +98,7 @@ describe("particles that are wrong", function()
     assert.are.equal(1, #core.data(scene).holds)
   end)
 
-  it("are found out when their scene is gone", function()
+  it("raise an error once their scene is closed, and in another scene", function()
     local scene = sw.scene{}
     local object = net(scene, 3)
     scene:close()
@@ -108,7 +108,7 @@ describe("particles that are wrong", function()
     assert.has_error(function() other:hold(object, { particles = { 1 } }) end)
   end)
 
-  it("tell where they are torn apart", function()
+  it("name the object that is torn apart", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local object = net(scene, 3, { name = "net" })
     local v = object:velocities()

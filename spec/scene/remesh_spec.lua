@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Other meshes of the same scene: what was drawn is drawn anew, what has moved is carried
--- over, and a snapshot brings everything back.
+-- New meshes of the same scene: a wire that has not moved is drawn anew, a moved one is carried over, and a
+-- snapshot brings everything back.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local cases = require "softworld.cases"
@@ -9,7 +9,7 @@ local core = sw.core
 
 local PI = math.pi
 
--- Largest difference of an edge's strain from its tension over EA.
+-- Returns the largest difference between an edge's strain and its tension over EA.
 local function strain_error(wire)
   local x, s = wire:positions()
   local worst = 0
@@ -57,7 +57,7 @@ describe("a wire that has not moved", function()
   end
 
   for _, rest in ipairs{ "straight", "path" } do
-    it("is meshed as if it were made so, with its holds and forces, rest " .. rest, function()
+    it("gets the mesh of a wire made with as many segments, with holds and forces, rest " .. rest, function()
       for _, n in ipairs{ 8, 16, 64 } do
         for _, inner in ipairs{ false, true } do
           local a, b = one(32, rest, inner), one(n, rest, inner)
@@ -68,7 +68,7 @@ describe("a wire that has not moved", function()
           local xb, sb = b.wire:positions()
           t.below(1e-12, t.largest_difference(sa, sb), "arc lengths off")
           t.below(1e-12, t.largest_difference(xa, xb), "nodes off")
-          if not inner then -- a hold inside is where the first mesh's chord was
+          if not inner then -- a hold inside sits on a chord of the first mesh
             t.fine(a.scene:settle())
             t.fine(b.scene:settle())
             t.below(1e-8, t.largest_difference((a.wire:positions()), (b.wire:positions())),
@@ -81,7 +81,7 @@ describe("a wire that has not moved", function()
     end)
   end
 
-  it("comes back as it was, whatever was done with it", function()
+  it("is restored by a snapshot, whatever was done with it", function()
     local scene, wire = make(20, "path")
     local clamp = scene:clamp(wire, { s = 0 })
     local snapshot = scene:snapshot()
@@ -97,8 +97,8 @@ describe("a wire that has not moved", function()
       t.below(1e-14, t.largest_difference((wire:positions()), (fresh:positions())), "nodes off")
       scene:restore(snapshot)
     end
-    -- the same, where the mesh was not changed in between
-    scene:clamp(wire, { s = wire.length }):release() -- makes the system anew
+    -- the same without a new mesh in between
+    scene:clamp(wire, { s = wire.length }):release() -- makes a new system
     t.fine(scene:settle())
     scene:gravity{ 0, 0, -1 }
     scene:pin(wire, { s = wire.length }):release()
@@ -132,7 +132,7 @@ describe("a wire that has moved", function()
       t.below(1e-15, t.distance(held, c.wire:position(0.6131)), "held place moved by")
       t.below(1e-15, t.distance({ 0, 0, 0 }, c.wire:position(0)), "clamped place moved by")
       t.below(1e-9, strain_error(c.wire), "strains off")
-      -- all that is not as before is second order in the edges: (1/31)^2 = 1e-3
+      -- the other differences are of second order in the edges: (1/31)^2 = 1e-3
       for i = 0, 20 do t.below(5e-4, t.distance(places[i], c.wire:position(i / 20)), "shape off") end
     end
     t.fine(c.scene:settle())
@@ -140,7 +140,7 @@ describe("a wire that has moved", function()
     assert.is_true(pin:force()[3] ~= 0)
   end)
 
-  it("keeps momentum, angular momentum and energy", function()
+  it("keeps momentum, angular momentum and kinetic energy", function()
     local c = cases.release{ segments = 40 }
     t.fine(c.scene:run{ duration = 0.6, dt = 2e-3 })
     local p0, l0 = t.momentum(c.wire)
@@ -156,7 +156,7 @@ describe("a wire that has moved", function()
     end
   end)
 
-  it("goes on as it would have, nearer and nearer with the mesh", function()
+  it("goes on as without the new mesh, the closer the finer the mesh", function()
     local function tip(n, m)
       local c = cases.release{ segments = n }
       t.fine(c.scene:run{ duration = 0.3, dt = 1e-3 })
@@ -168,7 +168,7 @@ describe("a wire that has moved", function()
     t.below(5e-4, t.distance(tip(96), tip(96, 192)), "96 to 192")
   end)
 
-  it("comes back bit by bit and goes on so", function()
+  it("comes back and goes on bit for bit", function()
     local c = cases.release{ segments = 15 }
     t.fine(c.scene:run{ duration = 0.2 })
     local snapshot = c.scene:snapshot()
@@ -209,7 +209,7 @@ describe("a wire that has moved", function()
     end
   end)
 
-  it("keeps a bend that has set", function()
+  it("keeps a plastic bend", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ EA = 1e4, EI = 0.02, mass_per_length = 0.05, radius = 0.002,
       from = { 0, 0, 0 }, to = { 0.2, 0, 0 }, segments = 20 }
@@ -226,7 +226,7 @@ describe("a wire that has moved", function()
     t.below(0.02 * -before[3], t.distance(before, wire:position(0.2)), "bend off")
   end)
 
-  it("lies on as it lay", function()
+  it("stays in contact with what it lies on", function()
     local c = cases.laying{ segments = 60, duration = 1, distance = 0.6 }
     t.fine(c.run{ duration = 0.9 })
     local depth = c.scene:penetration()
@@ -238,7 +238,7 @@ describe("a wire that has moved", function()
 end)
 
 describe("core.remesh", function()
-  it("refuses what makes no mesh", function()
+  it("refuses invalid numbers of segments", function()
     local c = cases.droop{ segments = 10 }
     for _, bad in ipairs{ {}, { 1 }, { -3 }, { 0 }, { 20000000 }, { 10, 10 } } do
       assert.has_error(function() core.remesh(c.scene, bad) end)
@@ -250,9 +250,9 @@ describe("core.remesh", function()
 end)
 
 describe("any mesh after any other", function()
-  -- Holds at any places, moved and not, framed and not, coarser and finer: everything stays in
-  -- its place, and the scene works.
-  it("keeps what is held and what is long", function()
+  -- Holds at random places; wires moved or not, framed or not; coarser and finer meshes: everything stays
+  -- in its place, and the scene runs.
+  it("keeps holds in place, and the length of a moved wire", function()
     local random = t.random(17)
     local function pick(n) return 1 + math.floor((random() + 1) / 2 * n * 0.999999) end
     for round = 1, 40 do

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- wire:remodel: another model in mid-run.
+-- wire:remodel: a change of the model in mid-run.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -31,9 +31,9 @@ local function apart(a, b)
 end
 
 describe("wire:remodel", function()
-  -- Nodes are 0.03 mm off the axis about which sections spin: as a rigid motion of the nodes that spin was
-  -- 2 J for 0.3 mJ. A wire that lay on a table after a mixed grip was thrown like that.
-  it("leaves the spin of a mesh that lies all but straight", function()
+  -- The nodes are 0.03 mm off the axis about which the sections spin. Taken as a rigid motion of the nodes,
+  -- the spin gave 2 J instead of 0.3 mJ. A wire that lay on a table after a mixed grip was thrown that way.
+  it("drops the spin of a nearly straight mesh and does not throw its nodes", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ model = "tube", E = 2e7, nu = 0.35, density = 1200, radius = 0.006,
       path = { { 0, 0, 0 }, { L / 2, 0, 1e-4 }, { L, 0, 0 } } }
@@ -53,17 +53,17 @@ describe("wire:remodel", function()
       local elastic = scene:energy().bend
       for _, step in ipairs{ { model = model }, { model = "rod", segments = 40 } } do
         local report = wire:remodel(step)
-        -- both are sums over particles: rounding
+        -- both are sums over particles: rounding only
         t.below(1e-11, apart(report.before.linear, report.after.linear), "momentum")
         t.below(1e-11, apart(report.before.angular, report.after.angular), "angular momentum")
         t.near(report.energy_after - report.energy_before, report.energy_change, 1e-15)
-        -- a mesh also has inertia against turning of its sections, a share of r^2/4 over L^2/12:
-        -- with the same angular momentum it turns so much slower; and in its elastic energy the
-        -- shape between nodes counts, and what sections at the ends cannot give way
+        -- A mesh also has rotational inertia of its sections, a share of r^2/4 over L^2/12. With the same
+        -- angular momentum it turns slower by that share. Its elastic energy also depends on the shape
+        -- between nodes and on the sections at the ends, which cannot give way.
         local moving = 1.2 * 3 * (0.006 / L) ^ 2 * scene:energy().kinetic
         t.below(moving + 0.05 * elastic, math.abs(report.energy_change), "energy change")
         t.near(L, wire.length, 1e-15)
-        for i = 0, 10 do -- curves through the nodes differ by less than a fiftieth of a millimetre
+        for i = 0, 10 do -- curves through the nodes differ by less than 0.02 mm
           t.below(2e-5, t.distance(before[i], wire:position(L * i / 10)), "shift at " .. i)
         end
       end
@@ -74,7 +74,7 @@ describe("wire:remodel", function()
     end)
   end
 
-  it("goes on moving as it did", function()
+  it("moves on as without the change, within 0.4 mm", function()
     local scene, wire = flying "rod"
     local start = scene:snapshot()
     local function go(model)
@@ -86,14 +86,14 @@ describe("wire:remodel", function()
     local tip, middle = go()
     for _, model in ipairs(meshes) do
       local a, b = go(model)
-      -- the wire flies 25 mm meanwhile and bends; models agree as they do when they run alone
+      -- the wire flies 25 mm meanwhile and bends; the models agree as well as in runs of their own
       t.below(4e-4, t.distance(tip, a), model .. ": end")
       t.below(4e-4, t.distance(middle, b), model .. ": middle")
     end
   end)
 
-  -- The core's modulus is given, the shell's follows from the wire's EA, which two materials have.
-  it("makes a composite of elements of a rod, and a rod of it", function()
+  -- The core's modulus is given; the shell's follows from the wire's EA, which both materials share.
+  it("makes a composite of solid elements from a rod, and a rod from it", function()
     local r, rc, E, core_E = 0.006, 0.004, 2e7, 1.6e8
     local EA = math.pi * (E * (r ^ 2 - rc ^ 2) + core_E * rc ^ 2)
     local EI = math.pi / 4 * (E * (r ^ 4 - rc ^ 4) + core_E * rc ^ 4)
@@ -114,7 +114,7 @@ describe("wire:remodel", function()
     t.below(2e-3 * L, t.distance(tip, wire:position(L)), "tip of the mesh")
     wire:remodel{ model = "rod", segments = 40 }
     t.fine(scene:settle())
-    -- its hinge at the clamp is where the mesh had a section: 1.4e-4 here, 3e-4 with a tube between
+    -- the rod's hinge at the clamp is where the mesh had a section: 1.4e-4 here, 3e-4 with a tube between
     t.below(5e-4 * L, t.distance(tip, wire:position(L)), "tip of the rod")
     local ok, message = pcall(wire.remodel, wire, { model = "composite", body = "solid", cores = 3 })
     assert.is_false(ok)
@@ -122,7 +122,7 @@ describe("wire:remodel", function()
     assert.equal("rod", wire.model)
   end)
 
-  it("takes twist and the clamps' moment along", function()
+  it("carries over the twist and the clamps' moment", function()
     for _, model in ipairs(meshes) do
       local scene, wire = make{}
       scene:clamp(wire, { s = 0 })
@@ -141,7 +141,7 @@ describe("wire:remodel", function()
     end
   end)
 
-  it("leaves holds where they are, and they go on with what they follow", function()
+  it("leaves holds where they are; they go on along their trajectory", function()
     local scene, wire = make{ gravity = { 0, 0, -9.81 } }
     local clamp = scene:clamp(wire, { s = 0 })
     clamp:follow{ points = { { 0, 0, 0 }, { 0.05, 0, 0.02 } }, duration = 0.4 }
@@ -160,9 +160,10 @@ describe("wire:remodel", function()
     t.fine(scene:run{ duration = 0.02 })
   end)
 
-  -- A clamp holds a direction; that of the edge beside it turns with how the wire sags, by half an edge's
-  -- curvature: of ten segments the pull would come back 20 % too large, of twenty 5 %.
-  it("leaves clamps their directions, however coarse the edges are", function()
+  -- A clamp holds a direction. The direction of the edge beside it turns with the wire's sag, by half an
+  -- edge's curvature. Taken for the clamp's, it would bring the pull back 20 % too large with ten segments,
+  -- 5 % with twenty.
+  it("keeps the clamps' directions, however coarse the edges are", function()
     for _, segments in ipairs{ 10, 20, 40 } do
       for _, other in ipairs{ { model = "string" }, { model = "radial", region = { 0.14, 0.16 } } } do
         local scene = sw.scene{}
@@ -183,7 +184,7 @@ describe("wire:remodel", function()
     end
   end)
 
-  it("is undone by restoring a snapshot, to the same bits", function()
+  it("is undone by a snapshot, to the same bits", function()
     local scene, wire = flying "rod"
     local start = scene:snapshot()
     local function go()
@@ -203,7 +204,7 @@ describe("wire:remodel", function()
     assert.are.same(first, go())
   end)
 
-  it("keeps friction of what else touches", function()
+  it("leaves the wire lying on its plane", function()
     local scene, wire = make{ gravity = { 0, 0, -9.81 } }
     scene:obstacle{ shape = "plane", friction = 0.5, at = { 0, 0, -0.006 } }
     t.fine(scene:run{ duration = 0.1, dt = 0.005 })
@@ -212,7 +213,7 @@ describe("wire:remodel", function()
     t.near(0, wire:position(L / 2)[3], 2e-4, "it still lies on the plane")
   end)
 
-  it("refuses what it cannot do, by name, and changes nothing", function()
+  it("refuses what it cannot do, naming it, and changes nothing", function()
     local scene, wire = make{}
     local function refused(pattern, f)
       local ok, text = pcall(f)
@@ -244,7 +245,7 @@ describe("wire:remodel", function()
     assert.has_error(function() third:remodel{ model = "tube" } end)
   end)
 
-  -- A droop, half of it under a region that is meshed.
+  -- A drooping wire, a region of which is meshed.
   local function drooping(model, region)
     local scene, wire = make{ gravity = { 0, 0, -9.81 } }
     local clamp = scene:clamp(wire, { s = 0 })
@@ -256,13 +257,13 @@ describe("wire:remodel", function()
   end
 
   for _, model in ipairs(meshes) do
-    it("of a region leaves the shape and what clamps bear: " .. model, function()
+    it("of a region keeps the shape and the clamp's load: " .. model, function()
       local scene, wire, clamp, rod, report = drooping(model, { 0.1, 0.15 })
       t.below(1e-15, t.distance(report.after.linear, { 0, 0, 0 }), "momentum of what rests")
       t.near(L, wire.length, 1e-15)
       t.below(1e-4, t.distance(rod.tip, wire:position(L)), "tip at once")
       t.fine(scene:settle())
-      -- of three places where a line meets a ring each is known to a few hundredths of a slice
+      -- each of the three places where a line meets a ring is known to a few hundredths of a slice
       t.below(3e-3 * L, t.distance(rod.tip, wire:position(L)), "tip")
       t.below(3e-3 * L, t.distance(rod.middle, wire:position(L / 2)), "middle")
       t.share(rod.moment, clamp:moment()[2], 5e-3, "moment of the clamp")
@@ -276,7 +277,7 @@ describe("wire:remodel", function()
     end)
   end
 
-  it("of a region tells sections there only", function()
+  it("of a region gives sections there only", function()
     local _, wire = drooping("tube", { 0.1, 0.15 })
     t.share(2 * 0.006, wire:section(0.125).largest_width or wire:section(0.125).width, 0.1)
     local ok, text = pcall(wire.section, wire, 0.25)
@@ -303,7 +304,7 @@ describe("wire:remodel", function()
     end
   end)
 
-  it("of a region refuses what lines cannot have", function()
+  it("of a region refuses invalid regions and twisted wires", function()
     local scene, wire = make{}
     local function refused(pattern, region, model)
       local ok, text = pcall(wire.remodel, wire, { model = model or "tube", region = region })

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Files of scenes: reading them, what is wrong with them, files that lie.
+-- Files of scenes: reading them, their faults, and files with false contents.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local saving = require "spec.scene.saving"
@@ -10,7 +10,7 @@ local file, same = saving.temporary, saving.same
 after_each(saving.clean)
 
 describe("sw.load", function()
-  it("gives a scene that is read, settled and run on by its names", function()
+  it("gives a scene whose objects are found by name, and which runs and settles", function()
     local path, c = file(), script()
     files_of(c, { dt = 0.005, save = path })
     local scene = sw.load(path)
@@ -67,7 +67,7 @@ local function small_file(path)
 end
 
 describe("a file of a scene", function()
-  it("is written whole or not at all, and twice the same", function()
+  it("has the same bytes each time; a failure to write it is an error", function()
     local one, two = file(), file()
     local bytes, scene = small_file(one)
     scene:save(two)
@@ -77,7 +77,7 @@ describe("a file of a scene", function()
     fails("scene:save is a method", scene.save, 3)
   end)
 
-  it("says what is wrong with it", function()
+  it("is refused with its fault named", function()
     local path = file()
     local bytes, scene = small_file(path)
     local before = saving.all(scene)
@@ -105,7 +105,7 @@ describe("a file of a scene", function()
     assert.is_false(small():resume(path))
   end)
 
-  -- One file of each format that was: of a clamped wire of four segments after 0.01 s.
+  -- One file of each former version of the format: a clamped wire of four segments after 0.01 s.
   for version = 1, 15 do
     it("of version " .. version .. " of the format is told from one of now, with the way out", function()
       local path, scene = ("spec/scene/old/version_%d.sws"):format(version), small()
@@ -118,7 +118,7 @@ describe("a file of a scene", function()
     end)
   end
 
-  it("refuses what cannot leave the process, and says what to do", function()
+  it("refuses what cannot be saved, and says what to do", function()
     local path = file()
     local scene = small()
     local force = scene:force{ kind = function() end, on = scene:find "a" }
@@ -142,7 +142,7 @@ describe("a file of a scene", function()
     fails({ "a run of scene 'laying' is under way" }, c.scene.run, c.scene, { dt = 0.005 })
   end)
 
-  it("takes the place of a scene: its snapshots are none of its own any more", function()
+  it("replaces a scene, whose older snapshots are refused", function()
     local path = file()
     small_file(path)
     local scene = small()
@@ -158,14 +158,14 @@ end)
 
 -- --- files that are not what they should be --------------------------------------------------
 
-local HEAD = 40 -- bytes before what the checksum is of
+local HEAD = 40 -- bytes before the part that the checksum covers
 local function sealed(bytes)
   local sum = -3750763034362895579 -- FNV-1a, as the core has it
   for i = HEAD + 1, #bytes do sum = (sum ~ bytes:byte(i)) * 1099511628211 end
   return bytes:sub(1, 24) .. string.pack("<I8i8", #bytes, sum) .. bytes:sub(HEAD + 1)
 end
 
--- Either an error, or a scene that can be used.
+-- Reads a file: false if sw.load raises an error, true if it gives a scene, which is run, read and saved.
 local function digest(path, bytes)
   saving.write(path, bytes)
   local fine, scene = pcall(sw.load, path)
@@ -182,7 +182,7 @@ local function digest(path, bytes)
   return true
 end
 
--- The same numbers in every run.
+-- Returns a generator of random numbers that are the same in every run.
 local function numbers(seed)
   return function(n)
     seed = (seed * 1103515245 + 12345) % 2147483648
@@ -190,7 +190,7 @@ local function numbers(seed)
   end
 end
 
-describe("a file that lies", function()
+describe("a file with false contents", function()
   local function all_files()
     local list, path = {}, file()
     list[1] = small_file(path)
@@ -206,7 +206,7 @@ describe("a file that lies", function()
     return list
   end
 
-  it("is found out wherever it is cut off, sealed anew or not", function()
+  it("is refused wherever it is cut off, with or without a new checksum", function()
     local path, random = file(), numbers(1)
     for _, bytes in ipairs(all_files()) do
       for k = 1, 40 do
@@ -217,7 +217,7 @@ describe("a file that lies", function()
     end
   end)
 
-  it("does no harm whatever its bytes are", function()
+  it("does no harm, whatever its bytes are", function()
     local path, random, taken, refused = file(), numbers(2), 0, 0
     for _, bytes in ipairs(all_files()) do
       assert.are.equal(bytes, sealed(bytes))
@@ -227,7 +227,7 @@ describe("a file that lies", function()
         if k % 2 == 0 then byte = bytes:byte(at) ~ (1 << (random(8) - 1)) end
         local changed = bytes:sub(1, at - 1) .. string.char(byte) .. bytes:sub(at + 1)
         if changed ~= bytes then
-          assert.is_false(digest(path, changed)) -- the checksum
+          assert.is_false(digest(path, changed)) -- the checksum finds it
           if digest(path, sealed(changed)) then taken = taken + 1 else refused = refused + 1 end
         end
       end
@@ -235,7 +235,7 @@ describe("a file that lies", function()
     assert.is_true(taken > 50 and refused > 50, ("%d taken, %d refused"):format(taken, refused))
   end)
 
-  it("leaves a scene that was to be resumed as it is", function()
+  it("leaves a scene as it was where it cannot be resumed", function()
     local path, random = file(), numbers(3)
     local bytes = small_file(path)
     local scene = small()
@@ -262,7 +262,7 @@ describe("memory of saved scenes", function()
     return (core.allocated())
   end
 
-  it("may run out at any request, and nothing is lost or changed", function()
+  it("may run out at any request; nothing is lost or changed", function()
     local path = file()
     small_file(path)
     local bytes = saving.read(path)

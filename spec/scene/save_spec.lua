@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Scenes in files: going on from one is going on, to the last bit.
+-- Scenes in files: a run that goes on from a file gives the same bits as one that was not interrupted.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local saving = require "spec.scene.saving"
@@ -18,13 +18,13 @@ describe("a saved scene goes on with the same bits:", function()
 
       local saved = case.build()
       case.before(saved)
-      local here = saving.all(saved) -- reading builds a scene that was edited; so does the next
+      local here = saving.all(saved) -- reading builds an edited scene's system: the file is of another one
       saved = case.build()
       case.before(saved)
       saved:save(path)
       local loaded = sw.load(path)
       same(here, saving.all(loaded))
-      case.after(saved) -- saving disturbs nothing
+      case.after(saved) -- saving changes nothing
       same(wanted, saving.all(saved))
       loaded = sw.load(path)
       case.after(loaded)
@@ -38,7 +38,8 @@ describe("a saved scene goes on with the same bits:", function()
     end)
 
     it(case.name .. ", edited just before", function()
-      -- what a scene remembers of its last system goes into the file; building it would not do
+      -- the file also holds what a scene remembers of its last system; building the system again would not
+      -- do
       local function edited()
         local scene = case.build()
         case.before(scene)
@@ -47,7 +48,7 @@ describe("a saved scene goes on with the same bits:", function()
       end
       local path, plain, saved = file(), edited(), edited()
       saved:save(path)
-      local ran = saved.time > 0 -- what was made before the first run is the script's to make
+      local ran = saved.time > 0 -- before the first run, the resuming script makes everything
       case.after(plain)
       case.after(saved)
       local wanted = saving.all(plain)

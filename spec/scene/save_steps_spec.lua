@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs that are saved after every step, and go on from there.
+-- Runs that save a file after every step of a process, and go on from it.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local saving = require "spec.scene.saving"
@@ -28,7 +28,7 @@ end
 
 describe("a run that is saved after every step", function()
   for _, args in ipairs{ { dt = 0.005 }, { tolerance = 1e-5 } } do
-    it("goes on from each of them with the same bits, " .. (args.dt and "fixed" or "adaptive")
+    it("goes on from each file with the same bits, " .. (args.dt and "fixed" or "adaptive")
       .. " steps", function()
       local function with(more)
         for k, v in pairs(args) do more[k] = v end
@@ -45,7 +45,7 @@ describe("a run that is saved after every step", function()
         local c = script()
         local later, rest = files_of(c, with{ save = path, resume = path })
         same(wanted, results(c, rest))
-        assert.are.equal(5 - k, #c.log) -- steps that are done are left out
+        assert.are.equal(5 - k, #c.log) -- steps that are done are skipped
         assert.are.equal(5 - k, #later)
         assert.are.equal(k < 5, c.log[1] == plain.log[k + 1] and k < 5)
       end
@@ -83,7 +83,7 @@ describe("a run that is saved after every step", function()
     end)
   end
 
-  it("survives its process being killed", function()
+  it("goes on after its process was killed", function()
     local path, body, out = file(), file(), file()
     saving.write(body, ([[
 local sw = require "softworld"
@@ -114,11 +114,11 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     local plain = go("live", new)
     os.remove(new)
     assert.is_truthy(plain:find "^0x")
-    assert.is_nil(go("die", path):find "0x") -- it did not come to its end
+    assert.is_nil(go("die", path):find "0x") -- the killed run did not reach its end
     assert.are.equal(plain, go("live", path))
   end)
 
-  it("keeps what steps return, and gives scripts their own objects", function()
+  it("keeps what steps return, with the script's own objects", function()
     local path, c = file(), script()
     c.scene:run{ dt = 0.005, save = path }
     local again = script(function(p, made)
@@ -142,7 +142,7 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     assert.are.equal(again.end_of_lift[1], third.end_of_lift[1])
   end)
 
-  it("waits with the file until no process is inside of a step", function()
+  it("writes the file only when no process is inside a step", function()
     local function two()
       local c = { scene = sw.scene{} }
       c.wire = c.scene:wire{ E = 1e8, density = 1200, radius = 0.002, from = { 0, 0, 0 },
@@ -161,7 +161,7 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     local path, plain = file(), two()
     plain.scene:run{ dt = 0.005 }
     local written = files_of(two(), { dt = 0.005, save = path })
-    assert.are.equal(3, #written) -- after grasp and move, and when the last one is done
+    assert.are.equal(3, #written) -- after grasp, after move, and when the last process is done
     for _, bytes in ipairs(written) do
       saving.write(path, bytes)
       local c = two()
@@ -170,7 +170,7 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     end
   end)
 
-  it("is refused what would happen twice", function()
+  it("refuses what would happen twice after a resume", function()
     local path = file()
     local function with(work)
       local c = script(function(p, made) work(p, made) end)
@@ -186,12 +186,12 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     fails({ "p:step 'c' expects a function" }, with(function(p) p:step("c") end))
     fails({ "results", "a function, which cannot be saved" },
       with(function(p) p:step("d", function() return print end) end))
-    -- without a file all this is allowed
+    -- without a file all of these are allowed
     local c = script(function(p, c) p:wait(0.01) c.left:release() end)
     assert.is_true(c.scene:run{ dt = 0.005 }.ok)
   end)
 
-  it("does not go on in another script", function()
+  it("is not resumed by another script; the difference is named", function()
     local path, c = file(), script()
     local written = files_of(c, { dt = 0.005, save = path })
     saving.write(path, written[3])
@@ -227,7 +227,7 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     fails({ "p:step 'something else'", "has 'lift' as step 2" }, e.run, e)
   end)
 
-  it("may have steps with error bars, which begin anew on every level", function()
+  it("may have steps with error bars, which start again at every level", function()
     local function make()
       local scene, count = sw.scene{}, 0
       local wire = scene:wire{ E = 1e8, density = 1200, radius = 0.002, from = { 0, 0, 0 },
@@ -249,7 +249,7 @@ print(("%%a %%a %%a"):format(wire:max_tension(), left.peak_force, wire:position(
     assert.is_true(count() >= 2)
   end)
 
-  it("is refused with error bars, without processes and with other things than files", function()
+  it("is refused with error bars, without processes and with an invalid file", function()
     local c = script()
     fails("tolerance", c.scene.run, c.scene, { save = "x", tolerance = { ["wire1.tension"] = 1 } })
     fails("save: the name of a file", c.scene.run, c.scene, { save = 3 })

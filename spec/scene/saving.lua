@@ -5,7 +5,7 @@ local sink = require "softworld.output.sink"
 
 local saving = { cases = require "scene.saving_cases" }
 
---- A name for a file that nobody else has.
+--- Returns a new name for a file.
 function saving.file() return os.tmpname() end
 
 function saving.read(path)
@@ -65,7 +65,7 @@ local readers = {
   end,
 }
 
---- Everything that can be read of a scene, as one list of numbers and words.
+--- Returns everything that can be read of a scene, as one list of numbers and words.
 function saving.all(scene)
   local all = { scene.name }
   add(all, scene.time)
@@ -81,7 +81,7 @@ function saving.all(scene)
   return all
 end
 
---- Where two such lists differ first; nil: nowhere.
+--- Returns where two lists of saving.all differ first; nil: nowhere.
 function saving.difference(a, b)
   if #a ~= #b then return ("%d and %d values"):format(#a, #b) end
   for i = 1, #a do
@@ -92,7 +92,7 @@ end
 -- --- what the specs of files share ------------------------------------------------------
 
 local files = {}
---- A name for a file that is gone after the test; saving.clean does that.
+--- Returns a name for a file that saving.clean removes after the test.
 function saving.temporary()
   files[#files + 1] = saving.file()
   return files[#files]
@@ -103,7 +103,7 @@ function saving.clean()
   files = {}
 end
 
---- Raises an error that has all these texts in it. The error.
+--- Checks that f raises an error with all these texts in it; returns the error.
 function saving.fails(texts, f, ...)
   local fine, message = pcall(f, ...)
   assert(not fine, "no error")
@@ -114,13 +114,13 @@ function saving.fails(texts, f, ...)
   return message
 end
 
---- Raises unless two lists of saving.all are the same.
+--- Checks that two lists of saving.all are the same.
 function saving.same(a, b)
   local where = saving.difference(a, b)
   assert(not where, where)
 end
 
---- A script: its scene and processes; more(p, c) comes at the end of the first process.
+--- Returns a script: its scene, objects and processes. more(p, c) runs at the end of the first process.
 function saving.script(more)
   local c = { log = {}, scene = sw.scene{ name = "laying" } }
   c.scene:obstacle{ shape = "plane", friction = 0.3 }
@@ -153,7 +153,7 @@ function saving.script(more)
   return c
 end
 
---- The files that a run wrote, one after each step.
+--- Runs the scene; returns the files that the run wrote, one after each step, and the run.
 function saving.files_of(c, args)
   local written, write = {}, sink.write_file
   sink.write_file = function(path, bytes)

@@ -6,7 +6,7 @@ local sw = require "softworld"
 describe("section:chart", function()
   teardown(program.clean)
 
-  it("draws outlines over one another", function()
+  it("draws several outlines in one chart", function()
     local scene = sw.scene{}
     local wire = scene:wire{ model = "tube", particles = 8, E = 1e7, density = 1000, radius = 0.005,
       from = { 0, 0, 0 }, to = { 0.1, 0, 0 } }

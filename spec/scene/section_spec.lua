@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Sections of wires that are meshes of particles: what is read of them against closed forms.
+-- Sections of wires that are meshes of particles: read-outs against closed forms.
 local sw = require "softworld"
 
 local pi = math.pi
@@ -30,7 +30,7 @@ local function make(more)
   return scene:wire(with(ROUND, more)), scene
 end
 
--- How far out the particles of the surface are.
+-- Radius of the outermost particles.
 local function ring_radius(wire)
   local most = 0
   for _, p in ipairs(wire:calibration().particles) do
@@ -43,7 +43,7 @@ local function each_close(expected, values, tolerance, what)
   for _, value in ipairs(values) do near(expected, value, tolerance, what) end
 end
 
-describe("a section that is not deformed", function()
+describe("an undeformed section", function()
   for _, case in ipairs { { "tube", 8 }, { "tube", 16 }, { "radial", 8 }, { "radial", 7 }, { "tube", 5 } } do
     local model, n = case[1], case[2]
     it(("of a %s of %d particles is their polygon, with the skin"):format(model, n), function()
@@ -59,8 +59,8 @@ describe("a section that is not deformed", function()
         near(largest + 2 * c.skin, c.largest_width, 1e-12, "largest width")
         near(c.least_width, c:width(c.least_direction), 1e-12)
         near(c.largest_width, wire:width(s, c.largest_direction), 1e-12)
-        near(0, c.ovalisation, 1e-9, "ovalisation") -- the smooth curve through it is a circle
-        -- polygon, a strip along its sides, the corners' sectors
+        near(0, c.ovalisation, 1e-9, "ovalisation") -- the smooth curve through the particles is a circle
+        -- area: polygon, a strip along its sides, sectors at its corners
         local area = n / 2 * R ^ 2 * math.sin(2 * pi / n) + 2 * n * R * math.sin(pi / n) * c.skin
           + pi * c.skin ^ 2
         share(area, c.area, 1e-9, "area")
@@ -77,7 +77,7 @@ describe("a section that is not deformed", function()
     end)
   end
 
-  it("of voxels has the widths of a rectangle", function()
+  it("of voxels has the widths of its rectangle", function()
     local wire = sw.scene(still):wire { model = "cubic", section = "rectangle", width = 0.01, height = 0.005,
       EA = 1e4, EI = { 0.08, 0.02 }, GJ = 0.05, normal = { 0, 0, 1 }, mass_per_length = 0.06,
       radius = 0.005, from = { 0, 0, 0 }, to = { 0.05, 0, 0 } }
@@ -92,9 +92,9 @@ describe("a section that is not deformed", function()
 end)
 
 describe("a section as drawn", function()
-  -- Along a circle, straight at rest: a line at y outside of the axis is 1 + kappa y as long.
-  -- Chords between rings instead of arcs are shorter by (h kappa)^2 / 24, below 1e-4.
-  it("bent has the strain of its lines", function()
+  -- Drawn along a circle, straight at rest: a line at distance y outside the axis is longer by the factor 1
+  -- + kappa y. Chords between rings are shorter than arcs by (h kappa)^2 / 24, below 1e-4.
+  it("and bent has the strain kappa y", function()
     local kappa, path = 5, {}
     for i = 0, 400 do
       local a = i / 400 * 0.1 * kappa
@@ -117,7 +117,7 @@ describe("a section as drawn", function()
     end
   end)
 
-  it("that keeps its path unstressed has no strain", function()
+  it("has no strain if its path is unstressed", function()
     local path = {}
     for i = 0, 100 do path[i + 1] = { 0.05 * math.sin(i / 50), 0.05 * math.cos(i / 50), 0.02 * i / 100 } end
     local args = with(ROUND, { model = "tube", path = path, rest = "path" })
@@ -125,13 +125,13 @@ describe("a section as drawn", function()
     local wire = sw.scene(still):wire(args)
     local c = wire:section(0.04)
     each_close(0, c.axial_strain, 1e-12)
-    -- along a helix sections are drawn without twist, however much its plane of bending turns
+    -- along a helix sections are drawn without twist, however much the plane of bending turns
     near(0, c.torsion, 1e-9)
   end)
 end)
 
 describe("torsion", function()
-  it("is the turn of a clamp in proportion to the length, beyond half a turn too", function()
+  it("is a clamp's turn in proportion to the length, also beyond half a turn", function()
     for _, model in ipairs { "tube", "radial" } do
       local wire, scene = make { model = model }
       local L = wire.length
@@ -142,17 +142,17 @@ describe("torsion", function()
         assert.is_true(scene:settle().ok)
       end
       near(4, wire:section(L).torsion, 1e-9, model)
-      -- rings become narrower, but those that are held; with this the twist is not quite even
+      -- rings become narrower, except held ones, so the twist is not quite even
       for _, s in ipairs { 0.02, 0.0431 } do share(4 * s / L, wire:section(s).torsion, 2e-3, model) end
       share(4 / L, wire:section(0.04).twist_rate, 2e-3)
       local axis = wire:section(L / 2).axis
-      local first = wire:section(0).axis -- turned by half of it
+      local first = wire:section(0).axis -- the middle is turned by half of 4 rad
       local dot = first[1] * axis[1] + first[2] * axis[2] + first[3] * axis[3]
       near(math.cos(2), dot, 1e-3)
     end
   end)
 
-  -- Unwound at an end that is free, all springs are as long as at rest.
+  -- A free end unwinds until all springs are as long as at rest.
   it("of a wire twisted at rest is that twist", function()
     local wire, scene = make { model = "radial", rest_twist = 20 }
     scene:clamp(wire, { s = 0 })
@@ -165,8 +165,8 @@ describe("torsion", function()
 end)
 
 describe("a wire bent by clamps", function()
-  -- Both ends on a circle: strain r kappa cos(phi) at the particles. The section's curvature is
-  -- that of a beam with the squeeze of a solid section, which flattens by less than 1e-3 here.
+  -- Both ends lie on a circle: strain r kappa cos(phi) at the particles. The curvature is that of a beam;
+  -- the solid section's squeeze flattens it by less than 1e-3 here.
   it("has the surface strain of a beam", function()
     local wire, scene = make { model = "radial" }
     local L, kappa = wire.length, 4
@@ -183,12 +183,12 @@ describe("a wire bent by clamps", function()
     near(0, c.torsion, 1e-6)
   end)
 
-  -- Case 20 of the reference data, Brazier: with a = kappa r^2 / t (nu = 0) a long thin tube
-  -- flattens by a^2 r, and M = EI kappa (1 - 1.5 a^2); of second order in a. The wall's bending is
-  -- that of braces, chords of two sides, which soften where the wall straightens. At a = 0.3 a tube
-  -- really flattens by 9 % more than a^2 r (spec/physics/brazier_spec.lua, of a wall that bends). The
-  -- ends, which the clamps keep round over r sqrt(r/t), are 8 % of the length each.
-  it("and thin flattens as Brazier's tube", function()
+  -- Case 20 of the reference data, Brazier: with a = kappa r^2 / t (nu = 0) a long thin tube flattens by
+  -- a^2 r, and M = EI kappa (1 - 1.5 a^2), both to second order in a. The wall's bending stiffness comes
+  -- from braces, chords of two sides, which soften where the wall straightens. At a = 0.3 a real tube
+  -- flattens by 9 % more than a^2 r (spec/physics/brazier_spec.lua, with a wall that bends). The clamps
+  -- keep the ends round over r sqrt(r/t), 8 % of the length each.
+  it("and thin-walled flattens like Brazier's tube", function()
     local r, t, E = 0.01, 0.001, 1e7
     local EI, wall = pi * r ^ 3 * E * t, E * t ^ 3 / 12
     local scene, L = sw.scene(still), 40 * r
@@ -213,7 +213,7 @@ describe("a wire bent by clamps", function()
   end)
 end)
 
--- A tube between a table and a plate that comes down by a share of its width.
+-- Presses a tube between a table and a plate that comes down by a share of its width.
 local function pressed(scene, wire, closing)
   local D = wire:section(wire.length / 2).largest_width
   local bottom = scene:obstacle { shape = "plane", at = { 0, 0, -D / 2 }, friction = 0.3 }
@@ -241,7 +241,7 @@ describe("contact pressure", function()
     share(top:force()[3] - bottom:force()[3], sum, 1e-9)
     near(-top:force()[3] - bottom:force()[3], up, 1e-9 * sum)
     near(list.force[3], up, 1e-12)
-    -- all of the surface belongs to some particle, once: round a ring and along the wire
+    -- the section between the plates
     local c = wire:section(0.01)
     near(D * 0.9, c:width { 0, 0, 1 }, 5e-5) -- it sinks into each plate by about 20 um at most
     near(c.height, c:width { 0, 0, 1 }, 1e-9)
@@ -252,7 +252,7 @@ describe("contact pressure", function()
     local some = wire:contact_pressure(0.01)
     assert.is_true(#some >= 2 and #some < #list)
     for _, p in ipairs(some) do near(some[1].s, p.s, 0) end
-    -- the surface goes into frames with these forces
+    -- frames contain the surface with these forces
     local frames = run:frames()
     local surface = frames[#frames].surfaces[1]
     assert.equal(12, surface.around)
@@ -265,9 +265,9 @@ describe("contact pressure", function()
     end
   end)
 
-  -- Case 11a, thin ring between plates, at 1 % of closing: f = F R^2 / EI' = 0.1323986 per length
-  -- of the tube. Walls at its ends keep it upright. Braces hold for small closing only.
-  it("of a thin ring is that of theory while it is closed little", function()
+  -- Case 11a, a thin ring between plates, closed by 1 %: f = F R^2 / EI' = 0.1323986 per length of the
+  -- tube. Walls at the tube's ends keep it upright. Braces are right for small closing only.
+  it("of a thin ring closed by 1 % agrees with theory", function()
     local R, E, t = 0.01, 1e7, 0.0005
     local EI, wall = pi * R ^ 3 * E * t, E * t ^ 3 / 12
     local scene = sw.scene(still)
@@ -287,9 +287,9 @@ describe("contact pressure", function()
 end)
 
 describe("von Mises stress", function()
-  -- Drawn by 1/1000, away from the clamps: the elements' modulus times the strain there; the
+  -- Stretched by 1/1000, away from the clamps: the elements' modulus times the strain there. The
   -- neo-Hookean law is off by about as much as the strain.
-  it("of a solid that is drawn is its tension", function()
+  it("of a stretched solid is its tension", function()
     local wire, scene = make { model = "radial", section = "solid" }
     local L = wire.length
     scene:clamp(wire, { s = 0 })
@@ -306,7 +306,7 @@ describe("von Mises stress", function()
 end)
 
 describe("von Mises stress of a composite", function()
-  -- As above, each part with its own modulus; of one nu, so that they do not press on one another.
+  -- As above, each part with its own modulus. Both have the same nu, so they do not press on each other.
   it("is the tension of shell and core", function()
     local wire, scene = make { model = "composite", section = "solid", core_E = 8e6, core_radius = 0.0035 }
     local L, c = wire.length, wire:calibration()
@@ -325,13 +325,13 @@ describe("von Mises stress of a composite", function()
     end
     assert.same({ shell = c.count.solid, core = c.count.core_solid }, parts)
     share(8e6, c.core_modulus, 0.002)
-    -- the whole of it: the elements' stress times their areas, within the corners of twelve sides
+    -- the whole: the elements' stress times their areas, up to the corners of the twelve-sided section
     share(wire.beam.EA * strain, wire:tension(L / 2), 2e-3, "tension")
   end)
 end)
 
 describe("wire:calibration", function()
-  it("is what sw.calibrate finds for the particles' radius", function()
+  it("equals what sw.calibrate finds for the particles' radius", function()
     local wire = make { model = "tube" }
     local c = wire:calibration()
     local same = sw.calibrate { mesh = "tube", EA = c.EA, EI = c.EI, GJ = c.GJ, radius = ring_radius(wire),
@@ -343,7 +343,7 @@ describe("wire:calibration", function()
 end)
 
 describe("read-outs of sections", function()
-  it("refuse wires that have none, and places off the wire, by name", function()
+  it("refuse wires without sections, and places off the wire, naming them", function()
     local wire, scene = make { model = "tube", name = "hose" }
     local rod = scene:wire(with(ROUND, { name = "bar" }))
     for name, args in pairs { section = { 0.01 }, width = { 0.01, { 0, 0, 1 } }, contact_pressure = {},

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- object:get() and object:set{} between steps: friction, restitution and places of obstacles, gravity, the
--- force of a gripper; in snapshots, and refused by name.
+-- object:get() and object:set{} between steps: friction, restitution and places of obstacles, gravity,
+-- grippers, forces; snapshots and refusals.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -18,7 +18,7 @@ local function sliding(friction)
   return scene, floor, wire
 end
 
--- How much slower it gets in a time [m/s2].
+-- Returns the rod's mean deceleration over 0.04 s [m/s2].
 local function braked(scene, wire)
   local before = wire:velocity(0.1)[2]
   t.fine(scene:run{ duration = 0.04, dt = 1e-3 })
@@ -26,7 +26,7 @@ local function braked(scene, wire)
 end
 
 describe("wire:get", function()
-  it("tells what the wire is made of, and what it was made again of", function()
+  it("tells what the wire is made of, also after a remodelling", function()
     local scene = sw.scene{}
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
       segments = 20 }
@@ -44,19 +44,19 @@ describe("wire:get", function()
 end)
 
 describe("obstacle:set", function()
-  -- mu g to 1 %: the rod slides as a whole, its touches sink by less than 1e-5 m meanwhile.
+  -- mu g within 1 %: the rod slides as a whole, and its touches sink by less than 1e-5 m meanwhile.
   it("changes friction in mid-run", function()
     local scene, floor, wire = sliding(0.2)
     t.share(0.2 * G, braked(scene, wire), 0.01, "as made")
     floor:set{ friction = 0.5 }
     t.share(0.5 * G, braked(scene, wire), 0.01, "as set")
     floor:set{ friction = 0 }
-    t.near(0, braked(scene, wire), 0.001 * G, "without") -- what friction bent swings on, 2e-4 g
+    t.near(0, braked(scene, wire), 0.001 * G, "without") -- the bend from friction swings on, 2e-4 g
     floor:set{ friction = 0.4, kinetic_friction = 0.3 }
     t.share(0.3 * G, braked(scene, wire), 0.01, "sliding")
   end)
 
-  it("is in snapshots, with the same bits afterwards", function()
+  it("is undone by snapshots, with the same bits afterwards", function()
     local scene, floor, wire = sliding(0.2)
     t.fine(scene:run{ duration = 0.02, dt = 1e-3 })
     local before = scene:snapshot()
@@ -71,7 +71,7 @@ describe("obstacle:set", function()
     assert.equal(there, table.concat(wire:positions(), " "))
   end)
 
-  it("is in the file of a run that breaks off, which goes on with it", function()
+  it("is kept in the file of a run that breaks off", function()
     local file = os.tmpname()
     local function laid(crash)
       local scene, floor, wire = sliding(0.2)
@@ -96,7 +96,7 @@ describe("obstacle:set", function()
     assert.equal(whole, table.concat(other:positions(), " "))
   end)
 
-  it("moves it, and leaves what is not given", function()
+  it("moves the obstacle, and keeps what is not given", function()
     local scene = sw.scene{}
     local ball = scene:obstacle{ name = "ball", shape = "sphere", radius = 0.1, friction = 0.4,
       rotation = { axis = { 0, 0, 1 }, angle = 1 } }
@@ -108,7 +108,7 @@ describe("obstacle:set", function()
     assert.same({ "ball", 0.4, 0.4, 0 }, { now.name, now.friction, now.kinetic_friction, now.restitution })
   end)
 
-  it("refuses what is no row, not changeable or out of range", function()
+  it("refuses unknown names, fixed parameters and values out of range", function()
     local scene = sw.scene{}
     local floor = scene:obstacle{ shape = "plane" }
     for text, args in pairs{
@@ -127,7 +127,7 @@ describe("obstacle:set", function()
 end)
 
 describe("scene:set", function()
-  it("changes gravity from now on", function()
+  it("changes gravity from then on", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 1e8, density = 1500, radius = 0.005, from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
     t.fine(scene:run{ duration = 0.1, dt = 0.01 })
@@ -140,7 +140,7 @@ describe("scene:set", function()
 end)
 
 describe("gripper:set", function()
-  it("changes the force that jaws keep", function()
+  it("changes the force that the jaws keep", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, segments = 20, from = { 0, 0, 0.1 },
       to = { 0.2, 0, 0.1 } }
@@ -158,7 +158,7 @@ describe("gripper:set", function()
     t.fine(scene:run{ dt = 0.01 })
   end)
 
-  it("changes reactions and tolerance, and shows what it is like", function()
+  it("changes reactions and slip tolerance, and get shows them", function()
     local hand = sw.scene{}:gripper{ name = "hand", at = { 0, 0, 1 } }
     hand:set{ slip_tolerance = 1e-3, on_slip = "warn", on_crash = "stop" }
     local now = hand:get()
@@ -173,7 +173,7 @@ end)
 describe("force:set", function()
   local V = 0.3
 
-  -- A wire that flies at V along itself; damping of mass slows it by exp(-rate t).
+  -- A wire that flies along itself at speed V; mass damping slows it by exp(-rate t).
   local function flying()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, segments = 10, from = { 0, 0, 0 },
@@ -183,7 +183,7 @@ describe("force:set", function()
     return scene, wire, damping
   end
 
-  it("changes damping in mid-run, and snapshots take it back", function()
+  it("changes damping in mid-run; snapshots undo it", function()
     local scene, wire, damping = flying()
     t.fine(scene:run{ duration = 0.1, dt = 1e-3 })
     t.share(V * math.exp(-0.1), wire:velocity(0.1)[1], 1e-4, "as made") -- h^2 of the method: 1e-7
@@ -199,7 +199,7 @@ describe("force:set", function()
   end)
 
   -- m v' = F: 0.1 s of F along the wire, then 0.1 s of -2 F.
-  it("changes loads, whose work is their force times the way", function()
+  it("changes loads, whose work is force times way", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 1e7, density = 1200, radius = 0.003, segments = 10, from = { 0, 0, 0 },
       to = { 0.3, 0, 0 } }
@@ -214,7 +214,7 @@ describe("force:set", function()
     assert.is_true(run:ledger().gained < 1e-6 * run:ledger().play)
   end)
 
-  it("keeps places on the wire", function()
+  it("keeps a force's place on the wire", function()
     local scene, wire = flying()
     local point = scene:force{ kind = "point", on = wire, s = 0.12, force = { 0, 0, 1 } }
     point:set{ force = { 0, 0, 2 } }
@@ -222,7 +222,7 @@ describe("force:set", function()
     assert.same({ 0, 0, 2 }, point:get().force)
   end)
 
-  it("is refused by name", function()
+  it("refuses what cannot be set, naming it", function()
     local scene, wire, damping = flying()
     local point = scene:force{ kind = "point", on = wire, s = 0.12, force = { 0, 0, 1 } }
     local own = scene:force{ kind = function() end, on = wire }

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Obstacles that squeeze a rod between them: the force is no property of the wire, and this is told.
+-- Obstacles that squeeze a rod between them: the force is no property of the wire, and an event says so.
 local sw = require "softworld"
 
 describe("a rod between two obstacles", function()
   local r = sw.cable "GXL 1.5".outer_diameter.value / 2
 
-  --- Something comes down on a wire on a table until it leaves `gap` for it [m].
+  --- A jaw comes down on a wire on a table until `gap` [m] is left.
   local function pressed(gap, o)
     local scene = sw.scene{ name = "press" }
     scene:obstacle{ name = "table", shape = "plane" }
@@ -27,7 +27,7 @@ describe("a rod between two obstacles", function()
     return crash, run, jaw
   end
 
-  it("is told to be squeezed, by how much and where", function()
+  it("gives an event when it is squeezed, with the amount and the place", function()
     for _, o in ipairs{ {}, { dt = 0.002 }, { x = 0.2034 }, { segments = 53 }, { model = "string" },
       { roller = true }, { roller = true, x = 0.2034, dt = 0.002 } } do
       local crash, run = pressed(2 * r - 2e-4, o)
@@ -40,7 +40,7 @@ describe("a rod between two obstacles", function()
     end
   end)
 
-  it("is not, where the gap is as wide as the wire", function()
+  it("gives none where the gap is as wide as the wire", function()
     for _, gap in ipairs{ 2 * r, 2 * r + 1e-4 } do
       for _, roller in ipairs{ false, true } do
         assert.falsy((pressed(gap, { roller = roller })))
@@ -48,7 +48,7 @@ describe("a rod between two obstacles", function()
     end
   end)
 
-  it("is not told of, where pads of a gripper give way with the section", function()
+  it("gives none where the pads of a gripper give way with the section", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, r }, to = { 0.4, 0, r }, segments = 40 }
     local hand = scene:gripper{ pads = { opening = 4 * r } }

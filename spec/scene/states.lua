@@ -34,7 +34,7 @@ local function rod(scene, more)
   return scene:wire(p)
 end
 
--- Forces that act on particles get some of an object, all others a wire.
+-- Forces that act on particles get some particles of an object, all others get a wire.
 for index, force in ipairs(samples.registry.forces) do
   if not force.inner and force.name ~= "callback" then
     case("the force " .. force.name, function(s)
@@ -174,7 +174,7 @@ case("an object that lies on a wire when one made before it leaves", function(s)
 end, function(s)
   settled(s)
   s:remove "a"
-  s:snapshot() -- builds it: what touches is remembered, by other numbers of bodies
+  s:snapshot() -- builds the system: touches are remembered by other numbers of bodies
   assert(#s:touches() > 0)
 end, settled)
 

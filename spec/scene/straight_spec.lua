@@ -5,9 +5,10 @@ local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local EI, L = 0.02, 1
-local euler = math.pi ^ 2 * EI / L ^ 2 -- of a strut that is pinned at both ends [N]
+local euler = math.pi ^ 2 * EI / L ^ 2 -- Euler load of a strut pinned at both ends [N]
 
--- A strut on a clamp, its other end free, pushed by P [N]; bent: a sine of this height [m].
+-- A strut, clamped at one end, free at the other and pushed there by P [N]. bent: how far its drawn shape
+-- leaves the line [m].
 local function strut(P, o)
   o = o or {}
   local scene = sw.scene{ gravity = o.gravity or { 0, 0, 0 } }
@@ -33,8 +34,9 @@ local function buckling(scene)
 end
 
 describe("a perfectly straight wire", function()
-  -- In whole steps: parts follow how the push runs to and fro along the wire at first, up to twice as large.
-  it("that is pushed beyond buckling is told of, once a run", function()
+  -- In whole steps: parts (substeps) follow how the push first runs to and fro along the wire, up to twice
+  -- as large.
+  it("pushed beyond buckling gives an event, once a run", function()
     for _, times in ipairs{ 1.5, 100, 5e5 } do
       local P = times * euler / 4
       local scene, wire = strut(P)
@@ -55,7 +57,7 @@ describe("a perfectly straight wire", function()
     end
   end)
 
-  it("is not told of where it does not buckle, or does", function()
+  it("gives none where it does not buckle, or does bend", function()
     local function run(P, o)
       local scene, wire = strut(P, o)
       if o and o.clamped then scene:clamp(wire, { s = L }) end
@@ -72,8 +74,8 @@ describe("a perfectly straight wire", function()
     t.above(0.05, wire:position(L)[1], "the end's place across")
   end)
 
-  it("is told of when it stands on a clamp, too high for its weight", function()
-    -- 7.837 EI/(m g L^2) is the most
+  it("gives an event when it stands on a clamp, too high for its weight", function()
+    -- stable up to a weight m g = 7.837 EI / L^2
     for _, share in ipairs{ 0.9, 1.15 } do
       local scene = strut(0, { gravity = { 0, 0, -share * 7.837 * EI / (0.1 * L ^ 3) } })
       t.fine(scene:run{ duration = 2, dt = 0.01 })
@@ -81,7 +83,7 @@ describe("a perfectly straight wire", function()
     end
   end)
 
-  it("moves the same to the last bit however often it is looked at", function()
+  it("moves with the same bits however often a process looks at it", function()
     local seen
     for _, every in ipairs{ false, true } do
       local scene, wire = strut(10 * euler)
@@ -99,7 +101,7 @@ describe("a perfectly straight wire", function()
 end)
 
 describe("wire:frequencies of an unstable rest", function()
-  it("tells what it means in words", function()
+  it("explains it in words", function()
     local scene, wire = strut(4 * euler / 4)
     t.fine(scene:run{ duration = 1, dt = 0.01 })
     local f = wire:frequencies{ tolerance = 1 }
@@ -134,7 +136,8 @@ local function arch(cable, length, apart, o)
 end
 
 describe("an arch in a plane", function()
-  -- With gravity tilted by 1 % tall ones fall to a side, low ones stand; in their plane all stand.
+  -- With gravity tilted by 1 % tall arches fall to a side and low ones stand; without a tilt all stand in
+  -- their plane.
   for _, case in ipairs{ { "GXL 1.5", 1.0, 0.3, falls = true }, { "H07V-K 10", 1.6, 0.5, falls = true },
     { "GXL 1.5", 0.6, 0.2 }, { "H07V-K 10", 0.6, 0.2 } } do
     local cable, length, apart = table.unpack(case)

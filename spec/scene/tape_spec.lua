@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a scene is, on one tape: a snapshot, a file and the scene that went on without either have the
--- same bits, for scenes of every kind of object in every state. A field that is left out is found here:
--- the scene that was restored is written to a file again, byte by byte the file from before.
+-- A tape (sequence of bytes) holds the state of a scene. A snapshot, a file and a scene that went on
+-- without either have the same bits, for scenes of every kind of object in every state. The spec finds a
+-- field that the tape leaves out: the restored scene is written to a file again, which must equal the first
+-- file byte for byte.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local saving = require "spec.scene.saving"
@@ -21,9 +22,10 @@ end
 local path = saving.file()
 teardown(function() os.remove(path) end)
 
--- The tape of a file: after the head with its checksum the size of the Lua side's part, that part,
--- whether the scene is built and its name, then its serial, the number of the object made last. That
--- never goes back: what was taken back has its number for itself.
+-- Returns the tape of a file without its serial. A file has, after the head with its checksum: the size of
+-- the Lua side's part, that part, whether the scene is built, its name, its serial, the rest. The serial is
+-- the number of the object made last. It never goes back: the number of an object that was taken back is
+-- not used again.
 local HEAD = 40
 local function tape_of(scene)
   scene:save(path)
@@ -39,13 +41,13 @@ local function same_bytes(a, b, what)
   error(("%s: the tape is another one from byte %d of %d and %d on"):format(what, at, #a, #b), 2)
 end
 
--- Of two words that differ: are both addresses of blocks?
+-- True if the words of a and b at this place are both addresses of blocks.
 local function are_addresses(a, b, at)
   local x, y = ("<I8"):unpack(a, at), ("<I8"):unpack(b, at)
   return x > 1 << 40 and x < 1 << 47 and y > 1 << 40 and y < 1 << 47
 end
 
--- Every field has its value again, whether a tape knows it or not.
+-- Checks that every field has its value again, whether a tape contains it or not.
 local function same_fields(a, b)
   assert.are.equal(#a, #b)
   for at = 1, a ~= b and #a - 7 or 0, 8 do
@@ -55,12 +57,12 @@ local function same_fields(a, b)
   end
 end
 
--- Something that makes another system, is seen by none, and is gone again.
+-- Adds an object that makes a new system and that nothing touches; the next restore removes it.
 local function disturb(scene)
   scene:obstacle{ name = "distant", shape = "sphere", radius = 0.1, at = { 0, 0, -50 } }
 end
 
--- The kinds of objects that the cases have met, for the registries.
+-- Kinds of objects that the cases contain, to be compared with the registries.
 local met = {}
 local function meet(scene)
   local items = core.items(scene)
@@ -127,7 +129,7 @@ describe("one tape:", function()
     end)
   end
 
-  it("has met every kind of object that there is", function()
+  it("was tested with every kind of object in the registries", function()
     local missing = {}
     for _, list in ipairs{ "forces", "shapes", "holds", "models" } do
       for _, kind in ipairs(samples.registry[list]) do

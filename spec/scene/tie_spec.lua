@@ -16,9 +16,9 @@ end
 local function damped(scene, wire) scene:force{ kind = "damping", on = wire, mass = 20, stiffness = 2e-3 } end
 
 describe("a tie to a point", function()
-  -- A string that nothing else holds has no rest without it: poses fail, and the places of their trials
-  -- are gone when it is asked again whether the tie may break (seen by a sanitizer only).
-  it("may be all that holds a wire, in poses that fail", function()
+  -- A string that nothing else holds has no rest without the tie: poses fail. Their trial positions are
+  -- freed when the tie is asked again whether it may break (only a sanitizer sees the fault).
+  it("may be the only hold of a wire in poses that fail", function()
     local scene = sw.scene{}
     local wire = rod(scene, { model = "string" })
     scene:tie(wire, { s = 0.16, strength = 0.03 })
@@ -26,8 +26,8 @@ describe("a tie to a point", function()
     assert.is_true(run.ok or #run.reason > 20)
   end)
 
-  -- Two ties hang a rod up by its quarters: each bears half of m g, and is longer by that over its
-  -- stiffness. Where nodes are does not matter: s lies between them.
+  -- Two ties at its quarters hang a rod up. Each bears half of m g and stretches by that over its
+  -- stiffness. Each s lies between nodes, which must not matter.
   for _, model in ipairs{ "string", "rod" } do
     it("bears a " .. model .. " by force over stiffness", function()
       local scene = sw.scene{}
@@ -60,7 +60,7 @@ describe("a tie to a point", function()
     end)
   end
 
-  it("holds the wire where it is when nothing else is said, from mid-run on", function()
+  it("holds the wire where it is if no place is given, from mid-run on", function()
     local scene = sw.scene{}
     local wire = rod(scene)
     damped(scene, wire)
@@ -68,24 +68,24 @@ describe("a tie to a point", function()
     local at = wire:position(0.2)
     scene:tie(wire, { s = 0.2 })
     t.fine(scene:run{ duration = 1, dt = 5e-3 })
-    t.below(1e-4, t.distance(at, wire:position(0.2)), "way of the tied place") -- m g / 1e5 N/m, and swing
+    t.below(1e-4, t.distance(at, wire:position(0.2)), "way of the tied place") -- m g / 1e5 N/m, and swinging
     t.below(at[3] - 5e-4, wire:position(0)[3], "height of the end") -- a cantilever's w L^4/(8 EI) is 1.05 mm
   end)
 
-  it("lets the wire alone within its slack", function()
+  it("leaves the wire alone within its slack", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = rod(scene)
-    local tie = scene:tie(wire, { s = 0.2, to = { 0.2, 0.1, 0 } }) -- as slack as it is far
+    local tie = scene:tie(wire, { s = 0.2, to = { 0.2, 0.1, 0 } }) -- the slack is the distance
     wire:set_velocity{ 0, 0.5, 0 }
-    t.fine(scene:run{ duration = 0.3, dt = 5e-3 }) -- to y = 0.15: never further than 0.1 from 0.1
+    t.fine(scene:run{ duration = 0.3, dt = 5e-3 }) -- up to y = 0.15, never more than 0.1 m from y = 0.1
     t.near(0.15, wire:position(0.2)[2], 1e-9, "place")
     assert.are.equal(0, tie.raw_peak_force)
     t.fine(scene:run{ duration = 0.2, dt = 1e-3 })
     assert.is_true(tie.raw_peak_force > 0)
   end)
 
-  -- A weight that grows: it breaks at the first step in which the pull is above the strength.
-  it("breaks at its strength, tells when, and takes no force after that", function()
+  -- The pull grows; the tie breaks at the first step whose pull is above the strength.
+  it("breaks at its strength, records the time, and bears no force after that", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = rod(scene, { E = 1e11 })
     damped(scene, wire)
@@ -115,7 +115,7 @@ describe("a tie to a point", function()
       "tie 't' was released, or taken back when a snapshot was restored")
   end)
 
-  it("refuses by name what makes no sense", function()
+  it("refuses arguments that make no sense, naming them", function()
     local scene = sw.scene{}
     local wire = rod(scene, { name = "w" })
     local function refused(message, args)
@@ -137,7 +137,7 @@ describe("a tie to a point", function()
 end)
 
 describe("a tie of two wires", function()
-  -- The upper rod is held, the lower one hangs on it by two ties.
+  -- The upper rod is clamped; the lower one hangs from it by two ties.
   local function hung(options)
     local o = options or {}
     local scene = sw.scene{}
@@ -155,7 +155,7 @@ describe("a tie of two wires", function()
   end
 
   for _, model in ipairs{ "rod", "string" } do
-    it("hangs one on the other, a " .. model, function()
+    it("hangs one from the other, a " .. model, function()
       local scene, _, lower, ties = hung{ model = model }
       t.fine(scene:run{ duration = 1, dt = 5e-3 })
       local weight = lower.beam.mass_per_length * lower.length * G
@@ -167,9 +167,9 @@ describe("a tie of two wires", function()
     end)
   end
 
-  -- Both fly off together and turn: inner forces, so that momentum and moment of momentum stay, the
-  -- latter as well as steps of this size keep it for one wire that turns (3e-4).
-  it("takes nothing from momentum, and pushes nothing", function()
+  -- Both wires fly and turn together. Ties are inner forces: momentum stays, and angular momentum stays as
+  -- exactly as steps of this size keep it for one turning wire (3e-4).
+  it("passes on momentum and angular momentum, and keeps their sums", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local a = rod(scene)
     local b = rod(scene, { from = { 0, 0.01, 0 }, to = { 0.4, 0.01, 0 } })
@@ -187,8 +187,8 @@ describe("a tie of two wires", function()
     t.above(1e-3, p2[3], "what the other wire has got of it")
   end)
 
-  -- 0.2 N/ms at the hand: a whole step would take it far beyond its strength.
-  it("breaks at the moment within a long step, with any method", function()
+  -- The pull grows by 0.2 N/ms: a whole step would take the tie far beyond its strength.
+  it("breaks at the right moment within a long step, with any method", function()
     for _, how in ipairs{ { dt = 0.02 }, { dt = 0.005 }, { dt = 0.02, integrator = "bdf2" },
       { dt = 0.02, tolerance = 1e-4 } } do
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -212,7 +212,7 @@ describe("a tie of two wires", function()
     end
   end)
 
-  -- As above, in equilibria: poses are cut at the moment, whatever the time between them.
+  -- The same in equilibria: poses are cut at that moment, whatever the time between them.
   local function drawn_down(to_wire)
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = rod(scene, { E = 1e11 })
@@ -226,7 +226,7 @@ describe("a tie of two wires", function()
     return scene, tie, scene:gripper{}, wire
   end
 
-  it("breaks at the moment between two poses of a quasi-static run", function()
+  it("breaks at the right moment between two poses of a quasi-static run", function()
     for _, to_wire in ipairs{ false, true } do
       for _, dt in ipairs{ 0.1, 0.02, 0.005 } do
         local scene, tie, hand, wire = drawn_down(to_wire)
@@ -250,7 +250,7 @@ describe("a tie of two wires", function()
     end
   end)
 
-  it("breaks at the moment where pads hold the wire too", function()
+  it("breaks at the right moment where pads hold the wire too", function()
     local scene, tie, hand, wire = drawn_down()
     scene:process(function()
       hand:grasp(wire, { s = 0.2, approach = "plates", force = 40 })
@@ -262,7 +262,7 @@ describe("a tie of two wires", function()
     t.share(40, hand:state().squeeze, 2e-3, "force of the pads after that")
   end)
 
-  it("breaks, tells when, and is whole again in a snapshot of before", function()
+  it("breaks, records the time, and is whole again after a restore", function()
     local scene, _, lower, ties = hung{ strength = 2 }
     t.fine(scene:run{ duration = 0.5, dt = 5e-3 })
     local snapshot = scene:snapshot()
@@ -286,7 +286,7 @@ describe("a tie of two wires", function()
     t.below(-0.1, lower:position(0.2)[3], "height of the lower wire")
   end)
 
-  it("is read by observers", function()
+  it("can be read by observers", function()
     local scene = sw.scene{}
     local one = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.2 }, to = { 0.4, 0, 0.2 } }
     local two = scene:wire{ cable = "GXL 1.5", from = { 0, 0.01, 0.2 }, to = { 0.4, 0.01, 0.2 } }
@@ -309,7 +309,7 @@ describe("a tie of two wires", function()
     t.near(0.006, apart, 2e-4, "distance of the axes at a tie")
   end)
 
-  it("tells where the other wire goes", function()
+  it("says how to name the other wire", function()
     local scene = sw.scene{}
     local one = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.4, 0, 0 } }
     local two = scene:wire{ cable = "GXL 1.5", from = { 0, 0.1, 0 }, to = { 0.4, 0.1, 0 } }
