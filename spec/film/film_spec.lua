@@ -36,7 +36,7 @@ end
 describe("frames", function()
   it("hold the same values as the wire gives at its nodes", function()
     local scene, _, wire = laying()
-    scene:run { duration = 0.02, dt = 0.005, frame = 0.005 } -- a frame of every step: the last is the present state
+    scene:run { duration = 0.02, dt = 0.005, frame = 0.005 } -- every step: the last frame is the present
     local values = scene:frame(scene:frame_count()).values[1]
     local arc = film.track(film.read((core.film(scene, 0, 1e9, true))), "value", 0, 8).frames
     arc = arc[#arc]
