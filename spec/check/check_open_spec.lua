@@ -5,7 +5,7 @@ local laid = require "spec.check.laid"
 
 local laying, wide, fails = laid.laying, laid.wide, laid.fails
 
-describe("run:check of what broke or slides", function()
+describe("run:check of broken ties and slipping wires", function()
   it("fails where a tie breaks", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }

@@ -259,7 +259,7 @@ describe("run:check", function()
 
   it("fails at slips, losses and crashes, and describes the first", function()
     scene:tell{ kind = "crash", object = "left", value = 0.003, text = "left runs into the table" }
-    -- a crash told after the end of a run belongs to no later run
+    -- told after the end of a run, the crash does not count in the next run
     local again = scene:run{ duration = 0.01, dt = 0.005 }
     assert.equal("PASS", again:check{}:row "events".verdict)
     local crash = sw.scene{ name = "crash" }

@@ -181,7 +181,7 @@ describe("wear of a mesh between pads", function()
   end)
 end)
 
-describe("what is kept of a mesh's wear", function()
+describe("the wear record of a mesh", function()
   local path = os.tmpname()
   teardown(function() os.remove(path) end)
 

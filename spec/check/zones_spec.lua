@@ -69,7 +69,7 @@ describe("run:check of the clearance", function()
     assert.same({ 0.25 - RADIUS, "PASS" }, { row.value, row.verdict })
   end)
 
-  it("counts the start of the run, and starts anew with the next run", function()
+  it("counts the start of the run, and measures afresh in the next run", function()
     local run, scene = carried({ { shape = "sphere", radius = 0.01 } }, { points = { { 0, 0, 0 },
       { 0, 0, 0.4 } } })
     local row = run:check{}:row "clearance"

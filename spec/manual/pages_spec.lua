@@ -95,7 +95,7 @@ describe("manual", function()
   end)
 end)
 
-describe("what the manual and the README name:", function()
+describe("names in the manual and the README:", function()
   it("files exist", function()
     local count = 0
     each_text(function(name, text)

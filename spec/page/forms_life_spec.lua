@@ -57,7 +57,7 @@ describe("orders to add and remove objects during a run", function()
     assert.equal("", json.encode(leaving.objects(scene, {})):gsub("[%[%]]", ""))
   end)
 
-  it("have a line that makes an object anew where the state cannot go back", function()
+  it("have a line that makes an object again where the state cannot go back", function()
     local scene = scene_of()
     scene:obstacle { name = "box", shape = "box", size = { 0.1, 0.1, 0.1 } }:set { at = { 0, 1, 0 } }
     scene:force { kind = "drag", on = scene:find "cord", linear = 0.5 }
