@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- Examples run as a user would run them, and what they print.
+--- Runs the examples as a user would run them, and reads their output.
 local program = require "spec.host.program"
 
 local examples = { program = program }
 
--- What an example prints, and all numbers in it in their order.
+-- Returns the output of an example, and all its numbers in their order.
 function examples.run(name, ...)
   local out, err, code = program.run { "examples/" .. name .. ".lua", ... }
   assert(code == 0, name .. " failed: " .. err)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The example of a laying: the numbers that it prints, and what it writes.
+-- The example of a laying: the numbers that it prints, and the files that it writes.
 local examples = require "spec.examples"
 local core = require "softworld.core"
 require "softworld"
@@ -16,14 +16,14 @@ describe("example", function()
     local w = 1500 * math.pi * 0.0025 ^ 2 * g
     local weight, friction = w * 1.25, 0.3
 
-    -- Load it into this process, and keep the scene and the run that it makes.
+    -- Loads the example into this process, and keeps its scene and its run.
     setup(function()
       folder = program.folder()
       local name, real = "examples/03_laying.lua", core.class.scene.run
       core.class.scene.run = function(self, args)
         args.progress = nil
         scene, run = self, real(self, args)
-        rawset(run, "summary", function() end) -- the next test runs it aloud
+        rawset(run, "summary", function() end) -- the next test runs it with output
         return run
       end
       local env = setmetatable({ arg = { [0] = name, "quick", folder }, print = function() end },
@@ -40,8 +40,8 @@ describe("example", function()
       error("no series " .. name)
     end
 
-    -- Means over the time in which the gripper draws, up at about 160 mm, and no wall is touched yet.
-    -- moment_expected: see the test of the moment.
+    -- Means over the time in which the gripper pulls, at a height of about 160 mm, before the wire touches a
+    -- wall. moment_expected: the formula at the test of the moment.
     local function drawing()
       local series = run:series()
       local wall, fz = column(series, "wall 1.contact_force"), column(series, "gripper.force_z")
@@ -53,7 +53,7 @@ describe("example", function()
       while wall[i] == 0 do
         local at = 10 * (i - 1)
         assert.are.equal(series.time[i], rows[at + 1])
-        if rows[at + 8] > 0.06 then -- past the first corner of its way
+        if rows[at + 8] > 0.06 then -- past the first corner of its path
           local step, h = series.time[i] - series.time[i - 1], rows[at + 10] - radius
           local shear = fz[i] - w * (2 * pad + front)
           local expected = (2 * w * h * EI) ^ 0.5 + pad * shear - w * front * (pad + front / 2)
@@ -75,11 +75,11 @@ describe("example", function()
       out = out:sub((out:find "peak force %d%S+ N,")) -- the summary comes first
       local force, moment = after(out, "peak force"), after(out, "mean moment")
       local bend, tension = after(out, "bend radius"), after(out, "largest tension")
-      -- More than drags it over the table, less than its whole weight: nothing jerks or jams.
+      -- More than the drag over the table, less than the whole weight: nothing jerks or jams.
       assert.is_true(force > friction * weight and force < weight, "peak force " .. force)
       assert.is_true(tension > 0.5 * friction * weight and tension < force, "tension " .. tension)
-      -- The wire bends most beside the pads, where the moment is smaller than at the tool centre by
-      -- the pull times half a pad.
+      -- The wire bends most beside the pads. The moment there is smaller than at the tool centre, by the
+      -- pull times half a pad.
       local largest = 0
       for _, m in ipairs(column(run:series(), "gripper.moment")) do
         if m == m then largest = math.max(largest, m) end
@@ -89,22 +89,19 @@ describe("example", function()
       assert.is_true(after(out, "deepest penetration") < 1e-4)
     end)
 
-    -- Forces balance: the table bears what the gripper does not, and friction pulls by mu times that.
-    -- The means are over two swings of the wire, which also gains speed: 70 mm/s2 of its 37 g are 2.6 mN,
-    -- 4 % of the drag.
-    it("drags the wire with friction times load", function()
+    -- The forces balance: the table bears the part that the gripper does not, and friction pulls by mu times
+    -- this part. The means cover two swings of the wire, which also accelerates: 70 mm/s2 of its 37 g are
+    -- 2.6 mN, 4 % of the drag.
+    it("drags the wire with friction times the load on the table", function()
       local mean = drawing()
       local normal = mean.load / (1 + friction ^ 2) ^ 0.5 -- the series has the magnitude of both
       near(weight, normal + mean.fz, 0.005, "weight")
       near(friction * normal, mean.fx, 0.05, "drag")
     end)
 
-    -- The first integral EI k^2 / 2 + tension - w z of a heavy elastica between the lift-off point, where
-    -- k = 0, and the pad, both level with the same horizontal tension: M = sqrt(2 w h EI). The tool
-    -- centre adds half a pad times the shear force beside the pad, less the wire's end that hangs out in
-    -- front. 1 %: it swings, and segments of 10 mm follow the curve.
-    -- Chords catch on the walls' edges, one after another: .33 N up and down in that second.
-    it("draws the wire over all walls without a saw-tooth", function()
+    -- If chords caught on the walls' edges, one after another, the force would go up and down by 0.33 N in
+    -- this second.
+    it("pulls the wire over all walls without a saw-tooth in the force", function()
       local series = run:series()
       local fx, most, before = column(series, "gripper.force_x"), 0, nil
       local sum, span = 0, 0
@@ -121,12 +118,16 @@ describe("example", function()
       assert.is_true(most > 0 and most < 0.1, ("%.3f N up and down"):format(most)) -- measured: 0.03
     end)
 
-    it("bears the moment of the lifted wire", function()
+    -- The first integral EI k^2 / 2 + tension - w z of a heavy elastica between the lift-off point, where
+    -- k = 0, and the pad; both are level and have the same horizontal tension: M = sqrt(2 w h EI). The tool
+    -- centre adds half a pad times the shear force beside the pad, less the wire's end that hangs out in
+    -- front. 1 %: the wire swings, and segments of 10 mm follow the curve.
+    it("bears the moment of the lifted wire, within 1 % of the elastica", function()
       local mean = drawing()
       near(mean.moment_expected, mean.moment, 0.01, "moment")
     end)
 
-    it("never lets the wire into a wall, and leaves it over all three", function()
+    it("never lets the wire into a wall, and leaves it lying over all three", function()
       local frames, over = run:frames(), {}
       assert.is_true(#frames > 100)
       for _, frame in ipairs(frames) do
@@ -138,7 +139,7 @@ describe("example", function()
               local a, b = x[k] - face, x[k + 3] - face
               if a * b <= 0 and a ~= b then
                 local z = x[k + 2] + (x[k + 5] - x[k + 2]) * a / (a - b)
-                -- The surface of the wire stays above the top, but for 0.1 mm.
+                -- The surface of the wire stays above the top, to within 0.1 mm.
                 assert.is_true(z - radius > 0.1 - 1e-4,
                   ("t = %g s: z = %g m in wall %d"):format(frame.t, z, i))
                 over[i] = true

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every example runs as a user would run it, and the numbers it prints are those of
--- independent solutions.
+-- Every example runs as a user would run it, and prints the numbers of independent solutions.
 local examples = require "spec.examples"
 require "softworld"
 
@@ -32,9 +31,9 @@ describe("example", function()
     end
   end)
 
-  -- Heavy cantilever. w L^3 / EI is 10 at 1 m: independent shooting solution, droop 0.7001997155 L.
-  -- It is 0.08 at 0.2 m, where the beam formula is right to about 1e-4 (at 0.1 shooting gives 0.999875
-  -- of it). 50 segments are off by 2.3e-4 L at most.
+  -- Heavy cantilever. w L^3 / EI is 10 at 1 m: independent shooting solution, droop 0.7001997155 L. At 0.2 m
+  -- it is 0.08, where the beam formula is right to about 1e-4 (at 0.1 shooting gives 0.999875 of the
+  -- formula). 50 segments are off by 2.3e-4 L at most.
   it("02: droop of a cable's end", function()
     local out = example "02_cantilever"
     local droop = {}
@@ -47,9 +46,9 @@ describe("example", function()
     near(1.25, droop[1][2], 1e-5, "beam formula")
   end)
 
-  -- At rest the vertical forces add up to the weight. The scene is mirror-symmetric while both hold;
-  -- after the release the wire swings, damped, for 5 s.
-  it("04: two grippers share the weight, then one bears all", function()
+  -- At rest the vertical forces add up to the weight. The scene is mirror-symmetric while both grippers
+  -- hold; after one releases, the wire swings, damped, for 5 s.
+  it("04: two grippers share the weight, then one bears all of it", function()
     local out = example "04_two_grippers"
     local weight = 1500 * math.pi * 0.0025 ^ 2 * 0.8 * g
     near(weight, after(out, "together"), 2e-3, "together")
@@ -58,10 +57,10 @@ describe("example", function()
     near(weight, after(out, "; weight"), 1e-3, "weight")
   end)
 
-  -- Frequencies in the plane of the sag: an independent solution by Hermite elements for this wire,
-  -- 6.869191615 and 11.08168389 Hz. The response: its modes' damped oscillators, which base and damper
-  -- drive, for the same cable; 0.2 mm are small enough for that to 1 %.
-  it("06: frequencies, and the answer to a shaking base", function()
+  -- Frequencies in the plane of the sag: an independent solution with Hermite elements for this wire,
+  -- 6.869191615 and 11.08168389 Hz. The response is that of the modes' damped oscillators, driven by the
+  -- base and the damper, for the same cable; an amplitude of 0.2 mm is small enough for 1 %.
+  it("06: frequencies, and the response to a shaking base", function()
     local out = example "06_vibration"
     local list = {}
     for word in out:match "frequencies ([^\n]*) Hz":gmatch "%S+" do
@@ -81,9 +80,9 @@ describe("example", function()
     assert.is_true(after(out, "at rest") > 3.1 and after(out, "at rest") < 3.3)
   end)
 
-  -- Piecewise linear law: over the length L = 60 mm bent to kappa remains
-  -- (EI kappa - M_y) / (EI + H) of curvature, at the cost of M_y times that.
-  it("07: what remains of a bend", function()
+  -- Piecewise linear law: after bending the length L = 60 mm to the curvature kappa, the curvature (EI kappa
+  -- - M_y) / (EI + H) remains, and M_y times this curvature is lost as work.
+  it("07: the bend that remains", function()
     local out = example "07_springback"
     local EI, yield, hardening, L = 0.02, 0.2, 0.002, 0.06
     local lines = 0
@@ -97,8 +96,8 @@ describe("example", function()
   end)
 
   -- Lifted from a table: boundary-value solution of the heavy elastica for h = l / 2, l = (EI / w)^(1/3):
-  -- force 1.66280521 w l, moment w l^2; error 3e-9. Let go: elements, error 5e-6 m.
-  it("08: error bars that hold", function()
+  -- force 1.66280521 w l, moment w l^2; error 3e-9. Released: a finite element solution, error 5e-6 m.
+  it("08: error bars that contain the exact values", function()
     local out = example "08_error_bars"
     local w, l = 0.03 * g, 0.1
     local function holds(expected, value, bar, asked)
@@ -114,10 +113,10 @@ describe("example", function()
     assert.truthy(out:find("height at 0.7 m = ", 1, true))
   end)
 
-  -- Independent shooting solution of the heavy cantilever: w L^3 / EI = 4.641588834 at 0.359381 m droops
-  -- by 0.4721301176 L with the clamp moment 2.093529977 EI / L, whose energy EI k^2 / 2 per length the
-  -- drive gains. 36 segments are off by 1e-3 L / 10 in the droop.
-  it("09: droop and drive of a wire fed across a gap, and its weight shared", function()
+  -- Independent shooting solution of the heavy cantilever: w L^3 / EI = 4.641588834 at 0.359381 m, droop
+  -- 0.4721301176 L, clamp moment 2.093529977 EI / L. The drive gains the bending energy EI k^2 / 2 per
+  -- length. 36 segments are off by 1e-3 L / 10 in the droop.
+  it("09: droop and drive force of a wire fed across a gap, and how its weight is shared", function()
     local out = example "09_feed"
     local L = (0.01 * 4.641588834) ^ (1 / 3)
     near(472.1301176 * L, after(out, "reach 359.38 mm: droop"), 1e-3, "droop")
@@ -128,7 +127,7 @@ describe("example", function()
     assert.is_true(after(out, "table") > 0.05)
   end)
 
-  -- Weight 1200 pi r^2 L g. About the place at L/4 the gripper, at L/2, has that weight's moment.
+  -- Weight 1200 pi r^2 L g. The gripper at L/4 bears the moment of this weight, which acts at L/2.
   it("15: two plates squeeze, lift and carry a wire", function()
     local out = example "15_two_plates"
     local weight, L, r = 1200 * math.pi * 0.003 ^ 2 * 0.2 * g, 0.2, 0.003
@@ -136,7 +135,7 @@ describe("example", function()
       local force, moment, squeeze, height, width =
         out:match(when .. " +(%S+) N +(%S+) mN m +(%S+) N +(%S+) mm +(%S+) mm")
       near(weight, tonumber(force), 0.005, when .. ": force")
-      -- the arm: less than L/4 as the wire hangs down, more as the squeeze makes it longer
+      -- the arm is shorter than L/4 because the wire hangs down, and longer because the squeeze stretches it
       local arm = -tonumber(moment) / 1e3 / weight
       assert(arm < 1.005 * L / 4 and arm > 0.97 * L / 4, "arm " .. arm)
       near(20, tonumber(squeeze), 0.01, when .. ": squeeze")
@@ -145,7 +144,7 @@ describe("example", function()
     assert.matches("no slip", out)
   end)
 
-  it("16: a mixed grasp feels the same and costs less", function()
+  it("16: a mixed grasp gives the same loads and costs less", function()
     local out = example "16_mixed"
     local weight, seen = 1200 * math.pi * 0.003 ^ 2 * 0.2 * g, 0
     for name, a, b in out:gmatch "(%a+) +(%S+) +(%S+) m?[Nm] ?m? %(" do
@@ -159,7 +158,7 @@ describe("example", function()
     assert.is_true(after(out, "carrying is") > 10)
   end)
 
-  it("of every number is tested, here, beside, or in the room that it shows", function()
+  it("files are all named in the specs of the examples", function()
     local names = io.popen "ls examples/*.lua"
     local mine = ""
     for _, name in ipairs{ "examples", "examples_laying", "examples_study", "model/example" } do
@@ -171,9 +170,9 @@ describe("example", function()
     names:close()
   end)
 
-  -- Taut it holds GJ times its twist per length. With 20 cm of slack it has coiled up: tension and
-  -- torque go together as in a plectoneme of radius r, T = (B/r^2) sin^4 a (1/2 + 1/cos 2a),
-  -- M = 2 B sin^3 a cos a / (r cos 2a); friction holds it back from that by a quarter.
+  -- Taut: the torque is GJ times the twist per length. With 20 cm of slack the cable has coiled up: tension
+  -- and torque are related as in a plectoneme of radius r, T = (B/r^2) sin^4 a (1/2 + 1/cos 2a), M = 2 B
+  -- sin^3 a cos a / (r cos 2a); friction keeps the tension off this value by a quarter.
   it("10: a twisted cable kinks when it is given slack", function()
     local out = example "10_kink"
     near(3e-4 * 12 * math.pi, after(out, "taut: torque"), 1e-4, "torque")
@@ -197,9 +196,9 @@ describe("example", function()
   end)
 
   -- Case 11b of the reference data: tube of inner radius 0.7 R between plates without friction, plane
-  -- strain, neo-Hookean, nu = 0.3: F/(E R) and half the width over R. One element across the wall, a
-  -- round outline of 32 corners and friction make it stiffer, by 19 to 34 % as measured (16 voxels
-  -- across: 7 to 13 %); what it becomes wide hardly depends on that.
+  -- strain, neo-Hookean, nu = 0.3: F/(E R) and half the width over R. One element across the wall, an
+  -- outline of 32 corners and friction make the example stiffer, by a measured 19 to 34 % (16 voxels across:
+  -- 7 to 13 %). The width hardly depends on these.
   it("12: force and shape of a squeezed tube", function()
     local out = example "12_squeezed_tube"
     local cases = { [10] = { 0.004049114, 1.07401 }, [20] = { 0.007463311, 1.13774 },
@@ -221,19 +220,19 @@ describe("example", function()
     assert.are.equal(4, seen)
   end)
 
-  it("joins a harness", function()
+  it("11: three branches joined to a harness", function()
     local out = example "11_harness"
     local rows = {}
     for x, y, z, bend in out:gmatch "joint on %a+ +(%S+) +(%S+) +(%S+) N%D+(%S+) mm" do
       rows[#rows + 1] = { tonumber(x), tonumber(y), tonumber(z), tonumber(bend) }
     end
     assert.are.equal(3, #rows)
-    -- the joint weighs nothing; left and right are mirror images
+    -- the joint has no weight; left and right are mirror images
     for i = 1, 3 do assert.is_near(0, rows[1][i] + rows[2][i] + rows[3][i], 2e-4) end
     assert.is_near(0, rows[1][2], 1e-3)
     assert.is_near(rows[2][3], rows[3][3], 1e-3)
     assert.is_near(rows[2][2], -rows[3][2], 1e-3)
-    -- the thin branches give way before the trunk
+    -- the thin branches bend more than the trunk
     assert.is_true(rows[2][4] < rows[1][4])
     assert.is_true(after(out, "the joint is") > 4)
   end)
@@ -243,19 +242,19 @@ describe("example", function()
     local corners = {}
     for depth in out:gmatch "corner hangs (%S+) mm" do corners[#corners + 1] = tonumber(depth) end
     assert.are.equal(4, #corners)
-    -- the same on all sides: printed to 0.1 mm, and the order of sums breaks the symmetry a little
+    -- equal on all sides: printed to 0.1 mm, and the order of sums breaks the symmetry slightly
     for k = 2, 4 do assert.is_near(corners[1], corners[k], 0.3) end
-    -- 70 mm stand out on each side; a corner that hung straight down from the box's corner would
-    -- be at most 70 mm times the square root of 2 below it
+    -- 70 mm of fabric project on each side. A fabric corner that hung straight down from the box's corner
+    -- would be at most 70 mm times the square root of 2 below it.
     assert.is_true(corners[1] > 30 and corners[1] < 99)
-    -- at rest but for damped swinging
+    -- at rest except for damped swinging
     near(0.15 * 0.3 ^ 2 * g, after(out, "the box carries"), 0.01, "weight")
   end)
 
-  -- A compressible neo-Hookean block between frictionless plates is homogeneous: with the lateral
-  -- stretch a from mu (a^2 - 1) + lambda ln J = 0 its force is A (mu (s - 1/s) + lambda ln J / s) at
-  -- the stretch s. What touches gives way by less than 0.05 mm on each side, 0.8 % of the travel, and
-  -- friction of 0.05 adds about 0.05 / 3 times the width over twice the height, 1.3 %.
+  -- A compressible neo-Hookean block between frictionless plates is homogeneous: with the lateral stretch a
+  -- from mu (a^2 - 1) + lambda ln J = 0 its force is A (mu (s - 1/s) + lambda ln J / s) at the stretch s.
+  -- The contacts give way by less than 0.05 mm on each side, 0.8 % of the travel, and friction of 0.05 adds
+  -- about 0.05 / 3 times the width over twice the height, 1.3 %.
   it("14: foam under a press", function()
     local out = example "14_foam"
     local mu, lambda, s = 50e3 / 2.4, 50e3 * 0.2 / (1.2 * 0.6), 1 - 12 / 40
@@ -270,10 +269,10 @@ describe("example", function()
     near(60 * low, tonumber(widest), 0.005, "width")
   end)
 
-  -- The lips' peaks are what the clips were given: steps of 5 ms at 0.05 m/s are 0.25 mm of a flank of
-  -- 4.5 mm, which miss the top of the sine by at most (pi/2 * 0.25/4.5)^2 / 2 = 0.4 %; on the way out
-  -- 0.04 mm of 1.5 mm. A slanting wire adds some. At rest clips and keeper bear the weight, printed
-  -- to four digits.
+  -- The lips' peak forces are the clips' insertion and retention. Steps of 5 ms at 0.05 m/s are 0.25 mm on a
+  -- flank of 4.5 mm, which miss the top of the sine by at most (pi/2 * 0.25/4.5)^2 / 2 = 0.4 %; on the way
+  -- out they are 0.04 mm of 1.5 mm. A slanting wire adds a little. At rest clips and keeper bear the weight,
+  -- printed to four digits.
   it("17: a cable in three clips", function()
     local out = example "17_clips"
     local count = 0
@@ -290,10 +289,10 @@ describe("example", function()
     assert.is_truthy(out:find("the others are seated and seated", 1, true))
   end)
 
-  -- The gripper's path is from 1.5 mm above the table to 11.5 mm, 0.3 m further and 0.1 m aside; of
-  -- the wire's start 10 mm stick out of the pads and hang by less than a millimetre. Going on from a
-  -- file gives the same bits: differences are 0, not small.
-  it("19: going on from a file", function()
+  -- The gripper moves from 1.5 mm above the table to 11.5 mm, 0.3 m forward and 0.1 m aside. 10 mm of the
+  -- wire's start stick out of the pads and hang by less than a millimetre. Continuing from a file gives the
+  -- same bits: the differences are exactly 0.
+  it("19: continuing from a file", function()
     local out = example "19_resume"
     assert.is_truthy(out:find("the lights go out", 1, true))
     near(0.3, after(out, "laid from x = "), 3e-3, "x")

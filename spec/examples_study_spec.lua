@@ -9,9 +9,9 @@ local g = 9.81
 describe("example", function()
   teardown(program.clean)
 
-  -- Independent shooting solution of the heavy cantilever: w L^3 / EI = 4.641588834 droops by
-  -- 0.4721301176 L, which is 0.37770 m at 0.8 m. So EI = w L^3 / 4.641588834; 60 segments are off by
-  -- about 2e-4 in the droop, thus by about as much in EI.
+  -- Independent shooting solution of the heavy cantilever: w L^3 / EI = 4.641588834 has the droop
+  -- 0.4721301176 L, which is 0.37770 m at 0.8 m. So EI = w L^3 / 4.641588834. 60 segments are off by about
+  -- 2e-4 in the droop, so by about the same share in EI.
   it("05: finds the bending stiffness from a droop", function()
     local out = example "05_tuning"
     near(0.03 * g * 0.8 ^ 3 / 4.641588834, after(out, "EI ="), 1e-3, "EI")
@@ -19,8 +19,9 @@ describe("example", function()
     assert.is_true(after(out, "after") <= 40)
   end)
 
-  -- Held at rest it takes weight / (2 mu). Lifted by 0.25 m in 0.5 s it is as heavy as g + 5.77 d / T^2
-  -- where that is most, and its ends swing: more than that, and less than four times as much.
+  -- Holding at rest takes weight / (2 mu). Lifting by d = 0.25 m in T = 0.5 s accelerates by at most 5.77 d
+  -- / T^2, and the wire's ends swing: the force is above that of g + 5.77 d / T^2 and below four times the
+  -- force at rest.
   it("18: the least force that lifts a wire", function()
     local out = example "18_least_force"
     local least, rest = after(out, "least force"), after(out, "(2 mu) =")
@@ -35,10 +36,11 @@ describe("example", function()
     near(held, least, 1e-3, "least force")
   end)
 
-  -- The same gripper as in 18, which halves an interval until it is 2 % wide: both are right to that. The
-  -- force grows as 1 / friction, so twice the least force at 0.4 holds from 0.2 on. Of a normal distribution
-  -- about 0.4 with sigma 0.1, cut 2.5 sigma below it, those are 1 - (0.02275 - 0.00621) / (1 - 0.00621).
-  it("20: a study of it, and how often twice the force holds", function()
+  -- The same gripper as in 18, which halves an interval until it is 2 % wide, so both values are right to 2
+  -- %. The force is proportional to 1 / friction, so twice the least force at 0.4 holds from 0.2 on. For a
+  -- normal distribution about 0.4 with sigma 0.1, cut 2.5 sigma below it, that is a share of 1 - (0.02275 -
+  -- 0.00621) / (1 - 0.00621).
+  it("20: a study of the least force, and how often twice this force holds", function()
     local out = example "20_study"
     local least = after(example "18_least_force", "least force")
     near(least, after(out, "least force "), 0.022, "least force")
@@ -50,9 +52,10 @@ describe("example", function()
     assert.truthy(out:find("study 'least force': %d+ evaluations\n"))
   end)
 
-  -- A hanging wire that is lifted by h in T by a polynomial of degree 5 (T. Flash, N. Hogan 1985), whose most
-  -- acceleration is 10 / sqrt(3) h / T^2, pulls with m (g + that): a row that is higher than needed
-  -- is beaten by others, sooner or later. m of the catalogue's cable: 0.01929 kg/m over 0.4 m.
+  -- A hanging wire is lifted by h in T along a polynomial of degree 5 (T. Flash, N. Hogan 1985), whose
+  -- largest acceleration is 10 / sqrt(3) h / T^2; it pulls with m (g + this acceleration). A row with a lift
+  -- higher than needed is dominated by others sooner or later. m of the catalogue's cable: 0.01929 kg/m over
+  -- 0.4 m.
   it("21: the front of time and force", function()
     local out = example "21_pareto"
     local count, lean, before = 0, 0, math.huge
@@ -70,10 +73,10 @@ describe("example", function()
   end)
 
   -- Points of a stiff catenary between level clamps, weight L^3 / EI = 100 and L / span = 1.05
-  -- (boundary-value solver, error 1e-9), by a camera that looks askew, off by normal noise of 0.6 mm and by
-  -- rounding to pixels; twists at which a clamped rod buckles at T L^2 / EI = 20 and 100 (determinant, error
-  -- 1e-10), off by noise of 0.2 rad, GJ = 0.0032 N m2; a pull of EA = 140 kN, off by noise of 3 um.
-  it("22: what a cable is made of", function()
+  -- (boundary-value solver, error 1e-9), seen by an oblique camera, with normal noise of 0.6 mm and rounding
+  -- to pixels; twists at which a clamped rod buckles at T L^2 / EI = 20 and 100 (determinant, error 1e-10),
+  -- with noise of 0.2 rad, GJ = 0.0032 N m2; a pull of EA = 140 kN, with noise of 3 um.
+  it("22: the stiffnesses of a cable from measurements", function()
     local out = example "22_calibration"
     for name, truth in pairs { EI = 0.0268 * g / 100, GJ = 0.0032, EA = 1.4e5 } do
       local shape = "\n  " .. name .. " +(%S+) N%S* ?%S*, 95 %% interval (%S+) to (%S+)"
@@ -84,8 +87,8 @@ describe("example", function()
     assert.truthy(out:find("EI +0.0026%d* *N m2 +0.002%d+ .. 0.002%d+ +measured  bench, photo"), out)
   end)
 
-  -- So small a droop is w L^4 / (8 EI), to half a per cent. Over log EI evenly from a to b and L evenly: the
-  -- mean over L of the share of EI above w L^4 / (8 limit).
+  -- A small droop is w L^4 / (8 EI), to half a per cent. With log EI uniform from a to b and L uniform, the
+  -- share is the mean over L of the share of EI above w L^4 / (8 limit).
   it("23: how often a cable's end is within reach", function()
     local out = example "23_cluster"
     local low, high = out:match "interval (%S+) to (%S+) %%"
@@ -102,12 +105,12 @@ describe("example", function()
     near(1e3 * w * (1e-3 * free) ^ 4 / (8 * EI), tonumber(droop), 0.02, "droop")
   end)
 
-  -- Half a circle of length L: the inside's radius is L / pi less the wire's, 1.5 mm, and the moment
-  -- pi EI / L. IEC 62440 allows 5 diameters, 15 mm, so that the first length lacks 16.5 mm - 40 mm / pi.
-  -- Curvatures of 50 edges that bend by inertia a little, printed to four digits: 0.3 %.
-  -- With 5 % of them in reserve the length is pi (1.05 * 15 + 1.5) mm, found to 1 % of its range, 0.6 mm.
-  -- Slopes: 1 / pi, and pi EI / L^2; a parabola through +- 1.5 and 3 mm is 7.65 mm^2 / L^2 = 0.5 % steeper.
-  it("24: a report that fails, says what to change, and passes", function()
+  -- Half a circle of length L: the inside radius is L / pi less the wire's radius, 1.5 mm, and the moment is
+  -- pi EI / L. IEC 62440 allows 5 diameters, 15 mm, so the first length lacks 16.5 mm - 40 mm / pi. The
+  -- curvatures of 50 edges, which inertia bends slightly, are printed to four digits: 0.3 %. With 5 % in
+  -- reserve the length is pi (1.05 * 15 + 1.5) mm, found to 1 % of its range, 0.6 mm. Slopes: 1 / pi, and pi
+  -- EI / L^2; a parabola through +- 1.5 and 3 mm is 7.65 mm^2 / L^2 = 0.5 % steeper.
+  it("24: a report that fails, proposes a change, and passes", function()
     local out = example "24_check"
     local radii, moments = {}, {}
     for verdict, radius in out:gmatch "(%u+)  cable.min_bend_radius +(%S+) mm +>= 15.00 mm +standard" do

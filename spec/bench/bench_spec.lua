@@ -11,7 +11,7 @@ local tip = { .99740368, -.04799323, .96010061, -.26845650, .79598274, -.5631100
   .51411943, -.79622880, .79467077, -.57262267 }
 
 describe("bench.row", function()
-  it("fills in every column of a good run, and the file gives them back", function()
+  it("fills every column of a successful run, and a file gives them back", function()
     local rows = {
       bench.row(benchcases.release, { segments = 5, integrator = "tr-bdf2", dt = 0.05 }),
       bench.row(benchcases.droop, { segments = 5, model = "string" }),
@@ -34,7 +34,7 @@ describe("bench.row", function()
     assert.is_nil(back[1].reason)
   end)
 
-  it("gives the error of a direct computation", function()
+  it("gives the error that a direct computation gives", function()
     local scene = sw.scene{}
     local wire = scene:wire{ E = 9.4176e8, density = 1500, radius = 0.0025, from = { 0, 0, 0 },
       to = { 1, 0, 0 }, segments = 10 }
@@ -50,7 +50,7 @@ describe("bench.row", function()
     assert.equal("% of L", row.unit)
   end)
 
-  it("tells a divergence, and gives no error for it", function()
+  it("reports a divergence and gives no error for it", function()
     local row = bench.row(benchcases.release, { segments = 5, integrator = "velocity-verlet", share = 1.3 })
     assert.equal("diverged", row.status)
     assert.truthy(row.reason:find "at t = ", row.reason)
@@ -58,7 +58,7 @@ describe("bench.row", function()
     assert.is_true(row.rejected > 0)
   end)
 
-  it("tells refused arguments", function()
+  it("reports refused arguments", function()
     local row = bench.row(benchcases.release, { segments = 5, integrator = "bdf2", dt = 0.01,
       tolerance = 1e-3 })
     assert.equal("refused", row.status)
@@ -66,7 +66,7 @@ describe("bench.row", function()
     assert.equal("", row.error)
   end)
 
-  it("takes explicit steps as shares of the stable one", function()
+  it("takes explicit steps as shares of the largest stable step", function()
     for _, name in ipairs{ "symplectic-euler", "rk4" } do
       local row = bench.row(benchcases.release, { segments = 5, integrator = name, share = 0.5 }, true)
       assert.equal("ok", row.status)
@@ -76,7 +76,7 @@ describe("bench.row", function()
     end
   end)
 
-  it("measures depth and crossings over walls", function()
+  it("measures penetration depth and crossings at walls", function()
     local config = { segments = 10, integrator = "tr-bdf2", dt = 0.02, duration = 2 }
     local row = bench.row(benchcases.walls, config, true)
     assert.equal("ok", row.status, row.reason)
@@ -91,7 +91,7 @@ describe("bench.row", function()
     assert.is_true(row.looked > 0 and row.crossings <= row.looked)
   end)
 
-  it("weighs scenes", function()
+  it("measures the memory of a scene in bytes per node", function()
     local row = bench.row(benchcases.scale, { segments = 2000, integrator = "tr-bdf2", dt = 1e-3 }, true)
     assert.equal("ok", row.status, row.reason)
     assert.is_true(row.bytes > 3 * 8 * 3 and row.bytes < 4000, row.bytes)
@@ -99,7 +99,7 @@ describe("bench.row", function()
 end)
 
 describe("bench.time", function()
-  it("starts each call afresh and fills a batch", function()
+  it("starts each call from a fresh state and fills a batch", function()
     local fresh, calls = 0, 0
     local wall, cpu, runs = bench.time(function() fresh = fresh + 1 end, function()
       calls = calls + 1
@@ -113,7 +113,7 @@ describe("bench.time", function()
 end)
 
 describe("bench.growth", function()
-  it("is one up to the limits of undamped methods, and more beyond", function()
+  it("is 1 up to the stability limit of undamped methods, and larger beyond", function()
     assert.near(2, bench.limit("velocity-verlet", 2000, 1e4), 2e-3)
     assert.near(8 ^ 0.5, bench.limit("rk4", 2000, 1e4), 1e-2)
     assert.near(3 ^ 0.5, bench.limit("gsl-rk2", 2000, 1e4), 2e-2)
@@ -121,7 +121,7 @@ describe("bench.growth", function()
     assert.near(1.88, bench.growth("velocity-verlet", 2.1), 0.005)
   end)
 
-  it("knows every explicit method of the registry", function()
+  it("covers every explicit method of the registry", function()
     for _, name in ipairs(bench.integrators(false)) do
       assert.near(1, bench.growth(name, 0.1), 1e-3, name)
       assert.is_true(bench.growth(name, 8) > 1, name)
@@ -152,7 +152,7 @@ describe("scripts/bench.lua and scripts/chart.lua", function()
     program.clean()
   end)
 
-  it("refuse words they do not know", function()
+  it("refuse unknown words", function()
     local text, fine = sh(program.quote(program.path) .. " scripts/bench.lua slow")
     assert.is_nil(fine)
     assert.truthy(text:find("'slow' is none of", 1, true))
@@ -163,7 +163,7 @@ describe("scripts/bench.lua and scripts/chart.lua", function()
 end)
 
 describe("bench.error_bars", function()
-  it("has bars as asked for, and compares all levels with the finest", function()
+  it("gives bars within the error asked for, and compares the time of all levels with the finest", function()
     local rows = bench.error_bars()
     assert.equal(2, #rows)
     for _, row in ipairs(rows) do
@@ -175,7 +175,7 @@ describe("bench.error_bars", function()
 end)
 
 describe("benchlinks.rows", function()
-  it("compares a wire that touches itself and one in two pieces with plain ones", function()
+  it("compares a wire that touches itself and a wire in two pieces with plain wires", function()
     local links = require "bench.links"
     local kept = links.batches
     links.batches = 2
@@ -205,7 +205,7 @@ describe("benchmeshes", function()
     for key, value in pairs(kept) do meshes[key] = value end
   end)
 
-  it("has a second of the tube and squeezed wires", function()
+  it("times one second of the tube, and squeezed wires", function()
     local rows = meshes.squeezes()
     rows[#rows + 1] = meshes.second()
     assert.equal(3, #rows)
@@ -215,7 +215,7 @@ describe("benchmeshes", function()
     end
   end)
 
-  it("has rings of the solver, and long tubes by the ring", function()
+  it("times the block solver, and long tubes per ring", function()
     local rows = meshes.blocks()
     assert.equal(5, #rows)
     for _, row in ipairs(rows) do

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The benchmark of grippers: every way of handling gets through the two-plate test, hard grips end as
--- they must.
+-- The benchmark of grippers: the two-plate test succeeds with every way of gripping, and hard grips end in
+-- the expected status.
 local sw = require "softworld"
 local benchgrip = require "bench.grip"
 
 describe("the two-plate test", function()
   for _, way in ipairs(benchgrip.ways) do
-    it("is done by " .. way[1], function()
+    it("succeeds with " .. way[1], function()
       local row = benchgrip.two_plates(way, 0.02)
       assert.is_true(row.ok, row.reason)
       assert.equal(4, #row.phases)
@@ -19,7 +19,7 @@ describe("the two-plate test", function()
 end)
 
 describe("hard grips", function()
-  it("hold, are lost or refused, and the program goes on", function()
+  it("hold, are lost or are refused, and the program carries on", function()
     local seen = {}
     benchgrip.add_all(function(item, run, o)
       if o.model == "rod" then

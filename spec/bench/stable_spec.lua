@@ -16,7 +16,7 @@ describe("benchstable.modes", function()
     assert.near(1, share, 1e-9)
   end)
 
-  it("agrees with the chain's closed form", function()
+  it("agrees with the closed form of a chain", function()
     local modes = benchstable.modes(cord, "rod")
     local list = {}
     for i = 1, cord.segments do list[i] = modes[i].omega end
@@ -30,7 +30,7 @@ describe("benchstable.modes", function()
 end)
 
 describe("benchstable.largest", function()
-  it("finds a threshold, and says when there is none between", function()
+  it("finds a threshold, and reports when there is none in the interval", function()
     local found, how = benchstable.largest(function(x) return x < 3 end, 1, 10, 20)
     assert.near(3, found, 1e-4)
     assert.equal("found", how)
@@ -68,14 +68,14 @@ describe("benchsqueeze", function()
     return found
   end
 
-  it("presses a tube and lets it go", function()
+  it("presses a tube and releases it", function()
     local row = row_of("squeezed to 60 %", "tube")
     assert.equal("ok", row.status, row.reason)
     assert.truthy(row.note:find "afterwards")
     assert.is_true(row.steps >= 300)
   end)
 
-  it("tells that springs cannot be turned inside out, while elements come back", function()
+  it("reports that springs cannot turn inside out, while solid elements recover", function()
     local row = row_of("pushed inside out", "tube")
     assert.equal("failed", row.status)
     assert.truthy(row.reason:find "turn over")
@@ -83,7 +83,7 @@ describe("benchsqueeze", function()
     assert.equal("ok", row.status, row.reason)
   end)
 
-  it("has steps of explicit methods that the program's bound keeps below", function()
+  it("finds the explicit stability limit above the program's bound, by less than a factor of 3", function()
     for _, mesh in ipairs{ squeeze.meshes[1], squeeze.meshes[5] } do
       local found, how, own = squeeze.measure("velocity-verlet", mesh, 1, 5)
       assert.equal("found", how)

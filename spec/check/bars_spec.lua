@@ -4,7 +4,7 @@ package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local capstan = require "spec.check.capstan"
 
--- A wire clamped at one end, which falls; segments: how many the script gives it.
+-- A wire clamped at one end falls; segments: its number in the script.
 local function falling(segments)
   local scene = sw.scene{}
   local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 },
@@ -26,11 +26,11 @@ describe("a run that is asked for a check", function()
 
   setup(function()
     local scene, wire = falling(200)
-    scene:run{ duration = 0.2, dt = 5e-4 } -- 10 times finer than what is judged below, errors fall as squares
+    scene:run{ duration = 0.2, dt = 5e-4 } -- 10 times finer than the runs below; errors fall as squares
     truth = -wire:position(0.3)[3]
   end)
 
-  it("refines until the verdict is that of a far finer run, or says that it is not known", function()
+  it("refines until its verdict is that of a far finer run, or leaves the verdict open", function()
     local decided = 0
     for _, share in ipairs{ 0.8, 0.95, 0.99, 0.9998, 1.0002, 1.01, 1.05, 1.2 } do
       for _, side in ipairs{ "max", "min" } do
@@ -48,7 +48,7 @@ describe("a run that is asked for a check", function()
         end
       end
     end
-    assert.is_true(decided >= 12, tostring(decided)) -- limits that are 1 % off the value or more
+    assert.is_true(decided >= 12, tostring(decided)) -- limits that are 1 % or more off the value
   end)
 
   it("computes no finer than its verdicts need", function()
@@ -63,7 +63,7 @@ describe("a run that is asked for a check", function()
     assert.is_true(counts[2] > counts[1])
   end)
 
-  it("meets a limit that is exactly the value", function()
+  it("passes a limit that equals the value", function()
     local scene = falling(20)
     local run = scene:run{ duration = 0.2, check = { limits = { cycle_time = 0.2 } } }
     local check = run:check()
@@ -71,7 +71,7 @@ describe("a run that is asked for a check", function()
     assert.same({ "PASS", 0 }, { check:row "kinks".verdict, check:row "kinks".error })
   end)
 
-  it("leaves open what a level has and the one before had not", function()
+  it("leaves a row open that a level has and the level before had not", function()
     local scene, wire = falling(20)
     local run = scene:run{ duration = 0.1, levels = 3, check = { limits = off, checks = { { name = "late",
       unit = "m", max = 1, of = function()
@@ -84,7 +84,7 @@ describe("a run that is asked for a check", function()
     assert.is_false(run.met)
   end)
 
-  it("checks the same afterwards, unless it is asked for something else", function()
+  it("gives the same check afterwards, unless it is asked for another", function()
     local scene = falling(20)
     local given = { limits = { max_tension = 5 } }
     local run = scene:run{ duration = 0.1, check = given }
@@ -92,14 +92,14 @@ describe("a run that is asked for a check", function()
     assert.equal(5, run:check():row "max_tension".limit)
     local other = run:check{ limits = { max_tension = 7 } }:row "max_tension"
     assert.equal(7, other.limit)
-    assert.is_true(other.error > 0) -- its bar is of the value
+    assert.is_true(other.error > 0) -- the bar belongs to the value
     assert.truthy(tostring(run:check()):find(" +- ", 1, true))
     assert.is_nil(tostring(run:check()):find("no error bars", 1, true))
     local plain = falling(20):run{ duration = 0.1 }
     assert.truthy(tostring(plain:check()):find("no error bars", 1, true))
   end)
 
-  it("goes with quantities of one's own and with a model to be chosen", function()
+  it("works together with the script's own quantities and model = 'auto'", function()
     local scene, wire = falling(20)
     local run = scene:run{ duration = 0.1, model = "auto", tolerance = { tip = { relative = 0.05 } },
       check = { limits = { max_tension = 5 }, checks = { droop(wire, 0.4) } } }
@@ -110,7 +110,7 @@ describe("a run that is asked for a check", function()
     assert.truthy(tostring(run:why()):find("droop = ", 1, true))
   end)
 
-  it("refuses what run:check would refuse before anything is computed", function()
+  it("refuses what run:check would refuse, before it computes anything", function()
     local scene, wire = falling(20)
     local function refused(words, args)
       args.duration = 0.1
@@ -130,10 +130,10 @@ describe("a run that is asked for a check", function()
   end)
 end)
 
--- Drawn over a third of a cylinder: tension T_in exp(mu angle), friction work of a place T_out - T_in of the
--- part that it has gone, largest at the end: T exp(mu angle) (1 - exp(-mu way / R)).
+-- Drawn over a third of a cylinder: the tension is T_in exp(mu angle). The friction work of a place is T_out
+-- - T_in over the part that it has gone, and is largest at the end: T exp(mu angle) (1 - exp(-mu way / R)).
 describe("bars of wear", function()
-  it("hold the friction work of the capstan, and its sidewall pressure", function()
+  it("hold the friction work of the capstan and its sidewall pressure", function()
     local mu, angle, way, Rw = 0.4, 2 * math.pi / 3, 0.01, capstan.R + capstan.RADIUS
     local scene, _, pin, along = capstan.scene{ friction = mu, angle = angle, segments = 100 }
     pin:follow{ points = capstan.draw(along, way), relative = true, duration = 0.5 }
@@ -154,8 +154,9 @@ describe("bars of wear", function()
   end)
 end)
 
--- Depths of a blow come and go with each step: of 72 bars of their changes alone 15 were too small, the worst
--- by a factor of 21. The bar of the drop on a drum is wider here than its changes say.
+-- Penetration depths in an impact differ with each step size. Of 72 bars estimated from the changes alone 15
+-- were too small, the worst by a factor of 21. The bar of the drop on a drum is wider here than the changes
+-- give.
 describe("the bar of the penetration", function()
   local function dropped(height, segments, dt)
     local scene = sw.scene{}
@@ -177,7 +178,7 @@ describe("the bar of the penetration", function()
   for name, case in pairs{ ["a drop on a plane"] = { dropped, 0.05, 40, 1e-3 },
     ["a drop from low on a plane"] = { dropped, 0.02, 24, 1e-3 },
     ["a drop on a drum"] = { pegged, 0.08, 56, 2.5e-3 } } do
-    it("holds that of finer steps: " .. name, function()
+    it("holds the depths of finer steps: " .. name, function()
       local scene, given = case[1](case[2], case[3], case[4])
       given.check, given.levels = { trial = true }, 3
       local row = scene:run(given):check():row "penetration"

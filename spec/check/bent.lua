@@ -16,10 +16,10 @@ local function turned(p, angle)
   return { c * p[1] - s * p[2], s * p[1] + c * p[2], p[3] }
 end
 
--- A wire between two clamps that follow a circle of curvature k(t); turn(t, s): those at s about the wire.
--- how: plain = true: nothing but its ends is given of the wire, unless by wire_options; changes = { { time,
--- arguments of remodel }, ... }; about = [rad] that all of it is turned about z; swapped = true: its end is
--- where its start was.
+-- Returns a function that runs a wire between two clamps, which follow a circle of curvature k(t). turn(t,
+-- s): rotation of the section at s about the wire. how: plain = true: the wire has only its ends, unless
+-- wire_options gives more; changes = { { time, arguments of remodel }, ... }; about = [rad] by which the
+-- whole scene is turned about z; swapped = true: start and end of the wire change places.
 return function(k, turn, run_options, wire_options, how)
   how = how or {}
   local about = how.about or 0
@@ -31,7 +31,7 @@ return function(k, turn, run_options, wire_options, how)
   for key, value in pairs(wire_options or {}) do given[key] = value end
   local wire = scene:wire(given)
   turn = turn or function() return 0 end
-  -- the rotation: first about the wire as it was drawn, then in the plane of the circle
+  -- the rotation: first about the undeformed wire, then in the plane of the circle
   local function rotation(roll, angle)
     local a, b, c, d = math.cos(roll / 2), math.sin(roll / 2), math.cos(angle / 2), math.sin(-angle / 2)
     return times(about_z(about), times({ a * c, b * c, a * d, -b * d }, about_z(-about)))

@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The capstan: a string over a cylinder along y, pulled at its start by 1 N. No gravity. Drawn by its end,
--- it has the tension exp(mu angle) N where it leaves, and the normal force T/R per length [N/m].
+-- The capstan: a string over a cylinder along y, pulled at its start by 1 N. No gravity. When the string is
+-- drawn by its end, its tension where it leaves is exp(mu angle) N, and the normal force per length is T/R
+-- [N/m].
 local sw = require "softworld"
 
-local capstan = { R = 0.05, RADIUS = 0.0015 } -- of the cylinder and of the string [m]
+local capstan = { R = 0.05, RADIUS = 0.0015 } -- radii of the cylinder and of the string [m]
 
---- The scene, its wire 'w', a pin at the end, and the direction in which the end is to be drawn [-].
--- args: friction = mu; angle = [rad] of the arc; segments =; around = points of the arc; lead = points of the
+--- Returns the scene, its wire 'w', a pin at the end, and the direction in which the end is drawn [-]. args:
+-- friction = mu; angle = [rad] of the arc; segments =; around = points of the arc; lead = points of the
 -- straight string on both sides, 1 cm apart.
 function capstan.scene(args)
   local Rw, half = capstan.R + capstan.RADIUS, args.angle / 2
@@ -27,7 +28,7 @@ function capstan.scene(args)
   return scene, wire, scene:pin(wire, { s = wire.length }), { c, 0, -s }
 end
 
---- Points of a path by which a pin draws the end a way [m] on.
+--- Points of a path along which a pin draws the end by a way [m].
 function capstan.draw(along, way) return { { 0, 0, 0 }, { way * along[1], 0, way * along[3] } } end
 
 return capstan

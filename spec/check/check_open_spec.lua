@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:check of runs that broke, slid, were cut short, or lack data; and its error bars.
+-- run:check of runs with broken ties or slip, of runs that were cut short or lack data; error bars of a run.
 local sw = require "softworld"
 local laid = require "spec.check.laid"
 
 local laying, wide, fails = laid.laying, laid.wide, laid.fails
 
-describe("run:check of what broke or slides", function()
+describe("run:check of broken ties and slipping wires", function()
   it("fails where a tie breaks", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
@@ -21,8 +21,8 @@ describe("run:check of what broke or slides", function()
     assert.truthy(row.note:find("a tie of wire 'w' breaks at", 1, true), row.note)
   end)
 
-  -- A slide that is below what the gripper was told to call one has no event.
-  it("fails where the friction is used up, though that is 1 and the slide is small", function()
+  -- A slip below the gripper's slip tolerance has no event.
+  it("fails where the friction is used up, even if the slip is too small for an event", function()
     for _, force in ipairs{ 0.3, 0.5, 1.1 } do
       local scene = sw.scene{}
       scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
@@ -55,7 +55,7 @@ describe("run:check of a wire without an entry of the catalogue", function()
     end
   end)
 
-  it("goes by the load that the wire was given", function()
+  it("judges by the breaking load that the wire was given", function()
     local run = laying{ EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = 0.0015, breaking_load = 1e-6,
       breaking_flag = "measured" }
     local row = run:check{}:row "max_tension"
@@ -77,7 +77,7 @@ describe("run:check of a run that is not whole", function()
     refused(laying(nil, { max_steps = 20 }), "the run was cut short: the allowed number of steps was used")
   end)
 
-  it("fails: its time was over before the process", function()
+  it("fails: the run's time ended before the process", function()
     refused(laying(nil, { duration = 0.3 }),
       "the run was cut short: 0.3 s have passed, and a process has not ended")
   end)
@@ -107,7 +107,7 @@ describe("run:check of a run that is not whole", function()
       tolerance = { tip = 1e-3 } }, "the run FAILED")
   end)
 
-  it("is refused once the scene has gone on, or was restored", function()
+  it("is refused once the scene has advanced, or was restored", function()
     local run, scene = laying()
     local snapshot = scene:snapshot()
     scene:run{ duration = 0.01, dt = 0.005 }
@@ -116,7 +116,7 @@ describe("run:check of a run that is not whole", function()
     fails(function() run:check{} end, "when a snapshot was restored")
   end)
 
-  it("is refused once the scene has settled, by which peaks are gone", function()
+  it("is refused once the scene has settled, because settling clears the peaks", function()
     local scene = sw.scene{}
     local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 20 }
     scene:clamp(wire, { s = 0 })
@@ -131,7 +131,7 @@ describe("run:check of a run that is not whole", function()
     fails(function() run:check{} end, "has gone on since this run", "before it settles")
   end)
 
-  it("is open where a wire was taken away", function()
+  it("is open where a wire was removed", function()
     local scene = sw.scene{}
     local wires = {}
     for k = 1, 2 do
@@ -149,7 +149,7 @@ describe("run:check of a run that is not whole", function()
 end)
 
 describe("error bars of a run", function()
-  it("make rows that they cover open", function()
+  it("leave a row open when they cover its limit", function()
     local function run_of()
       local scene = sw.scene{ gravity = { 0, 0, -9.81 } }
       local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:check: what must not pass does not, what is missing is told, wrong arguments are refused by name.
+-- run:check: unsafe results do not pass, missing data are reported, wrong arguments are refused by name.
 local sw = require "softworld"
 local laid = require "spec.check.laid"
 
@@ -10,7 +10,7 @@ describe("run:check", function()
 
   setup(function() run, scene, wire = laying() end)
 
-  it("judges by catalogue, standard and script, with place, time, step and margin", function()
+  it("judges by catalogue, standard and script, and gives place, time, step and margin", function()
     local limits = wide()
     limits.cycle_time = 2
     local check = run:check{ use = "movement", limits = limits }
@@ -23,7 +23,7 @@ describe("run:check", function()
     assert.is_near(5 * 2 * wire.radius, bend.limit, 1e-12) -- IEC 62440: 5 D moving, below 8 mm
     assert.is_near(4 * 2 * wire.radius, run:check{ use = "fixed" }:row "min_bend_radius".limit, 1e-12)
     assert.equal(bend.value - bend.limit, bend.margin)
-    -- where it lies at the end it is laid once: 4 D
+    -- the wire's place at the end is laid once: 4 D
     local last = check:row "end_bend_radius"
     assert.is_near(wire:min_bend_radius{ now = true } - wire.radius, last.value, 1e-12)
     assert.is_near(4 * 2 * wire.radius, last.limit, 1e-12)
@@ -37,7 +37,7 @@ describe("run:check", function()
     assert.equal("script", check:row "cycle_time".source:match "script")
   end)
 
-  it("says which limit is missing, and is open then", function()
+  it("says which limit is missing, and is open there", function()
     local check = run:check{}
     assert.equal("OPEN", check.verdict)
     local row = check:row "left.peak_force"
@@ -46,14 +46,14 @@ describe("run:check", function()
     assert.is_nil(row.limit)
   end)
 
-  it("takes a limit by the object's name before one without", function()
+  it("prefers a limit with the object's name to one without", function()
     local check = run:check{ limits = { peak_force = 1e-9,
       ["left.peak_force"] = { max = 9, source = "sheet" } } }
     local row = check:row "peak_force"
     assert.same({ 9, "user", "sheet" }, { row.limit, row.from, row.source })
   end)
 
-  it("leaves out what is told to be, and says so", function()
+  it("leaves out rows that the script switches off, and says so", function()
     local limits = wide()
     limits.peak_force, limits["left.peak_moment"] = false, false
     local check = run:check{ limits = limits }
@@ -63,7 +63,7 @@ describe("run:check", function()
   end)
 
   -- The wire lies straight at the end; a check of that state, or of frames that miss the lift, would pass.
-  it("finds a bend that was there between frames and is gone after release", function()
+  it("finds a bend that occurred between frames and is gone after the release", function()
     local least = wire:min_bend_radius()
     local now = wire:min_bend_radius{ now = true }
     assert.is_true(now > 1.2 * least, now .. " " .. least)
@@ -75,7 +75,7 @@ describe("run:check", function()
     end
   end)
 
-  it("is open where frames leave the sidewall pressure between limits", function()
+  it("is open where frames leave the sidewall pressure uncertain around the limit", function()
     local row = run:check{ limits = { max_sidewall = 1 } }:row "max_sidewall"
     assert.is_true(row.high > row.low)
     local between = { max = (row.low + row.high) / 2, sure = true }
@@ -88,8 +88,8 @@ describe("run:check", function()
     assert.same({ "OPEN", math.huge }, { bare.verdict, bare.high })
   end)
 
-  -- The frame at the begin is of no step: two frames of two steps miss one.
-  it("does not count the frame of the run's begin as one of a step", function()
+  -- The frame at the start belongs to no step: two frames of two steps miss one.
+  it("does not count the frame at the start of the run as a step", function()
     local straight
     for _, case in ipairs{ { 0.02, "OPEN", true }, { 0.01, "PASS", true }, { 0.02, "OPEN" } } do
       if case[3] then
@@ -103,7 +103,7 @@ describe("run:check", function()
     end
   end)
 
-  it("is open where a limit is of nothing in the run", function()
+  it("is open where a limit applies to nothing in the run", function()
     for name, limit in pairs{ peak_margin = 0.5, max_ovalisation = 0.1 } do -- no pads squeeze, no mesh
       local row = run:check{ limits = { [name] = limit } }:row(name)
       assert.equal("OPEN", row.verdict)
@@ -113,7 +113,7 @@ describe("run:check", function()
     assert.equal("FAIL", row.verdict, "asked for by name")
   end)
 
-  it("takes a value that is exactly the limit as met", function()
+  it("passes a value that equals the limit", function()
     local limits = wide()
     for _, side in ipairs{ "max", "min" } do
       limits.max_tension = { [side] = (wire:max_tension()), sure = true }
@@ -122,7 +122,7 @@ describe("run:check", function()
     end
   end)
 
-  it("judges by the catalogue where the script limits the other side alone", function()
+  it("judges by the catalogue where the script limits only the other side", function()
     local verdicts = {}
     local limits = { min_bend_radius = { max = 1e3, sure = true }, peak_force = { min = 0, sure = true } }
     for _, row in ipairs(run:check{ use = "movement", limits = limits }.rows) do
@@ -135,7 +135,7 @@ describe("run:check", function()
       "peak_force min user PASS", "peak_force nil nil OPEN" }, verdicts)
   end)
 
-  it("does not pass a limit that is 1000 times off, and tells it", function()
+  it("does not pass a limit that is 1000 times too large, and reports it", function()
     local row = run:check{ limits = { max_tension = 80e3 } }:row "max_tension"
     assert.equal("OPEN", row.verdict)
     assert.truthy(row.note:find("298 times the catalogue's, 268.5 N; is its unit right (N)?", 1, true),
@@ -147,7 +147,7 @@ describe("run:check", function()
     assert.equal("PASS", row.verdict)
   end)
 
-  it("has checks of one's own, whose errors and NaN fail", function()
+  it("accepts the script's own checks, whose errors and NaN fail", function()
     local list = {
       { name = "good", unit = "m", of = function(r) return r.time, 0.1, 0.6 end, max = 10 },
       { name = "raises", unit = "N", of = function() error "no such thing" end, max = 1 },
@@ -172,7 +172,7 @@ describe("run:check", function()
     assert.is_nil(check:row "nan".margin)
   end)
 
-  it("refuses what is wrong by name", function()
+  it("refuses wrong arguments by name", function()
     fails(function() run:check{ limit = {} } end, "there is no parameter 'limit'; did you mean 'limits'?")
     fails(function() run:check{ use = "moving" } end, "run:check: use = 'moving'", "movement")
     fails(function() run:check{ limits = 3 } end, "limits must be")
@@ -216,7 +216,7 @@ describe("run:check", function()
     fails(function() check.json "x" end, "check:json is a method: call it with a colon")
   end)
 
-  it("is refused when a check of one's own lets the scene go on", function()
+  it("is refused when the script's own check advances the scene", function()
     local other, its_scene = laying()
     fails(function()
       other:check{ checks = { { name = "x", unit = "m", max = 1, of = function()
@@ -257,9 +257,9 @@ describe("run:check", function()
     fails(function() run:check{ landing = beyond } end, "landing: from = 5 m is beyond to = 1 m")
   end)
 
-  it("fails at slips, losses and crashes, whose first it tells", function()
+  it("fails at slips, losses and crashes, and describes the first", function()
     scene:tell{ kind = "crash", object = "left", value = 0.003, text = "left runs into the table" }
-    -- told after the run's end: of the next run
+    -- told after the end of a run, the crash does not count in the next run
     local again = scene:run{ duration = 0.01, dt = 0.005 }
     assert.equal("PASS", again:check{}:row "events".verdict)
     local crash = sw.scene{ name = "crash" }

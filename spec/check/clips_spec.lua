@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:check of clips: what they bore in the run, and whether the wire is in at its end.
+-- run:check of clips: their largest load in the run, and whether the wire is seated at the end.
 local sw = require "softworld"
 
--- A hand presses a cable into a clip, if it is to, and takes it out again.
+-- A hand presses a cable into a clip (into) and pulls it out again (out).
 local function pressed(into, out)
   local scene = sw.scene{ name = "clip" }
   local wire = scene:wire{ name = "cable", E = 60e6, density = 1500, radius = 0.004, segments = 30,
@@ -30,7 +30,7 @@ local function verdicts(check)
 end
 
 describe("run:check of a clip", function()
-  it("tells how it went in, and that it is in", function()
+  it("gives the insertion force, and passes when the wire is seated", function()
     local run, scene = pressed(true)
     local check = run:check{ limits = { insertion_force = 10, ["clip.retention_used"] = 0.9 } }
     assert.same({ insertion_force = "PASS", retention_used = "PASS", seated = "PASS" }, verdicts(check))
@@ -39,20 +39,20 @@ describe("run:check of a clip", function()
     assert.same({ into.peak_force, into.time, into.s }, { row.value, row.time, row.s })
     assert.is_near(8, row.value, 0.2)
     assert.equal("FAIL", run:check{ limits = { insertion_force = 7 } }:row "insertion_force".verdict)
-    -- forces of ways in that are of another run are not of this one
+    -- insertion forces of an earlier run do not count in this one
     check = scene:run{ duration = 0.02, dt = 0.005 }:check{ limits = { insertion_force = 7 } }
     assert.equal("OPEN", check:row "insertion_force".verdict)
     assert.equal("PASS", check:row "clip.seated".verdict)
   end)
 
-  it("fails where the wire is not in at the end", function()
+  it("fails where the wire is not seated at the end", function()
     local check = pressed(false):check{}
     assert.same({ seated = "FAIL" }, verdicts(check))
     assert.truthy(check:row "seated".note:find("it is empty", 1, true))
     assert.same({ "clip.seated" }, pressed(false):check{ limits = { ["clip.seated"] = false } }.skipped)
   end)
 
-  it("fails where it came out again", function()
+  it("fails where the wire came out again", function()
     local check = pressed(true, true):check{}
     assert.same({ retention_used = "FAIL", seated = "FAIL" }, verdicts(check))
     local row = check:row "retention_used"

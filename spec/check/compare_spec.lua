@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- sw.compare: what has changed beyond its error, what is only in one, whose verdict changed; bad input is
--- refused by name.
+-- sw.compare: which values changed beyond their error, which rows exist on one side only, whose verdict
+-- changed; wrong input is refused by name.
 local sw = require "softworld"
 local csv = require "softworld.csv"
 local jsonread = require "softworld.output.jsonread"
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/check"
 local program = dofile(here .. "/../host/program.lua")
 
--- A hanging cable of a length [m], at rest, so that its tension is its weight.
+-- A cable of a length [m] hangs at rest, so that its tension is its weight.
 local function run_of(length, options)
   local scene = sw.scene{ name = ("hung, %g m"):format(length) }
   local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 1 }, to = { 0, 0, 1 - length },
@@ -53,7 +53,7 @@ describe("sw.compare", function()
     end
   end)
 
-  it("tells by how much values changed, and whether that is better", function()
+  it("reports by how much values changed, and whether that is better", function()
     local a = run:check{ checks = { own("rises", 0.5), own("falls", 0.5), own("stays", 0.5) } }
     local b = run:check{ checks = { own("rises", 0.75), own("falls", 0.4), own("stays", 0.5) } }
     local c = sw.compare(a, b)
@@ -67,8 +67,8 @@ describe("sw.compare", function()
     assert.is_nil(tostring(c):find("stays", 1, true))
   end)
 
-  -- Error bars of 0.1: what lies within both of them together is no change.
-  it("counts a change within the errors as none", function()
+  -- Error bars of 0.1: a change within the sum of both bars is no change.
+  it("counts a change within the errors as no change", function()
     local function of(value, low, high)
       local check = run:check{ checks = { own("v", value) } }
       local path = check:json(folder .. "/v.json")
@@ -84,7 +84,7 @@ describe("sw.compare", function()
     assert.equal("same", named(sw.compare(a, far, { tolerance = 0.5 }), "v").status)
   end)
 
-  it("tells verdicts and limits that changed, also of the same value", function()
+  it("reports changed verdicts and limits, also where the value is the same", function()
     local unlimited = own("w", 0.5)
     unlimited.max = nil
     local a = run:check{ checks = { own("v", 0.5), unlimited } }
@@ -98,7 +98,7 @@ describe("sw.compare", function()
     assert.truthy(tostring(c):find("limit: 1.000 m -> 250.0 mm", 1, true), tostring(c))
   end)
 
-  it("tells rows that are only in one; those of another unit are others", function()
+  it("reports rows that are on one side only, also for the same name in another unit", function()
     local a = run:check{ checks = { own("old", 0.5), own("v", 0.5) } }
     local b = run:check{ checks = { own("new", 0.5), own("v", 0.5, { unit = "N" }) } }
     local count = { ["only in a"] = 0, ["only in b"] = 0 }
@@ -108,7 +108,7 @@ describe("sw.compare", function()
     assert.same({ ["only in a"] = 2, ["only in b"] = 2 }, count)
   end)
 
-  -- The weight per length is the same, so that the tension at the clamp goes as the length.
+  -- The weight per length is the same, so the tension at the clamp is proportional to the length.
   it("compares two runs", function()
     local c = sw.compare(run, run_of(0.4))
     local row = named(c, "w.max_tension")
@@ -117,7 +117,7 @@ describe("sw.compare", function()
     assert.equal(row.value_b - row.value_a, row.change)
   end)
 
-  it("has no numbers of a run that failed", function()
+  it("has no numbers of a failed run", function()
     local c = sw.compare(run, run_of(0.2, { duration = 1, dt = 0.01, max_steps = 1 }))
     local text = tostring(c)
     assert.truthy(text:find("b has no numbers: the run was cut short", 1, true), text)
@@ -142,7 +142,7 @@ describe("sw.compare", function()
     assert.equal("changed", c.rows[#c.rows].status)
   end)
 
-  it("refuses what is no check, no run and no file of one", function()
+  it("refuses anything but a check, a run or a file of a check", function()
     local check = run:check{}
     fails("sw.compare: a must be a check, a run or the name of a file of check:json, got nil", nil, check)
     fails("sw.compare: b must be a check, a run", check, { rows = {} })
@@ -163,7 +163,7 @@ describe("sw.compare", function()
     end
   end)
 
-  it("can be read, not written to, and knows its names", function()
+  it("is read-only, and suggests the right name for a misspelt one", function()
     local c = sw.compare(run, run)
     for _, name in ipairs{ "sme", "csw" } do
       local fine, why = pcall(function() return c[name] end)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Verdicts of run:check by hand: value and limit are known between low and high; a limit that is met exactly
--- is met.
+-- Verdicts of run:check by hand: value and limit are each known to lie between low and high. A value that
+-- equals its limit passes.
 local judge = require "softworld.check.judge"
 
 local nan = 0 / 0
@@ -8,13 +8,13 @@ local nan = 0 / 0
 -- side, value {low, value, high}, limit {low, value, high}, verdict.
 local cases = {
   { "max", { 1, 1, 1 }, { 2, 2, 2 }, "PASS" },
-  { "max", { 2, 2, 2 }, { 2, 2, 2 }, "PASS" }, -- exactly
+  { "max", { 2, 2, 2 }, { 2, 2, 2 }, "PASS" }, -- equal to the limit
   { "max", { 2.1, 2.1, 2.1 }, { 2, 2, 2 }, "FAIL" },
-  { "max", { 1.8, 1.9, 2 }, { 2, 2, 2 }, "PASS" }, -- the bar ends at it
-  { "max", { 1.8, 1.9, 2.1 }, { 2, 2, 2 }, "OPEN" }, -- the bar covers it
+  { "max", { 1.8, 1.9, 2 }, { 2, 2, 2 }, "PASS" }, -- the bar ends at the limit
+  { "max", { 1.8, 1.9, 2.1 }, { 2, 2, 2 }, "OPEN" }, -- the bar covers the limit
   { "max", { 1.9, 2.1, 2.3 }, { 2, 2, 2 }, "OPEN" },
   { "max", { 2.1, 2.2, 2.3 }, { 2, 2, 2 }, "FAIL" },
-  { "max", { 1, 1, 1 }, { 1.5, 2, 3 }, "PASS" }, -- below all that the data may be
+  { "max", { 1, 1, 1 }, { 1.5, 2, 3 }, "PASS" }, -- below the whole range of the limit
   { "max", { 1.7, 1.7, 1.7 }, { 1.5, 2, 3 }, "OPEN" },
   { "max", { 4, 4, 4 }, { 1.5, 2, 3 }, "FAIL" },
   { "min", { 2, 2, 2 }, { 2, 2, 2 }, "PASS" },
@@ -23,7 +23,7 @@ local cases = {
   { "min", { 2.5, 2.5, 2.5 }, { 1.5, 2, 3 }, "OPEN" },
   { "min", { 3, 3, 3 }, { 1.5, 2, 3 }, "PASS" },
   { "min", { math.huge, math.huge, math.huge }, { 2, 2, 2 }, "PASS" }, -- straight
-  { "max", { 1, 1, math.huge }, { 2, 2, 2 }, "OPEN" }, -- who knows
+  { "max", { 1, 1, math.huge }, { 2, 2, 2 }, "OPEN" }, -- no upper bound is known
   { "max", { nan, nan, nan }, { 2, 2, 2 }, "FAIL" },
   { "min", { nan, nan, nan }, { 2, 2, 2 }, "FAIL" },
   { "max", { 1, 1, nan }, { 2, 2, 2 }, "FAIL" },
@@ -38,30 +38,30 @@ describe("a verdict", function()
     end)
   end
 
-  it("has a margin that is above 0 where the limit is kept", function()
+  it("has a margin above 0 where the limit is kept", function()
     assert.equal(0.5, judge.margin({ value = 1.5 }, { value = 2 }, "max"))
     assert.equal(-0.5, judge.margin({ value = 1.5 }, { value = 2 }, "min"))
     assert.equal(0, judge.margin({ value = 2 }, { value = 2 }, "min"))
   end)
 end)
 
-describe("a limit that is hardly meant", function()
-  -- value, limit, side, known, reference -> told?, kept from passing?
+describe("a limit that is probably a mistake", function()
+  -- value, limit, side, known, reference -> reported?, kept from passing?
   for i, case in ipairs{
     { 50, 80, "max", nil, 100, false },
     { 50, 80e3, "max", { value = 268, from = "catalogue" }, nil, true, true }, -- mN for N
-    { 50, 0.08, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- fails as it is
+    { 50, 0.08, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- fails anyway
     { 0.04, 30, "min", { value = 0.0135, from = "standard" }, nil, true, false }, -- mm for m: fails
     { 0.04, 0.000030, "min", { value = 0.0135, from = "standard" }, nil, true, true },
-    { 0.01, 20, "max", nil, nil, true, true }, -- nothing is known but the value
+    { 0.01, 20, "max", nil, nil, true, true }, -- only the value is known
     { 0.01, 2, "max", nil, nil, false },
     { 0, 2, "max", nil, nil, false },
-    { 50, 400, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- laxer, told
+    { 50, 400, "max", { value = 268, from = "catalogue" }, nil, true, false }, -- laxer, reported
     { 0.04, 0, "min", { value = 0.0135, from = "standard" }, nil, true, true }, -- lets everything pass
     { 0.04, -0.03, "min", nil, 0.01, true, true },
     { 0.3, 0.8, "max", { value = 1, from = "definition" }, 1, false },
   } do
-    it("is told, number " .. i, function()
+    it("is reported, number " .. i, function()
       local text, suspicious = judge.suspicion(case[1], { value = case[2] }, case[3], "N", case[4], case[5])
       assert.equal(case[6], text ~= nil, text)
       if case[6] then assert.equal(case[7], suspicious, text) end

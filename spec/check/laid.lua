@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs that specs of run:check look at, and what they say.
+-- Helpers for the specs of run:check: a run with a laid wire, wide limits, and a test of error messages.
 local assert = require "luassert"
 local sw = require "softworld"
 
--- A gripper lifts and lays the end of a wire. options: of the wire, and run's.
+-- A gripper lifts the end of a wire and lays it down. options: of the wire; run_options: of run.
 local function laying(options, run_options)
   local scene = sw.scene{ name = "lay" }
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
@@ -24,7 +24,7 @@ local function laying(options, run_options)
   return run, scene, wire, left
 end
 
--- Limits that make all rows of a wire and a gripper pass.
+-- Limits with which all rows of a wire and a gripper pass.
 local function wide()
   return { max_sidewall = { max = 1e9, sure = true }, peak_force = { max = 1e3, sure = true },
     peak_moment = { max = 1e3, sure = true } }

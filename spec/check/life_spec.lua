@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- S-N curves where the script gives none: of the cable, else of its copper strands by the method of universal
--- slopes, range of strain = 3.5 (Su / E) N^-0.12 + D^0.6 N^-0.6, here Su = 220 MPa, E = 115 GPa, D = 1.
+-- S-N curves where the script gives none: those of the cable, otherwise those of its copper strands by the
+-- method of universal slopes, range of strain = 3.5 (Su / E) N^-0.12 + D^0.6 N^-0.6, here Su = 220 MPa, E =
+-- 115 GPa, D = 1.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local bent = require "spec.check.bent"
@@ -9,11 +10,11 @@ local rainflow = require "softworld.check.rainflow"
 
 local R = 0.05
 local STRAND, STRANDS = 0.286e-3, 19       -- of GXL 1.5 [m], [-]
-local BUNCH = STRAND * math.sqrt(19 / 0.75) -- its conductor [m]
+local BUNCH = STRAND * math.sqrt(19 / 0.75) -- diameter of its conductor [m]
 
 local function strain(n, elastic) return (elastic or 3.5 * 220 / 115e3) * n ^ -0.12 + n ^ -0.6 end
 
--- Cycles that a range of strain is endured for, by halving.
+-- Number of cycles that the strands endure at a range of strain, by bisection.
 local function life(range, elastic)
   local low, high = -3, 30
   for _ = 1, 80 do
@@ -46,14 +47,14 @@ local function own_cable(fatigue, more)
 end
 
 describe("S-N curves of annealed copper", function()
-  it("are those of universal slopes", function()
+  it("follow the method of universal slopes", function()
     for _, n in ipairs{ 1, 1e3, 1e7 } do assert.is_near(strain(n), lifecurve.strain(n), 1e-12) end
     -- at 1e4 cycles by hand: 0.0066957 x 0.33113 + 0.0039811
     assert.is_near(0.0061982, lifecurve.strain(1e4), 1e-6)
   end)
 
-  -- Points are a quarter of a decade of cycles apart, with lines in logarithms between.
-  it("have the life between their points within 1 %", function()
+  -- Points are a quarter of a decade of cycles apart, with straight lines in logarithms between them.
+  it("give the life between their points within 1 %", function()
     local known = lifecurve.of(sw.cable "GXL 1.5".construction)
     for _, range in ipairs{ 0.0009, 0.0031, 0.007, 0.019, 0.3 } do
       local found = rainflow.life(known.bending, range / (STRAND / 2))
@@ -63,8 +64,8 @@ describe("S-N curves of annealed copper", function()
     end
   end)
 
-  -- What handbooks give of annealed copper lies within their spread: 76 MPa for 1e8 cycles.
-  it("have a spread that holds other literature", function()
+  -- The handbook value of annealed copper, 76 MPa for 1e8 cycles, lies within their spread.
+  it("have a spread that covers other literature", function()
     local known = lifecurve.of(sw.cable "GXL 1.5".construction)
     local bend = 2 * 76e6 / 115e9 / (STRAND / 2)
     assert.is_true(rainflow.life(known.high.bending, bend) < 1e8)
@@ -72,7 +73,7 @@ describe("S-N curves of annealed copper", function()
     assert.is_true(rainflow.life(known.bending, bend) < rainflow.life(known.low.bending, bend))
   end)
 
-  it("are of copper only, and of every cable whose strands are known", function()
+  it("exist for copper only, and for every cable whose strands are known", function()
     assert.is_nil(lifecurve.of{ strands = 7, strand_diameter = 3e-4, conductor = "aluminium" })
     for _, name in ipairs(sw.cables()) do
       local entry = sw.cable(name)
@@ -83,10 +84,10 @@ describe("S-N curves of annealed copper", function()
   end)
 end)
 
-describe("run:check of fatigue without curves of the script", function()
+describe("run:check of fatigue without curves in the script", function()
   local run = run_of "GXL 1.5"
 
-  it("takes the strands' curves, with their spread and where they are from", function()
+  it("uses the strands' curves, and gives their spread and source", function()
     local row = run:check{ limits = { fatigue = 1 } }:row "fatigue"
     local wanted = miner(function(bend) return life(bend * STRAND / 2) end)
     local most = miner(function(bend) return life(bend * BUNCH / 2) / 5 end)
@@ -104,7 +105,7 @@ describe("run:check of fatigue without curves of the script", function()
     end
   end)
 
-  it("is open where its spread covers the limit, and decided where not", function()
+  it("is open where its spread covers the limit, and decided elsewhere", function()
     local once = run:check{ fatigue = {} }:row "fatigue"
     for verdict, times in pairs{ PASS = 0.5 / once.high, OPEN = 1 / once.value, FAIL = 2 / once.low } do
       local row = run:check{ fatigue = { repeats = math.max(1, times) } }:row "fatigue"
@@ -113,7 +114,7 @@ describe("run:check of fatigue without curves of the script", function()
     end
   end)
 
-  it("goes by the script's curves before", function()
+  it("prefers the script's curves", function()
     local row = run:check{ fatigue = { bending = { { 1, 1e6 }, { 100, 1 } }, spread = 4 } }:row "fatigue"
     local wanted = miner(function(bend) return 1e6 / bend ^ 3 end)
     assert.is_near(1, row.value / wanted, 0.01)
@@ -138,8 +139,8 @@ describe("run:check of fatigue without curves of the script", function()
     os.remove(path)
   end)
 
-  -- Numbers of the page have the sign of micro; words that begin with u are words.
-  it("has its note on the page letter by letter", function()
+  -- The page prints numbers with the sign of micro; words that begin with u stay words.
+  it("shows its note on the page letter by letter", function()
     local path = os.tmpname() .. ".html"
     local check = run:check{ fatigue = {}, checks = { { name = "tiny", unit = "m", max = 3e-6,
       of = function() return 2e-6 end } } }
@@ -152,7 +153,7 @@ describe("run:check of fatigue without curves of the script", function()
     for _, words in ipairs{ "p to", "niversal" } do assert.is_nil(text:find("µ" .. words, 1, true), words) end
   end)
 
-  it("is open without a record of each step, and says how to get it", function()
+  it("is open without a record of each step, and says how to record it", function()
     local blind = bent(wave, nil, { wear = false }, { cable = "GXL 1.5" })
     local row = blind:check{ fatigue = {} }:row "fatigue"
     assert.equal("OPEN", row.verdict)
@@ -165,7 +166,7 @@ describe("run:check of fatigue without curves of the script", function()
     assert.truthy(row.note:find("nothing is known of the wire's strands", 1, true), row.note)
   end)
 
-  it("keeps its record by itself when the check is given to the run, with a bar on its spread", function()
+  it("records wear by itself when the check is given to the run, and has a bar beside its spread", function()
     local scene = sw.scene{}
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.2 }, to = { 0.2, 0, 0.2 },
       segments = 10 }
@@ -178,7 +179,7 @@ describe("run:check of fatigue without curves of the script", function()
 end)
 
 describe("S-N curves of a cable", function()
-  it("go before the literature, with their factor", function()
+  it("take precedence over the literature, with their own spread factor", function()
     local entry = own_cable({ bending = { { 1, 1e6 }, { 100, 1 } }, spread = 3, source = "flex test", flag =
       "measured" }, { construction = { strands = 19, strand_diameter = 2.86e-4, conductor = "copper",
       insulation = "XLPE" } })

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Cycles of load that runs keep of wires that are meshes of particles: bending to and fro, bent meshes that
--- roll, tension, against counts by hand and the rod of the same cable; where the model changes on the way.
+-- Load cycles that runs record for wires meshed by particles: bending to and fro, bent meshes that roll, and
+-- tension. They are compared with counts by hand and with the rod of the same cable; also where the model
+-- changes during the run.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
@@ -18,7 +19,7 @@ local function merged(...)
 end
 
 local SOFT = { E = 1e7, density = 1000, radius = 0.003 }
--- Slices are few where that is enough.
+-- Meshes have few slices where these suffice.
 local MESHES = { ["a tube"] = { model = "tube" }, ["layers of springs"] = { model = "radial" },
   ["layers of elements"] = { model = "radial", section = "solid", segments = 40 },
   ["small cubes"] = { model = "cubic", segments = 70 },
@@ -26,15 +27,15 @@ local MESHES = { ["a tube"] = { model = "tube" }, ["layers of springs"] = { mode
   ["a sheath on a line"] = { model = "composite", core = "line", segments = 40 },
   ["a sheath that slides on a line"] = { model = "composite", core = "line", bonded = false, segments = 40 } }
 
--- How near the largest sum is to that of a rod: a sheath that slides bends more at its clamps, where it does
--- not slide, and is 1.4 % stiffer when pulled; its own curvature and force are counted right.
+-- The allowed error of the largest sum relative to a rod's. A sheath that slides bends more at its clamps,
+-- where it does not slide, and is 1.4 % stiffer in tension. Its own curvature and force are counted right.
 local function near_rod(model, usual, sliding) return model.bonded == false and sliding or usual end
 
 local function share(run, given)
   return run:check{ fatigue = merged({ bending = curve, source = "this spec" }, given or {}) }:row "fatigue"
 end
 
--- Largest Miner's sum of bending at a place, of 12 directions; and the widest range [1/m].
+-- Largest Miner's sum of bending at a place, over 12 directions, and the widest range [1/m].
 local function at_place(wire, k)
   local most, widest = 0, 0
   for way = 1, 12 do
@@ -67,13 +68,14 @@ end
 local function wave(t) return math.sin(math.pi * t / 2) / R end
 local function of_wave(bend) return (0.5 * (2 * bend) ^ 3 + bend ^ 3) / 1e6 end
 
--- Bent, then one turn about itself: each fibre goes from 1/R to -1/R and back, the worst one by two halves of
--- 2/R and half of 1/R.
+-- Bent, then rolled by one turn about its axis: each fibre goes from 1/R to -1/R and back. The worst fibre
+-- has two halves of 2/R and half of 1/R.
 local function hold(t) return math.min(1, t) / R end
 local function roll(t) return 2 * math.pi * math.max(0, math.min(1, t - 1)) end
 local function of_roll(bend) return ((2 * bend) ^ 3 + 0.5 * bend ^ 3) / 1e6 end
 
--- One of them in steps of 0.1 s, and its wire; options: more of the run, how: see bent.lua.
+-- Runs one of these motions in steps of 0.1 s; returns the run and its wire. options: more of the run; how:
+-- see bent.lua.
 local function done(k, turn, args, options, how)
   local run, _, wire = bent(k, turn, merged({ dt = 0.1 }, options or {}), args,
     merged({ plain = true }, how or {}))
@@ -84,7 +86,8 @@ describe("fatigue of a mesh by bending", function()
   local rod = share((done(wave, nil, merged(SOFT, { segments = 40 })))).value
 
   for name, model in pairs(MESHES) do
-    it("counts to and fro as one range, of its own curvature, and what rolls while bent: " .. name, function()
+    it("counts to and fro as one range of the mesh's own curvature, and counts rolling while bent: "
+      .. name, function()
       local args = merged(SOFT, model)
       local _, still = done(hold, nil, args)
       local run, wire = done(wave, nil, args)
@@ -100,7 +103,7 @@ describe("fatigue of a mesh by bending", function()
       is_share(of_wave(1 / R), (at_place(wire, middle)), near_rod(model, 0.025, 0.05),
         "in the middle, of the circle")
       assert.equal("PASS", row.verdict)
-      local bend = still:curvature(L / 2) -- one that is only bent has half of a cycle
+      local bend = still:curvature(L / 2) -- bending alone is half a cycle
       is_share(0.5 * bend ^ 3 / 1e6, (at_place(still, middle)), 0.005, "only bent")
 
       local rolled, turning = done(hold, roll, args, { dt = 0.05 })
@@ -110,7 +113,7 @@ describe("fatigue of a mesh by bending", function()
     end)
   end
 
-  it("is the same turned, with its ends swapped, and in other steps", function()
+  it("does not depend on direction, swapped ends or step size", function()
     local tube, values = merged(SOFT, { model = "tube" }), {}
     for k, case in ipairs{ {}, { { about = 0.7 } }, { { about = -2.2, swapped = true } },
       { nil, 0.1 }, { nil, 0.01 } } do
@@ -132,8 +135,8 @@ describe("fatigue of a mesh by bending", function()
     end)
   end
 
-  -- The far end turned by 1 rad against the near one: the middle has rolled by half of that.
-  it("knows how far sections between two holds have rolled", function()
+  -- The far end is turned by 1 rad relative to the near one, so the middle has rolled by half of that.
+  it("follows how far sections between two holds have rolled", function()
     local function twist(t, s) return s / L * math.max(0, math.min(1, t - 1)) end
     local widest = {}
     for k, more in ipairs{ { segments = 40 }, { model = "radial" } } do
@@ -163,7 +166,7 @@ describe("fatigue of a mesh by tension", function()
   end
 
   for name, model in pairs(MESHES) do
-    it("counts every section's force: " .. name, function()
+    it("counts the force of every section: " .. name, function()
       local value, wanted, wire = pulled(merged({ E = 1e7, density = 1000, radius = 0.003 }, model), 0.5)
       is_share(wanted, value, near_rod(model, 0.015, 0.05), "of EA times strain")
       for k, place in ipairs(core.worn(wire)) do
@@ -186,9 +189,9 @@ describe("fatigue of a mesh by tension", function()
 end)
 
 describe("fatigue of a cable that is shaken", function()
-  -- By its upper end, to and fro within 0.4 s. Bending is largest at its clamp, where sections of a mesh are
-  -- held as they are, and stiffer. Springs of the stiff cable are turned by steps which leave their lengths
-  -- rough: by these the tube would bear up to 38 N.
+  -- The upper end is shaken to and fro within 0.4 s. Bending is largest at its clamp, where sections of a
+  -- mesh keep their shape and are stiffer. The steps that turn the springs of the stiff cable leave errors
+  -- in their lengths, which would give the tube a tension of up to 38 N.
   local function shaken(more, dt)
     local scene = sw.scene{}
     local wire = scene:wire(merged({ name = "w", from = { 0, 0, 0 }, to = { 0, 0, -L } }, more))
@@ -218,7 +221,7 @@ describe("cycles of a wire whose model changes", function()
   local ONE = { { 1.5, { model = "tube" } } }
   local function thin(more) return merged(SOFT, { radius = 0.002 }, more or {}) end
 
-  it("go on, with the directions that they have", function()
+  it("continue in the same directions", function()
     for _, changes in ipairs{ ONE, THREE } do
       local run = done(wave, nil, thin(), { dt = 0.05 }, { changes = changes })
       is_share(of_wave(1 / R), share(run).value, 0.03, "of the circle, to and fro")
@@ -227,9 +230,9 @@ describe("cycles of a wire whose model changes", function()
     end
   end)
 
-  -- Lines beside a region carry no twist: what lies between them would turn about itself at no cost. It goes
-  -- with the holds, as the wire does.
-  it("are those of the holds where lines lie between", function()
+  -- Lines beside a region carry no twist, so the part between them could turn about its axis at no cost. It
+  -- turns with the holds, as the wire does.
+  it("follow the holds where lines lie between", function()
     local region = { { 0.5, { model = "radial", region = { 0.04, 0.06 } } } }
     for _, case in ipairs{ { wave, nil, of_wave }, { hold, roll, of_roll } } do
       local run, wire = done(case[1], case[2], thin(), { dt = 0.05 }, { changes = region })

@@ -30,8 +30,8 @@ describe("a rainflow count", function()
     it(name, function() assert.same(case[2], counted(case[1])) end)
   end
 
-  -- Each reversal but the first is the end of half a cycle.
-  it("loses no half cycle of random histories", function()
+  -- Each reversal except the first ends half a cycle.
+  it("loses no half cycle of a random history", function()
     local state = 12345
     for _ = 1, 200 do
       local history = {}
@@ -49,7 +49,7 @@ end)
 describe("Miner's sum", function()
   local curve = { { 1, 1e6 }, { 10, 1e3 }, { 100, 10 } } -- slopes -3, -2
 
-  it("reads the curve at its points, between and beyond", function()
+  it("reads the curve at its points, between them and beyond them", function()
     for range, life in pairs{ [1] = 1e6, [10] = 1e3, [100] = 10, [2] = 1e6 / 8, [20] = 1e3 / 4, [0.1] = 1e9,
       [1000] = 0.1 } do
       assert.is_near(life, rainflow.life(curve, range), 1e-9 * life)

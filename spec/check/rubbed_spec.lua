@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Friction that runs keep of wires that are lines, place by place: against the capstan and the ledger, also
--- of a wire that is fed.
+-- Friction work that runs record for wires modelled as lines, place by place. It is compared with the
+-- capstan and the ledger, also for a fed wire.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
@@ -12,9 +12,9 @@ local R, RADIUS = capstan.R, capstan.RADIUS
 local function wave(t) return math.sin(math.pi * t / 2) / R end
 
 describe("work of friction", function()
-  -- Drawn over a third of a cylinder at a constant speed: T_in (exp(mu angle) - 1) v in all, and none where
-  -- nothing touches. Nothing of it is in a frame.
-  it("is that of the capstan, all of it at the nodes", function()
+  -- Drawn over a third of a cylinder at a constant speed: T_in (exp(mu angle) - 1) v in total, and zero
+  -- where nothing touches. No frame shows any of it.
+  it("is that of the capstan, summed over the nodes", function()
     local Rw, mu, angle, v = R + RADIUS, 0.4, 2 * math.pi / 3, 0.02
     local scene, wire, pin, along = capstan.scene{ friction = mu, angle = angle, segments = 200 }
     pin:follow{ points = capstan.draw(along, 0.03), relative = true, speed = v, law = "linear" }
@@ -29,7 +29,7 @@ describe("work of friction", function()
     print(("measured: %.6g J, by the capstan %.6g J"):format(sum, wanted))
     assert.is_near(wanted, sum, 0.01 * wanted)
     assert.same({ 0, 0 }, { places[1].rubbed, places[n].rubbed })
-    -- T/R is largest where it leaves: T_in exp(mu angle) / R, at no frame
+    -- T/R is largest where the wire leaves: T_in exp(mu angle) / R, between frames
     local pressure = run:check{ limits = { max_sidewall = 1e3 } }:row "max_sidewall"
     assert.is_near(math.exp(mu * angle) / Rw, pressure.value, 0.02 * pressure.value)
     assert.equal("PASS", pressure.verdict)
@@ -40,7 +40,7 @@ describe("work of friction", function()
     assert.truthy(row.note:find("assumed: its radius", 1, true), row.note)
   end)
 
-  it("is open without a limit, without a record, and fails without a coefficient", function()
+  it("is open without a limit or a record, and fails without a coefficient", function()
     local run = bent(wave)
     local row = run:check{ abrasion = { coefficient = 1e-12 } }:row "wear_depth"
     assert.same({ 0, "OPEN" }, { row.value, row.verdict })
@@ -55,8 +55,9 @@ describe("work of friction", function()
     assert.has_error(function() run:check{ abrasion = { coefficient = -1 } } end)
   end)
 
-  -- The node beside the feed goes along the wire and new ones come up: friction stays where it was.
-  it("is all of it where a wire is fed", function()
+  -- The node beside the feed moves along the wire and new nodes appear. The recorded friction stays at its
+  -- place.
+  it("is complete for a fed wire", function()
     local scene = sw.scene{}
     scene:obstacle{ shape = "plane", friction = 0.3 }
     local wire = scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.002, from = { 0, 0, 0.002 },

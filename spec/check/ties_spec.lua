@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:check of ties: how near they came to their strength; and error bars of their pulls.
+-- run:check of ties: their largest pull as a share of their strength, and error bars of their pull.
 local sw = require "softworld"
 
 -- A cable that falls into a tie at its end.
@@ -17,7 +17,7 @@ local function fallen(strength, o)
 end
 
 describe("run:check of a tie", function()
-  it("tells the largest pull in the run over the strength", function()
+  it("gives the largest pull in the run over the strength", function()
     local run, tie, scene = fallen(80)
     local row = run:check{}:row "loop.strength_used"
     assert.equal("PASS", row.verdict)
@@ -28,12 +28,12 @@ describe("run:check of a tie", function()
     assert.equal("FAIL", strict:row "strength_used".verdict)
     assert.same({ "loop.strength_used" },
       run:check{ limits = { ["loop.strength_used"] = false } }.skipped)
-    -- of the next run only what is pulled then
+    -- the next run counts only its own pulls
     local calm = scene:run{ duration = 0.02 }:check{}:row "strength_used"
     assert.is_true(calm.value < 0.5 * row.value)
   end)
 
-  it("fails where it broke, in that run only", function()
+  it("fails where the tie broke, in that run only", function()
     local run, tie, scene = fallen(1)
     assert.equal(1, tie.strength)
     local row = run:check{}:row "loop.strength_used"
@@ -53,7 +53,7 @@ describe("run:check of a tie", function()
 end)
 
 describe("error bars of a tie", function()
-  it("are of its peak, which it has at any level", function()
+  it("cover its peak force, which exists at every level", function()
     local run, tie = fallen(80, { tolerance = { ["loop.peak_force"] = { relative = 0.2 } }, levels = 3 })
     assert.equal(tie.peak_force, run.quantities["loop.peak_force"].value)
     assert.equal("N", run.quantities["loop.peak_force"].unit)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every check of run:check: its value is that of a formula, within the share said beside it.
+-- Every check of run:check gives the value of a formula, within the share written beside it.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local capstan = require "spec.check.capstan"
@@ -17,7 +17,7 @@ local function still(options)
   return scene, scene:wire(options)
 end
 
--- A piece of a circle that is free of load in that shape.
+-- A piece of a circle that is stress-free in this shape.
 local function arc()
   local path = {}
   for i = 0, 40 do path[i + 1] = { R * math.sin(i / 20), 0, R * (1 - math.cos(i / 20)) } end
@@ -25,7 +25,7 @@ local function arc()
   return scene:run{ duration = 0.02, dt = 0.01 }
 end
 
--- Pulled by 1 % in a second, held then.
+-- A wire stretched by 1 % in one second, then held.
 local function pulled()
   local scene, wire = still{}
   scene:clamp(wire, { s = 0 })
@@ -34,7 +34,7 @@ local function pulled()
   return scene:run{ duration = 1.2, dt = 0.01, frame = 0.01 }
 end
 
--- Twisted by 1 rad over its length, frames of every step.
+-- A wire twisted by 1 rad over its length, with a frame of every step.
 local function twisted()
   local scene, wire = still{}
   scene:clamp(wire, { s = 0 })
@@ -43,8 +43,8 @@ local function twisted()
   return scene:run{ duration = 1, dt = 0.02, frame = 0.02 }
 end
 
--- Drawn over a cylinder by its end, frames of every step: T_in exp(mu angle) where it leaves. duration: of
--- the last run, at 0.02 m/s.
+-- A string drawn over a cylinder by its end, with a frame of every step. Its tension where it leaves is T_in
+-- exp(mu angle). duration: of the last run, at 0.02 m/s.
 local function drawn_over(duration)
   local mu = 0.3
   local scene, _, pin, along = capstan.scene{ friction = mu, angle = math.pi, segments = 240, around = 100,
@@ -56,8 +56,9 @@ local function drawn_over(duration)
     math.exp(mu * math.pi) / (R + RADIUS)
 end
 
--- What comes off the cylinder at the end has gone round a part of it in the run, under T_in exp(mu angle):
--- normal force T per angle, so that its sum over the way is that of exp(mu angle) [N].
+-- The place that leaves the cylinder at the end of the run has gone round a part of the cylinder, under the
+-- tension T_in exp(mu angle). The normal force per angle is T, so its sum over the way is the integral of
+-- exp(mu angle) [N].
 local drawn
 local function slid()
   drawn = drawn or drawn_over(0.4)
@@ -65,7 +66,7 @@ local function slid()
   return drawn, (math.exp(mu * math.pi) - math.exp(mu * (math.pi - part))) / mu
 end
 
--- A gripper holds a stiff wire still, by its middle or at s: its weight.
+-- A gripper holds a stiff wire still, at its middle or at s. It bears the weight of the wire.
 local function held(s)
   local scene = sw.scene{}
   local wire = scene:wire{ name = "w", EA = 1e5, EI = 10, mass_per_length = 0.02, radius = RADIUS,
@@ -96,7 +97,7 @@ local function lifted(force)
   return scene:run{ duration = 0.1, dt = 0.005 }
 end
 
--- Lies on a table by its weight; 3 mm beside a straight line.
+-- A wire lies on a table under its weight, 3 mm beside a straight line.
 local function lying()
   local scene = sw.scene{}
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
@@ -105,7 +106,7 @@ local function lying()
   return scene:run{ duration = 0.25, dt = 0.01 }
 end
 
--- Lies 3 mm beside y = 0; zones beside it, and one that it lies in.
+-- A wire lies 3 mm beside y = 0, with zones beside it and zones that it lies in.
 local function between_zones()
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS, segments = 20,
@@ -117,7 +118,7 @@ local function between_zones()
   return scene:run{ duration = 0.02, dt = 0.01 }
 end
 
--- A stiff wire is pressed by a hold into a clip and pulled there by less than that holds.
+-- Holds press a stiff wire into a clip. A force smaller than the clip's retention then pulls it outward.
 local clipped
 local function in_clip()
   if clipped then return clipped end
@@ -137,18 +138,18 @@ local function in_clip()
   return scene
 end
 
--- Clamped at both ends, at rest: 1 m, and its frequencies.
+-- A rod of 1 m, clamped at both ends, at rest; returns the run and its lowest frequency.
 local function beam()
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ name = "w", EA = 1e5, EI = 0.01, mass_per_length = 0.03, radius = 0.002,
     segments = 50, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
   scene:clamp(wire, { s = 0 })
   scene:clamp(wire, { s = 1 })
-  -- reference case 04: lambda = 22.373285 of the lowest
+  -- reference case 04: lambda = 22.373285 of the lowest mode
   return scene:run{ duration = 0.02, dt = 0.01 }, 22.373285 / (2 * math.pi) * math.sqrt(0.01 / 0.03)
 end
 
--- A tube that sags between clamps.
+-- A tube that sags, clamped at one end.
 local function squeezed()
   local scene = sw.scene{}
   local wire = scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.004, model = "tube",
@@ -159,7 +160,7 @@ end
 
 local weight = 0.02 * 0.1 * g
 
--- Name of the check -> a run, arguments of run:check, the value by formula, the share that it may be off.
+-- Name of the check -> a run, arguments of run:check, the value by formula, the allowed error as a share.
 local cases = {
   min_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
   end_bend_radius = function() return arc(), {}, R - RADIUS, 0.01 end,
@@ -171,8 +172,8 @@ local cases = {
     return run, {}, value, 0.01
   end,
   max_torsion = function() return twisted(), {}, 1 / 0.3, 0.01 end,
-  -- from 0 to 100 N, of a curve through 100 N, 500 cycles: half a cycle at first, a whole one whenever it is
-  -- gone through again
+  -- Tension from 0 to 100 N on a curve through 100 N, 500 cycles. The first pass counts half a cycle, each
+  -- repeat a whole one.
   fatigue = function()
     local curve = { { 10, 5e5 }, { 100, 500 } }
     return pulled(), { fatigue = { curve = curve, repeats = 20 } }, (0.5 + 19) / 500, 0.01
@@ -192,12 +193,12 @@ local cases = {
   clearance = function() return between_zones(), {}, 0.06 - 0.02 - RADIUS, 1e-9 end,
   max_temperature = function() return between_zones(), {}, 90, 0 end,
   min_temperature = function() return between_zones(), {}, -30, 0 end,
-  -- from half of the lowest below: the share of a half that is between
+  -- The band ends at half the lowest frequency f. The gap is (f - f/2) / (f/2) = 1.
   frequency_gap = function()
     local run, f = beam()
     return run, { vibration = { bands = { { 1e-3, f / 2 } } } }, 1, 0.01
   end,
-  -- Miles, of the lowest mode: shape times participation in the middle is 1.588146 x 0.830862
+  -- Miles' formula for the lowest mode: shape times participation at the middle is 1.588146 x 0.830862
   vibration_amplitude = function()
     local run, f = beam()
     local sigma = math.sqrt(2 / (2 * 0.02) / (32 * math.pi ^ 3 * f ^ 3)) * 1.588146 * 0.830862
@@ -220,11 +221,11 @@ local cases = {
     end
     return scene:run{ duration = 1.1, dt = 0.001 }, {}, 8, 0.01
   end,
-  -- 5 N of 20 N
+  -- a pull of 5 N out of 20 N
   retention_used = function()
     return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 0.25, 0.01
   end,
-  -- it hangs by the tie: its weight of 0.0981 N of 0.3924 N
+  -- the wire hangs by the tie: its weight of 0.0981 N out of 0.3924 N
   strength_used = function()
     local scene = sw.scene{}
     local wire = scene:wire{ EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02, radius = 0.002,
@@ -234,7 +235,7 @@ local cases = {
   end,
   seated = function() return in_clip():run{ duration = 0.02, dt = 0.01, quasistatic = true }, {}, 1, 0 end,
   pad_load = function() return lifted(0.1), {}, 0.1 / 0.02, 0.01 end,
-  opening = function() return lifted(0.1), {}, 2 * RADIUS, 0.01 end, -- they are closed on it
+  opening = function() return lifted(0.1), {}, 2 * RADIUS, 0.01 end, -- the pads are closed on the wire
   penetration = function()
     local run = lying()
     return run, {}, run.scene:penetration(), 0

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:check of vibration: natural frequencies where the wire lies against bands, amplitudes under a spectrum.
+-- run:check of vibration: natural frequencies of the laid wire against bands, amplitudes under a spectrum.
 local sw = require "softworld"
 
 local EI, MASS = 0.01, 0.03
@@ -31,9 +31,9 @@ describe("run:check of natural frequencies", function()
     return run:check{ vibration = given }:row "frequency_gap"
   end
 
-  it("tells how far the nearest is from the bands", function()
+  it("gives the distance of the nearest frequency from the bands", function()
     local f1, f2 = frequency(1), frequency(2)
-    -- between the first and the second: 10 % above the one, 20 % below the other
+    -- between the first and the second frequency: 10 % above the first, 20 % below the second
     local r = row{ { 1.1 * f1, f2 / 1.2 } }
     assert.is_near(1 - 1 / 1.1, r.value, 0.002)
     assert.same({ "PASS", 0, "definition" }, { r.verdict, r.limit, r.from })
@@ -43,7 +43,7 @@ describe("run:check of natural frequencies", function()
     assert.truthy(r.note:find("mode 3", 1, true) or r.note:find("mode 4", 1, true), r.note)
   end)
 
-  it("fails where one is in a band, of several bands too", function()
+  it("fails where a frequency is in a band, also with several bands", function()
     local f2 = frequency(2)
     local r = row{ { 1e-4, 1e-3 }, { 0.95 * f2, 1.2 * f2 } }
     assert.equal("FAIL", r.verdict)
@@ -53,19 +53,19 @@ describe("run:check of natural frequencies", function()
       min = 1e9, sure = true } } }:row "frequency_gap".verdict)
   end)
 
-  it("looks at as many as reach over the bands, or is open", function()
+  it("computes modes up to the top of the bands, or is open", function()
     local f3 = frequency(3)
     assert.equal("FAIL", row{ { 0.99 * f3, 1.01 * f3 } }.verdict)
     local long = beam{ segments = 150 }
     local r = long:check{ vibration = { bands = { { 1e5, 2e5 } } } }:row "frequency_gap"
     assert.equal("OPEN", r.verdict)
     assert.truthy(r.note:find("200 modes reach up to", 1, true), r.note)
-    -- of a wire that has no more than these it is known
+    -- a wire that has no more modes than these is decided
     r = beam{ segments = 5 }:check{ vibration = { bands = { { 1e5, 2e5 } } } }:row "frequency_gap"
     assert.equal("PASS", r.verdict)
   end)
 
-  it("cannot be told of a wire that still moves", function()
+  it("fails for a wire that still moves", function()
     local r = beam{ gravity = { 0, 0, -9.81 }, free = true }:check{ vibration = { bands = { { 1, 2 } } } }
       :row "frequency_gap"
     assert.equal("FAIL", r.verdict)
@@ -74,7 +74,7 @@ describe("run:check of natural frequencies", function()
     assert.is_nil(r.note:find("settle", 1, true))
   end)
 
-  it("needs bands that make sense", function()
+  it("refuses bands and spectra that make no sense", function()
     local r = run:check{ limits = { frequency_gap = 0.1 } }:row "frequency_gap"
     assert.equal("FAIL", r.verdict)
     fails(run, "bands = { { from, to } } [Hz] or spectrum", {})
@@ -97,8 +97,9 @@ describe("run:check of amplitudes under a spectrum", function()
     return run:check{ vibration = given, limits = { vibration_amplitude = 1 } }:row "vibration_amplitude"
   end
 
-  -- Whatever shakes along a straight wire does not swing across it; half of the spectrum is 1/sqrt(2) of it.
-  it("goes with direction, damping and spectrum", function()
+  -- Shaking along a straight wire does not make it swing sideways. Half the spectrum gives 1/sqrt(2) of the
+  -- amplitude.
+  it("depends on direction, damping and spectrum as the formula says", function()
     local all = value()
     assert.is_near(0.5, all.s, 1e-6)
     assert.is_near(all.value / 2, value{ damping = 0.08 }.value, 1e-6 * all.value)
@@ -106,7 +107,7 @@ describe("run:check of amplitudes under a spectrum", function()
       1e-6 * all.value)
     assert.is_true(value{ direction = { 1, 0, 0 } }.value < 1e-3 * all.value)
     assert.equal(0, value{ spectrum = { { 0.1, 2 }, { 0.2, 2 } } }.value)
-    -- in logarithms: W = 2 (f / 0.1)^-1
+    -- the spectrum is linear in logarithms: W = 2 (f / 0.1)^-1
     local f = frequency(1)
     local sloping = value{ spectrum = { { 0.1, 2 }, { 100, 0.002 } }, modes = 2 }.value
     assert.is_near(value{ modes = 2 }.value * math.sqrt(0.1 / f), sloping, 0.01 * sloping)

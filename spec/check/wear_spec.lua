@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What runs keep of every step with wear = true, and what run:check makes of it: cycles of tension and
--- bending against counts by hand, also of what passes between two frames.
+-- The records that runs keep of every step with wear = true, and the rows that run:check makes of them:
+-- cycles of tension and bending against counts by hand, also for loads between two frames.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
@@ -10,14 +10,14 @@ local rainflow = require "softworld.check.rainflow"
 
 local R, L, RADIUS = capstan.R, 0.1, capstan.RADIUS
 
--- Miner's sum of a flat list of range, mean, number by a slope.
+-- Miner's sum for a slope, of a flat list of range, mean, number.
 local function damage(flat, slope)
   local sum = 0
   for i = 1, #flat, 3 do sum = sum + flat[i + 2] * flat[i] ^ slope end
   return sum
 end
 
-describe("cycles that are counted as they come", function()
+describe("cycles counted during the run", function()
   local seed = 7
   local function random()
     seed = (seed * 1103515245 + 12345) % 2 ^ 31
@@ -32,9 +32,9 @@ describe("cycles that are counted as they come", function()
     ["a swing that grows"] = function(i) return math.sin(i) * math.exp(0.004 * i) end,
     ["a slow rise with ripples"] = function(i) return 0.01 * i + math.sin(2 * i) end,
   }
-  -- The room is bounded, so that ranges within 4 % of each other may be one.
+  -- The memory is bounded, so ranges within 4 % of each other may be merged.
   for name, of in pairs(histories) do
-    it("damage as those of the whole history: " .. name, function()
+    it("give the damage of the whole history: " .. name, function()
       for try = 1, 20 do
         local history = {}
         for i = 1, 20 + 70 * try do history[i] = of(i) end
@@ -46,7 +46,7 @@ describe("cycles that are counted as they come", function()
     end)
   end
 
-  it("are the same ones where there are few, with their means", function()
+  it("are the exact ones, with their means, where there are few", function()
     local history = { -2, 1, -3, 5, -1, 3, -4, 4, -2 } -- ASTM E1049-85, figure 6
     local function sorted(flat)
       local list = {}
@@ -75,9 +75,9 @@ local function share(run, more)
 end
 
 describe("run:check of fatigue by bending", function()
-  -- From straight to 1/R, -1/R and back: half a cycle of 2/R and two halves of 1/R. Nothing of it is in a
-  -- frame: the run has those of its begin and end, when the wire is straight. Bends of chords are 0.15 %
-  -- sharper than their circle, three times that in the sum.
+  -- From straight to 1/R, -1/R and back: half a cycle of 2/R and two halves of 1/R. No frame shows any of
+  -- it: the run has frames only at its start and end, when the wire is straight. The bends of a chain of
+  -- chords are 0.15 % sharper than its circle, which is three times that in the sum.
   it("counts to and fro as one range, also between frames", function()
     local run = bent(wave)
     assert.is_true(run.scene:frame_count() <= 2)
@@ -88,18 +88,19 @@ describe("run:check of fatigue by bending", function()
     assert.equal("PASS", row.verdict)
     assert.truthy(row.note:find("this spec, guessed", 1, true), row.note)
     assert.truthy(row.note:find("1/m", 1, true), row.note)
-    -- gone through again and again it swings from 1/R to -1/R: one range of 2/R each time. The half cycle at
-    -- the run's begin counts each time too, which is on the safe side
+    -- When the run is repeated it swings from 1/R to -1/R: one range of 2/R each time. The half cycle at the
+    -- start of the run counts each time too, which is on the safe side.
     local again = share(run, { repeats = 100 })
     assert.is_near(wanted + 99 * ((2 / R) ^ 3 + 0.5 * (1 / R) ^ 3) / 1e6, again.value, 0.01 * again.value)
     assert.is_near(row.value / 2, share(run, { repeats = 0.5 }).value, 1e-9)
     assert.equal("FAIL", share(run, { repeats = 1e6 }).verdict)
   end)
 
-  -- One turn about itself while it stays bent: each fibre goes from +1/R to -1/R and back, one cycle of 2/R
-  -- but for where in it it begins. In place of the wire's own frame one that does not roll would see none.
+  -- One turn about its axis while it stays bent: each fibre goes from +1/R to -1/R and back, one cycle of
+  -- 2/R; the phase at which a fibre starts decides its half cycles. A frame that does not roll with the wire
+  -- would see no cycle.
   for name, wire in pairs{ ["a wire"] = {}, ["a wire with frames"] = { rest = "path" } } do
-    it("counts what rolls while it is bent: " .. name, function()
+    it("counts rolling while bent: " .. name, function()
       local function hold(t) return math.min(1, t) / R end
       local still = share((bent(hold, nil, nil, wire)))
       local rolled = share((bent(hold, function(t) return 2 * math.pi * math.max(0, math.min(1, t - 1)) end,
@@ -112,8 +113,8 @@ describe("run:check of fatigue by bending", function()
     end)
   end
 
-  -- The far end turned by two turns against the near one: the middle has rolled once.
-  it("knows how far the wire between two holds has rolled", function()
+  -- The far end is turned by two turns relative to the near one, so the middle has rolled once.
+  it("follows how far the wire between two holds has rolled", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local path = {}
     for i = 0, 40 do path[i + 1] = { R * math.sin(i / 20), 0, R * (1 - math.cos(i / 20)) } end
@@ -136,11 +137,11 @@ describe("run:check of fatigue by bending", function()
       return most * R
     end
     assert.is_near(2, largest(wire.length / 2), 0.03)
-    -- a quarter of a turn: the worst fibre goes from cos(45) to cos(135)
+    -- a quarter of a turn: the worst fibre goes from cos(45 degrees) to cos(135 degrees)
     assert.is_near(math.sqrt(2), largest(wire.length / 8), 0.03)
   end)
 
-  it("goes on where a wire gets other holds and loses them", function()
+  it("continues when a wire gets other holds and loses them", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02,
       radius = RADIUS, from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 20 }
@@ -163,19 +164,19 @@ describe("run:check of fatigue by bending", function()
       end
       widest, least = math.max(widest, top), math.min(least, top)
     end
-    -- directions are 15 degrees apart; across the plane of bending there is no more than sin(7.5), so
-    -- none has jumped when the gripper took hold and let go
+    -- Directions are 15 degrees apart; across the plane of bending the range is at most sin(7.5 degrees). So
+    -- no direction jumped when the gripper took hold and let go.
     assert.is_true(widest >= math.cos(math.rad(7.6)) * sharpest, widest .. " " .. sharpest)
     assert.is_true(least <= math.sin(math.rad(7.6)) * 1.5 * sharpest, least .. " " .. sharpest)
   end)
 
-  it("is open where it was not kept, and says how", function()
+  it("is open where wear was not recorded, and says how to record it", function()
     local row = share((bent(wave, nil, { wear = false })))
     assert.equal("OPEN", row.verdict)
     assert.truthy(row.note:find("scene:run{ wear = true }", 1, true), row.note)
   end)
 
-  it("begins anew with each run", function()
+  it("starts anew with each run", function()
     local run, scene = bent(wave)
     local before = share(run).value
     assert.is_true(before > 0)
@@ -185,7 +186,7 @@ describe("run:check of fatigue by bending", function()
 end)
 
 describe("run:check of fatigue by tension", function()
-  -- 0 to 100 N and back in the middle of a run whose frames do not see it.
+  -- From 0 to 100 N and back, in the middle of a run whose frames do not show it.
   local function pulled(more)
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS,
@@ -204,22 +205,22 @@ describe("run:check of fatigue by tension", function()
     assert.equal("PASS", row.verdict)
   end)
 
-  it("counts a mean by Goodman's rule", function()
-    -- 100 N about 50 N of 500 N: as 100 / 0.9 N
+  it("applies Goodman's rule for the mean", function()
+    -- a range of 100 N about a mean of 50 N, with a strength of 500 N: as 100 / 0.9 N
     assert.is_near(1e-3 / 0.9 ^ 3, pulled{ mean = "goodman" }.value, 0.01e-3)
     assert.is_near(1e-3 / 0.5 ^ 3, pulled{ mean = "goodman", strength = 100 }.value, 0.08e-3)
     local row = pulled{ mean = "goodman", strength = 40 }
-    assert.same({ math.huge, "FAIL" }, { row.value, row.verdict }) -- its mean alone breaks it
+    assert.same({ math.huge, "FAIL" }, { row.value, row.verdict }) -- the mean alone breaks the wire
   end)
 
-  it("adds bending to it", function()
+  it("adds the damage of bending", function()
     assert.is_near(pulled().value, pulled{ bending = curve }.value, 1e-5)
   end)
 end)
 
 describe("run:check of torsion", function()
   -- To 1 rad and back between two frames, 1 rad over 0.3 m.
-  it("is the largest of all steps", function()
+  it("is the largest over all steps", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02,
       radius = RADIUS, from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 10 }
@@ -235,7 +236,7 @@ describe("run:check of torsion", function()
     assert.equal("FAIL", run:check{ limits = { max_torsion = 3 } }:row "max_torsion".verdict)
   end)
 
-  it("is of frames for a mesh of particles", function()
+  it("comes from frames for a mesh of particles", function()
     local scene = sw.scene{}
     local wire = scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.004, model = "tube",
       segments = 8, from = { 0, 0, 0 }, to = { 0.06, 0, 0 } }
@@ -272,7 +273,7 @@ describe("what a run keeps of wear", function()
     return scene
   end
 
-  it("goes on with a run from its file, to the last bit", function()
+  it("continues a resumed run, to the last bit", function()
     local whole = scene_of():run{ dt = 0.005, wear = true }:check(given)
     os.remove(path)
     local cut = scene_of()
@@ -285,7 +286,7 @@ describe("what a run keeps of wear", function()
     assert.is_true(whole:row "fatigue".value > 0)
   end)
 
-  it("costs the run when memory is out, and nothing else", function()
+  it("stops the run with an error when memory runs out, and does no other harm", function()
     local failed = 0
     for n = 1, 600, 7 do
       local scene = scene_of()
@@ -300,7 +301,7 @@ describe("what a run keeps of wear", function()
     assert.is_true(failed > 0)
   end)
 
-  it("is there with error bars and with steps by tolerance", function()
+  it("is there for runs with error bars and for steps chosen by tolerance", function()
     local scene = sw.scene{}
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 },
       segments = 16 }
@@ -313,9 +314,10 @@ describe("what a run keeps of wear", function()
 end)
 
 describe("sidewall pressure", function()
-  -- Single steps of a blow on a drum grow with every finer step; a mean over the window is there to converge.
-  -- (On a peg of 20 mm, one place bears all and a blow goes another way with every step: 0.4 to 0.9 N/m.)
-  it("of a blow is a mean over the window, as other peaks are", function()
+  -- The pressure of single steps of an impact on a drum grows with every finer step; a mean over the window
+  -- converges. (On a peg of 20 mm one place bears all, and the impact differs with every step size: 0.4 to
+  -- 0.9 N/m.)
+  it("of an impact is a mean over the window, as other peaks are", function()
     local function dropped(dt, window)
       local scene = sw.scene{}
       scene:obstacle{ shape = "cylinder", radius = 0.05, length = 0.1, friction = 0.2,
@@ -332,7 +334,7 @@ describe("sidewall pressure", function()
   end)
 end)
 
-describe("fatigue that makes no sense", function()
+describe("fatigue arguments that make no sense", function()
   local run = bent(wave, nil, { duration = 0.04 })
   for words, given in pairs{ ["a curve is missing"] = { source = "mine" },
     ["fatigue.bending has fewer than 2 points"] = { bending = { { 1, 1 } } },
@@ -341,14 +343,14 @@ describe("fatigue that makes no sense", function()
     ["fatigue.flag = 'sure'"] = { bending = curve, flag = "sure" },
     ["strength = 0 N"] = { bending = curve, strength = 0 },
     ["spread = 0.5"] = { bending = curve, spread = 0.5 } } do
-    it("is refused: " .. words, function()
+    it("are refused: " .. words, function()
       local fine, why = pcall(run.check, run, { fatigue = given })
       assert.is_false(fine)
       assert.truthy(why:find(words, 1, true), why)
     end)
   end
 
-  it("is not a number where Goodman's strength is not known", function()
+  it("fail where Goodman's strength is not known", function()
     local row = run:check{ fatigue = { bending = curve, mean = "goodman" } }:row "fatigue"
     assert.equal("FAIL", row.verdict)
     assert.truthy(row.note:find("give strength", 1, true), row.note)

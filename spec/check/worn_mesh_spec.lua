@@ -1,13 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Friction that runs keep of wires that are meshes of particles, section by section: against weight, capstan
--- and pads, against the rod, against the ledger; with snapshots, files and other models.
+-- Friction work that runs record for wires meshed by particles, section by section. It is compared with
+-- weight, capstan and pads, with the rod, and with the ledger; also after snapshots, files and a change of
+-- model.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = require "softworld.core"
 
 local MU, G = 0.3, 9.81
 
--- What is kept of a wire along it, and sums: work of friction [J], normal force times way [N m].
+-- The record of a wire along its length, and its sums: work of friction [J], normal force times way [N m].
 local function kept(wire)
   local nodes, work, slid = {}, 0, 0
   for _, place in ipairs(core.worn(wire)) do
@@ -51,22 +52,22 @@ local HALVED = { ["a rod"] = true, ["a tube"] = true, ["layers of elements"] = t
 
 describe("wear of a wire on a table", function()
   for name, model in pairs(MODELS) do
-    -- It slides to rest: all of m v^2 / 2 is friction, mu m g for each metre.
-    it("is its kinetic energy, " .. name, function()
+    -- It slides to rest: all of m v^2 / 2 becomes friction work, mu m g for each metre.
+    it("is its kinetic energy: " .. name, function()
       local scene, wire, _, damping = laid(model)
       scene:remove(damping)
       wire:set_velocity{ 0.4, 0, 0 }
       local run = scene:run{ duration = 0.25, dt = 0.01, wear = true }
       local _, work, slid = kept(wire)
-      -- corners of a tube's section jump a little: it slides on them by 0.6 % more
+      -- corners of a tube's section jump a little, which adds 0.6 % of sliding on them
       is_share(MASS * 0.4 ^ 2 / 2, work, 0.01, "of m v^2/2")
-      -- in the step in which it stops friction is less than that
+      -- friction is below mu times normal force in the step in which the wire stops
       is_share(work, MU * slid, 0.005, "mu times normal force times way")
       is_share(run:ledger().lost.friction, work, 1e-3, "over the ledger's friction")
     end)
 
-    -- Drawn by an end that a clamp keeps at its height, which bears some of the weight.
-    it("is what the table feels, drawn by its end, " .. name, function()
+    -- Drawn by an end that a clamp keeps at its height; the clamp bears some of the weight.
+    it("is the work that the table feels when the wire is drawn by its end: " .. name, function()
       local works = {}
       for k, dt in ipairs(HALVED[name] and { 0.01, 0.005 } or { 0.01 }) do
         local scene, wire, floor = laid(model)
@@ -90,7 +91,7 @@ describe("wear of a wire on a table", function()
     end)
   end
 
-  it("is the same turned, and of a rod and its meshes", function()
+  it("does not depend on direction, and is the same for a rod and its meshes", function()
     local works = {}
     for k, case in ipairs{ { MODELS["a rod"], 0 }, { MODELS["layers of springs"], 0 },
       { MODELS["layers of springs"], 0.7 }, { MODELS["a tube"], -2.2 } } do
@@ -109,8 +110,9 @@ describe("wear of a wire on a table", function()
 end)
 
 describe("wear of a mesh round a peg", function()
-  -- Friction acts at the surface, a radius r nearer to the axis of the peg than the wire's: the moment about
-  -- this axis gives dT (R + r) = mu T R dphi, and the power is that of the pull, (T2 - T1) v.
+  -- Friction acts at the surface, at a radius r less from the peg's axis than the wire's centreline. The
+  -- moment about the peg's axis gives dT (R + r) = mu T R dphi, and the power is that of the pull, (T2 - T1)
+  -- v.
   local R, r, mu, angle, v = 0.1, 0.002, 0.4, 2 * math.pi / 3, 0.05
   local function drawn(model, dt)
     local Rw, half, path = R + r, angle / 2, {}
@@ -152,7 +154,7 @@ describe("wear of a mesh round a peg", function()
 end)
 
 describe("wear of a mesh between pads", function()
-  it("is 2 mu F for each metre that they slide on it, where they do", function()
+  it("is 2 mu F for each metre that the pads slide, and only where they slide", function()
     local F, way = 2, 0.03
     for _, model in ipairs{ { model = "radial", segments = 60 }, { model = "tube", segments = 60 } } do
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -169,9 +171,9 @@ describe("wear of a mesh between pads", function()
       end)
       scene:run{ dt = 0.005, wear = true }
       local nodes, work = kept(wire)
-      local stretch = 2 * MU * F * 0.05 / wire.beam.EA -- of the wire from its clamp on: 0.7 % of the way
+      local stretch = 2 * MU * F * 0.05 / wire.beam.EA -- of the wire beyond its clamp: 0.7 % of the way
       is_share(2 * MU * F * (way - stretch), work, 0.01, "of 2 mu F x way")
-      for _, place in ipairs(nodes) do -- the pads have passed it with all of their width, or not come to it
+      for _, place in ipairs(nodes) do -- here the full width of the pads passed, or the pads never came
         if place.s > 0.06 and place.s < 0.07 then assert.is_near(2 * MU * F, place.rubbed, 0.1 * MU * F) end
         if place.s < 0.04 or place.s > 0.09 then assert.is_near(0, place.rubbed, 1e-3) end
       end
@@ -179,7 +181,7 @@ describe("wear of a mesh between pads", function()
   end)
 end)
 
-describe("what is kept of a mesh's wear", function()
+describe("the wear record of a mesh", function()
   local path = os.tmpname()
   teardown(function() os.remove(path) end)
 
@@ -206,7 +208,7 @@ describe("what is kept of a mesh's wear", function()
     assert.same({ core.worn_sidewall(one) }, { core.worn_sidewall(other) })
   end
 
-  it("goes on from a file and from a snapshot, to the last bit", function()
+  it("continues from a file and from a snapshot, to the last bit", function()
     local scene, wire = dragged()
     scene:run{ dt = 0.01, wear = true }
     assert.is_true(select(2, kept(wire)) > 0)
@@ -221,7 +223,7 @@ describe("what is kept of a mesh's wear", function()
     local before = again:position(0.1)
     local now = rest:snapshot()
     rest:run{ duration = 0.05, dt = 0.01 }
-    assert.is_nil((core.worn(again))) -- the last run asked for none
+    assert.is_nil((core.worn(again))) -- the last run did not ask for wear
     rest:restore(now)
     same(wire, again)
     assert.same(before, again:position(0.1))
@@ -260,7 +262,7 @@ describe("what is kept of a mesh's wear", function()
     assert.equal("PASS", check:row "fatigue".verdict)
   end)
 
-  it("is open where it was not kept, and says how", function()
+  it("leaves checks open where it was not recorded, and says how to record it", function()
     local scene, wire = laid(MODELS["a tube"])
     local check = scene:run{ duration = 0.02, dt = 0.01 }:check{ limits = { friction_work = 1 },
       fatigue = { bending = { { 1, 1e6 }, { 100, 1 } } } }
@@ -272,7 +274,7 @@ describe("what is kept of a mesh's wear", function()
     assert.has_error(function() core.worn_cycles(wire, 1, 0) end)
   end)
 
-  it("costs the run when memory is out, and nothing else", function()
+  it("stops the run with an error when memory runs out, and does no other harm", function()
     local failed = 0
     for n = 1, 400, 13 do
       local scene = laid(MODELS["a tube"])

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What run:check prints and writes: the same numbers in the terminal, CSV, JSON and JUnit XML, whatever
--- names and texts there are.
+-- The output of run:check: the same numbers in the terminal, CSV, JSON and JUnit XML, also with odd names
+-- and texts.
 local sw = require "softworld"
 local csv = require "softworld.csv"
 local jsonread = require "softworld.output.jsonread"
@@ -25,13 +25,13 @@ end
 
 local columns = { "value", "error", "low", "high", "limit", "limit_low", "limit_high", "margin", "s", "time" }
 
-describe("what a check writes", function()
+describe("the output of a check", function()
   local check, folder
 
   setup(function() check, folder = check_of(), program.folder() end)
   teardown(program.clean)
 
-  it("is, as CSV, every number to its last bit", function()
+  it("has every number to its last bit as CSV", function()
     local path = check:csv(folder .. "/c.csv")
     local names = {}
     for name in program.read(path):match "^[^\n]*":gmatch "[^,]+" do names[name] = true end
@@ -53,7 +53,7 @@ describe("what a check writes", function()
     end
   end)
 
-  it("is, as JSON, the same", function()
+  it("has the same numbers as JSON", function()
     local path = check:json(folder .. "/c.json")
     local data = jsonread.decode(program.read(path))
     assert.equal(check.verdict, data.verdict)
@@ -71,7 +71,7 @@ describe("what a check writes", function()
     end
   end)
 
-  it("is, as JUnit XML, the same, well formed", function()
+  it("has the same numbers as JUnit XML, which is well formed", function()
     local text = program.read(check:junit(folder .. "/c.xml"))
     local count = { PASS = 0, FAIL = 0, OPEN = 0 }
     for _, row in ipairs(check.rows) do count[row.verdict] = count[row.verdict] + 1 end
@@ -94,7 +94,7 @@ describe("what a check writes", function()
     assert.is_nil(text:gsub("&%a+;", ""):find("&", 1, true))
   end)
 
-  it("is on the terminal, rounded, a line for each row, aligned", function()
+  it("has one aligned line with rounded numbers for each row on the terminal", function()
     local text, lines = tostring(check), {}
     for line in (text .. "\n"):gmatch "(.-)\n" do lines[#lines + 1] = line end
     assert.truthy(lines[1]:find("check of 'odd & <name>', t = 0 s to 20.00 ms: FAIL", 1, true), lines[1])
@@ -120,7 +120,7 @@ describe("what a check writes", function()
     assert.is_nil(text:find "[%z\1-\9\11-\31]")
   end)
 
-  it("is an error where the file cannot be written, which leaves the old one", function()
+  it("is an error where the file cannot be written, and the old file stays", function()
     local path = program.write(folder .. "/old.csv", "old")
     local fine, why = pcall(check.csv, check, folder .. "/no/such/c.csv")
     assert.is_false(fine)

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Zones: how near a wire comes to them over a whole motion, and whose temperature it has.
+-- Zones: how close a wire comes to them during a whole motion, and the temperature they give it.
 local solid = require "softworld.output.solid"
 local sw = require "softworld"
 local core = require "softworld.core"
 
 local RADIUS = 0.0015
 
--- A wire along x that holds carry along z by way(t) in so many steps; zones: a list.
+-- A wire along x. Holds carry it along z by way(t) in a number of steps; zones: a list.
 local function carried(zones, options)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local given = { name = "w", cable = not (options and options.EA) and "GXL 1.5" or nil, segments = 16,
@@ -26,8 +26,8 @@ end
 describe("run:check of the clearance", function()
   local post = { name = "post", shape = "sphere", radius = 0.05, at = { 0.1, 0.06, 0.2 } }
 
-  -- Steps of 20 mm: one of them ends where the wire is nearest.
-  it("is that of the whole motion, at the end of which the wire is far", function()
+  -- Steps of 20 mm; one of them ends where the wire is nearest.
+  it("is the least of the whole motion, although the wire ends far away", function()
     local row = carried{ post }:check{}:row "clearance"
     assert.is_near(0.01 - RADIUS, row.value, 1e-9)
     assert.is_near(0.1, row.s, 1e-6)
@@ -36,8 +36,8 @@ describe("run:check of the clearance", function()
     assert.truthy(row.note:find("zone 'post'", 1, true), row.note)
   end)
 
-  -- The least of a step is known to half a step's way at most.
-  it("knows what passes between steps to within half of their way", function()
+  -- Within a step the least distance is known to half the way of the step.
+  it("covers what passes between steps, to within half the way of a step", function()
     for _, steps in ipairs{ 30, 200, 2000 } do
       local row = carried({ post }, { steps = steps }):check{}:row "clearance"
       local way = 0.8 / steps
@@ -49,8 +49,8 @@ describe("run:check of the clearance", function()
     assert.equal("FAIL", fine:check{ limits = { clearance = 0.009 } }:row "clearance".verdict)
   end)
 
-  -- A wall of 0.1 mm between two steps of 20 mm: at no step is the wire in it.
-  it("does not miss a thin wall that is passed between two steps", function()
+  -- A wall of 0.1 mm lies between two steps of 20 mm. The wire is in it at no step.
+  it("does not miss a thin wall that the wire passes between two steps", function()
     local wall = { name = "wall", shape = "box", size = { 1, 1, 1e-4 }, at = { 0, 0, 0.21 } }
     local check = carried{ wall }:check{}
     local row = check:row "clearance"
@@ -63,13 +63,13 @@ describe("run:check of the clearance", function()
     assert.is_true(row.value < 0)
   end)
 
-  it("is met where a wire just reaches the limit, and broken beyond it", function()
+  it("passes a wire that just reaches the limit, and fails one beyond it", function()
     local row = carried({ { shape = "plane", at = { 0, 0, -0.25 } } }, { points = { { 0, 0, 0 },
       { 0, 0, 0.1 } } }):check{ limits = { clearance = 0.25 - RADIUS } }:row "clearance"
     assert.same({ 0.25 - RADIUS, "PASS" }, { row.value, row.verdict })
   end)
 
-  it("sees where the run begins, and begins anew with the next", function()
+  it("counts the start of the run, and measures afresh in the next run", function()
     local run, scene = carried({ { shape = "sphere", radius = 0.01 } }, { points = { { 0, 0, 0 },
       { 0, 0, 0.4 } } })
     local row = run:check{}:row "clearance"
@@ -79,7 +79,7 @@ describe("run:check of the clearance", function()
     assert.is_near(0.39 - RADIUS, row.value, 1e-6)
   end)
 
-  it("is kept where the nodes of the wire change on the way", function()
+  it("is kept when the nodes of the wire change during the run", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 },
       segments = 10 }
@@ -97,7 +97,7 @@ describe("run:check of the clearance", function()
     assert.is_near(0.5, row.time, 0.02)
   end)
 
-  it("is that of the particles of a mesh", function()
+  it("is measured from the particles of a mesh", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.004, model = "tube", segments = 8,
       from = { 0, 0, 0 }, to = { 0.06, 0, 0 } }
@@ -115,7 +115,7 @@ describe("run:check of temperatures", function()
     return copy
   end
 
-  it("judges the zones that a wire was in by its cable's class", function()
+  it("judges the zones that the wire was in against its cable's temperature class", function()
     for temperature, verdict in pairs{ [125] = "PASS", [126] = "FAIL" } do
       local row = carried{ zone(temperature) }:check{}:row "max_temperature"
       assert.same({ temperature, 125, "catalogue", verdict }, { row.value, row.limit, row.from, row.verdict })
@@ -129,7 +129,8 @@ describe("run:check of temperatures", function()
     assert.equal("PASS", row.verdict)
   end)
 
-  it("has no row for zones that the wire does not reach, and is open where it may have", function()
+  it("has no row for zones that the wire does not reach, and is open where it may have reached "
+    .. "one", function()
     local far = zone(900)
     far.at = { 0, 0, 0.6 }
     local check = carried{ far }:check{}
@@ -144,7 +145,7 @@ describe("run:check of temperatures", function()
     assert.same({ 100, "OPEN" }, { row.value, row.verdict })
   end)
 
-  it("is open for a wire of no cable", function()
+  it("is open for a wire without a cable", function()
     local row = carried({ zone(90) }, { EA = 1e4, EI = 1e-3, mass_per_length = 0.02,
       radius = RADIUS }):check{}:row "max_temperature"
     assert.equal("OPEN", row.verdict)
@@ -167,7 +168,7 @@ describe("scene:zone", function()
     end)
   end
 
-  it("gives names, and none twice", function()
+  it("gives names, and refuses a name that exists", function()
     assert.equal("zone1", scene:zone{ shape = "sphere", radius = 0.1 })
     assert.equal("a", scene:zone{ name = "a", shape = "sphere", radius = 0.1 })
     local fine, why = pcall(scene.zone, scene, { name = "a", shape = "sphere", radius = 0.1 })
@@ -175,7 +176,7 @@ describe("scene:zone", function()
     assert.truthy(why:find("there is another zone 'a'", 1, true), why)
   end)
 
-  it("goes with a snapshot", function()
+  it("is kept and removed with a snapshot", function()
     local other = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
     other:zone{ name = "first", shape = "sphere", radius = 0.01, at = { 0, 0, 0.1 } }
@@ -199,7 +200,7 @@ describe("scene:zone", function()
     assert.has_error(function() other:run{ duration = 0.01, dt = 0.01 } end)
   end)
 
-  it("is in a file and in a script", function()
+  it("is saved to a file and to a script", function()
     local path = os.tmpname()
     local other = sw.scene{ gravity = { 0, 0, 0 } }
     other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
@@ -212,8 +213,8 @@ describe("scene:zone", function()
     assert.is_near(0.04 - RADIUS, row.value, 1e-6)
   end)
 
-  -- Vectors may be told by x, y, z, as everywhere: the ends of the drawn normal are at the pose of the core.
-  it("is drawn where it was told to be by names of axes too", function()
+  -- Vectors may be given by x, y, z, as everywhere. The drawn plane has the pose that the core has.
+  it("is drawn in the right place when its vectors name their axes", function()
     local other = sw.scene{ gravity = { 0, 0, 0 } }
     other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
     other:zone{ shape = "plane", at = { x = 0, y = 0, z = -1 }, normal = { x = 0, y = 3, z = 0 } }
@@ -229,8 +230,8 @@ describe("scene:zone", function()
     end
   end)
 
-  -- Eight corners of the box, at its pose; the others have their triangles.
-  it("is drawn where it is, also after a snapshot and from a file", function()
+  -- The box has eight corners at its pose; the other shapes have their triangles.
+  it("is drawn in the right place, also after a snapshot and from a file", function()
     local path = os.tmpname() .. ".html"
     local other = sw.scene{ gravity = { 0, 0, 0 } }
     other:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
@@ -265,7 +266,8 @@ describe("scene:zone", function()
   end)
 end)
 
--- A sphere or box that passes over a wire at rest along x, held all along, its obstacle at height 0.05 m.
+-- A sphere or box on an obstacle passes over a wire at rest along x. The wire is held along its whole
+-- length; the obstacle is at height 0.05 m.
 describe("a zone on an obstacle", function()
   local path = { { 0.1, -0.3, 0.05 }, { 0.1, 0.3, 0.05 } }
   local function passing(shape, steps, turn, made)
@@ -284,15 +286,15 @@ describe("a zone on an obstacle", function()
   local ball, bar = { shape = "sphere", radius = 0.02 }, { shape = "box", size = { 0.4, 0.02, 0.06 } }
   local spin = { axis = { 1, 0, 0 }, angle = math.pi }
 
-  it("moves with it", function()
+  it("moves with the obstacle", function()
     local row = passing(ball, 40):check{}:row "clearance"
     assert.is_near(0.05 - 0.02 - RADIUS, row.value, 1e-9)
     assert.is_near(0.5, row.time, 1e-9)
     assert.truthy(row.note:find("zone 'guard'", 1, true), row.note)
   end)
 
-  -- Distance of the wire, at y = z = 0, from a bar that has turned by pi t about x at (-0.3 + 0.6 t, 0.05).
-  it("turns with it, and its least distance within steps is a lower bound", function()
+  -- Distance of the wire, at y = z = 0, from a bar at (-0.3 + 0.6 t, 0.05) that has turned by pi t about x.
+  it("turns with the obstacle, and its least distance within steps is a lower bound", function()
     local least = math.huge
     for i = 0, 100000 do
       local t = i / 100000
@@ -306,13 +308,14 @@ describe("a zone on an obstacle", function()
       print(("measured: %d steps: %.5f, at least %.5f m; by hand %.5f m"):format(steps, row.value, row.low,
         least))
       assert.is_true(row.low <= least + 1e-9 and row.value >= least - 1e-9)
-      -- at most half of the way of a step, of the obstacle and of the turn at the wire's distance from it
+      -- at most half the way of a step: the way of the obstacle and of the turn at the wire's distance from
+      -- it
       assert.is_true(row.value - row.low <= 0.5 * (0.6 + 0.31 * math.pi) / steps * 1.2, row.low)
     end
   end)
 
-  -- Seen from the zone a wire that is carried with it does not move: no way within steps is counted.
-  it("sees a wire that goes with it at rest", function()
+  -- A wire carried with the zone does not move relative to it, so no way within steps is counted.
+  it("counts no motion of a wire that is carried with it", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 } }
     local hand = scene:obstacle{ name = "hand", shape = "sphere", radius = 0.01, at = { 0.1, 0, 0.05 } }
@@ -325,7 +328,7 @@ describe("a zone on an obstacle", function()
     assert.is_true((row.low or row.value) > row.value - 1e-6, row.low)
   end)
 
-  it("is taken away with it, what it saw before stays", function()
+  it("is removed with the obstacle, and keeps what it measured before", function()
     local run, scene, hand = passing(ball, 40, nil, function(scene, hand)
       scene:process(function(p)
         p:wait(0.25)
@@ -339,19 +342,19 @@ describe("a zone on an obstacle", function()
     assert.has_error(function() scene:zone{ shape = "sphere", radius = 1, on = hand } end)
   end)
 
-  it("is drawn with it", function()
+  it("is drawn at the obstacle's pose", function()
     local run = passing(bar, 40, spin)
     local document = run:document()
     local zone = document.zones[1]
     for _, frame in ipairs(document.frames) do
       local pose = solid.carried(zone, frame)
-      assert.is_near(-0.3 + 0.6 * frame.t, pose.position[2], 1e-6) -- frames have short numbers
+      assert.is_near(-0.3 + 0.6 * frame.t, pose.position[2], 1e-6) -- frames have rounded numbers
       assert.is_near(math.abs(math.cos(math.pi / 2 * frame.t)), math.abs(pose.rotation[1]), 1e-6)
     end
     assert.is_nil(solid.carried(zone, { obstacles = { false } }))
   end)
 
-  it("goes on from a file and after a snapshot", function()
+  it("still moves after a file and after a snapshot", function()
     local file = os.tmpname()
     local _, scene = passing(ball, 40, nil, function(scene) scene:save(file) end)
     assert.truthy(scene:script():find("on = hand", 1, true))
@@ -366,7 +369,7 @@ describe("a zone on an obstacle", function()
   end)
 
   for words, on in pairs{ ["expects an obstacle of the scene, got number 3"] = 3, ["got table"] = {} } do
-    it("refuses what is none: " .. words, function()
+    it("refuses an invalid obstacle: " .. words, function()
       local scene = sw.scene{}
       local fine, why = pcall(scene.zone, scene, { shape = "sphere", radius = 1, on = on })
       assert.is_false(fine)

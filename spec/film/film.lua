@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Reads a film as csrc/film/film.h describes it: inflates it (RFC 1950, 1951) and decodes its tracks.
+-- Reads a film in the format of csrc/film/film.h: inflates it (RFC 1950, 1951) and decodes its tracks.
 local film = {}
 
 -- --- inflate ------------------------------------------------------------------------------
 
--- Canonical Huffman code of lengths (1-based): decode(bit) -> symbol from 0.
+-- Canonical Huffman code of a list of code lengths (from 1): returns decode(bit) -> symbol, from 0.
 local function huffman(lengths)
   local count, offset, symbols = {}, {}, {}
   for l = 0, 15 do count[l] = 0 end
@@ -107,7 +107,8 @@ end
 
 local kinds = { "wire", "value", "surface", "pressed", "particles", "obstacle", "hold", "tool" }
 
---- { times, tracks = { { kind, channel, width, object, line, scale, offset, frames = { flat numbers } } } }
+--- Returns { times, tracks = { { kind, channel, width, object, line, scale, offset, frames = { flat numbers }
+-- } } }.
 function film.read(packed)
   local bytes = film.inflate(packed)
   assert(bytes:sub(1, 8) == "SWFILM1\n")
@@ -151,7 +152,7 @@ function film.read(packed)
   return result
 end
 
---- The track of a kind, of an object from 0, of a channel.
+--- Returns the track of a kind, an object (from 0) and a channel.
 function film.track(read, kind, object, channel)
   for _, t in ipairs(read.tracks) do
     if t.kind == kind and t.object == object and t.channel == (channel or 0) then return t end

@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Frames: what they hold and that they stay within their memory; films: what comes back from them.
+-- Frames: their values and their bounded memory. Films: the values read back, within the quantisation of a
+-- track.
 local sw = require "softworld"
 local core = require "softworld.core"
 local film = require "spec.film.film"
 
--- A wire is drawn over an edge, by a gripper; obstacles press on it.
+-- A gripper draws a wire over an edge; obstacles press on the wire.
 local function laying(options)
   local scene = sw.scene { name = "film" }
   scene:obstacle { name = "table", shape = "plane", friction = 0.3 }
@@ -33,7 +34,7 @@ local function largest(list)
 end
 
 describe("frames", function()
-  it("hold what the wire tells of its nodes", function()
+  it("hold the same values as the wire gives at its nodes", function()
     local scene, _, wire = laying()
     scene:run { duration = 0.02, dt = 0.005, frame = 0.005 } -- every step: the last frame is the present
     local values = scene:frame(scene:frame_count()).values[1]
@@ -42,9 +43,9 @@ describe("frames", function()
     assert.equal(#arc, #values.tension)
     for i = 2, #arc - 1 do
       local s = arc[i]
-      -- read at places that are rounded to 0.6 m / 2^20, 4e-5 of an edge
+      -- arc lengths are rounded to 0.6 m / 2^20, which is 4e-5 of an edge
       assert.near(wire:curvature(s), values.curvature[i], 1e-4 * largest(values.curvature))
-      -- the mean of both edges, whose tension is that at their middles; arc lengths are rounded
+      -- the mean of both edges, each with the tension at its middle; arc lengths are rounded
       local mean = 0.5 * (wire:tension((arc[i - 1] + s) / 2) + wire:tension((s + arc[i + 1]) / 2))
       assert.near(mean, values.tension[i], 1e-3 * largest(values.tension))
       local stress = values.tension[i] / (math.pi * 0.0025 ^ 2) + 50e6 * 0.0025 * values.curvature[i]
@@ -52,7 +53,7 @@ describe("frames", function()
     end
   end)
 
-  it("hold the force of obstacles and holds: those on the wire are those on the obstacle", function()
+  it("hold the forces of obstacles and holds: the forces on wire and obstacles balance", function()
     local scene = laying()
     local seen = 0
     local read = film.read((core.film(scene, -math.huge, math.huge, true)))
@@ -63,7 +64,8 @@ describe("frames", function()
       local on = frame.obstacles
       for k = 1, 3 do
         local others = on[1].force[k] + on[2].force[k]
-        -- what a step's blows add to its mean is not in the state's forces: look at calm frames
+        -- only calm frames count: impacts within a step are in its mean force, but not in the forces of the
+        -- state
         if math.abs(sum[k] + others) < 0.02 then seen = seen + 1 end
       end
     end
@@ -72,7 +74,7 @@ describe("frames", function()
     assert.is_true(held.held and held.force[3] > 0.01)
   end)
 
-  it("know the twist moment of a rod", function()
+  it("hold the twist moment of a rod", function()
     local scene = sw.scene { gravity = { 0, 0, 0 } }
     local wire = scene:wire { E = 1e8, density = 1500, radius = 2e-3, from = { 0, 0, 0 },
       to = { 0.5, 0, 0 }, segments = 20, model = "rod" }
@@ -92,10 +94,11 @@ describe("frames", function()
     local count = scene:frame_count()
     local stride = core.frames_thinned(scene)
     assert.is_true(stride >= 4)
-    -- a frame: 41 nodes or two more of 3 + 9 floats
+    -- a frame: 41 nodes, or two more, of 3 + 9 floats
     assert.is_true(count * 41 * 12 * 4 < 60e3 and count >= 3)
     for i = 2, count do
-      -- steps of 5 ms end where the process goes on, and a frame is stored at the step that reaches its time
+      -- steps of 5 ms end where the process continues; a frame is stored at the first step that reaches its
+      -- time
       assert.near(0.005 * stride, scene:frame(i).t - scene:frame(i - 1).t, 0.005)
     end
     local text = {}
@@ -103,7 +106,7 @@ describe("frames", function()
     assert.truthy(table.concat(text):find("one of so many is kept", 1, true))
   end)
 
-  it("are not stored when they are not wanted, with the same bits", function()
+  it("are not stored when switched off, and the results keep every bit", function()
     local scene, run = laying { frames = false }
     local _, other = laying()
     assert.equal(0, scene:frame_count())
@@ -132,7 +135,7 @@ describe("frames", function()
     assert.is_true(scene:frame(scene:frame_count()).t <= 0.2 + 1e-9)
   end)
 
-  it("refuse what is no memory", function()
+  it("refuse an invalid memory limit", function()
     local scene = sw.scene {}
     scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
     for given, told in pairs { [{ memory = 10 }] = "memory", [{ memry = 1e6 }] = "did you mean 'memory'",
@@ -147,14 +150,14 @@ describe("frames", function()
 end)
 
 describe("a film", function()
-  it("gives places back within a thousandth of the radius, all along", function()
+  it("gives positions back within a thousandth of the radius, at every frame", function()
     local scene = laying()
     local packed, frames, broken = core.film(scene, -math.huge, math.huge, true)
     local read = film.read(packed)
     assert.equal(scene:frame_count(), frames)
     assert.equal(0, broken)
     local places = film.track(read, "wire", 0)
-    local worst = { 0, 0 } -- in the first and the second half of the frames
+    local worst = { 0, 0 } -- in the first and in the second half of the frames
     for f = 1, frames do
       local frame = scene:frame(f)
       assert.equal(frame.t, read.times[f])
@@ -164,12 +167,12 @@ describe("a film", function()
         worst[half] = math.max(worst[half], math.abs(x - places.frames[f][i]))
       end
     end
-    -- half a step by rounding: errors of differences do not add up
+    -- half a step of rounding: the errors of differences between frames do not add up
     for _, error_of in ipairs(worst) do assert.is_true(error_of <= 0.5e-3 * 0.0025 * (1 + 1e-6)) end
     assert.is_true(worst[1] > 0)
   end)
 
-  it("gives quantities back within their range over 4095, poses and arc lengths too", function()
+  it("gives values back within their range over 4095, and poses and arc lengths", function()
     local scene = laying()
     local read = film.read((core.film(scene, -math.huge, math.huge, true)))
     local names = { "tension", "curvature", "contact", "twist_moment", "stress" }
@@ -197,7 +200,7 @@ describe("a film", function()
     end
   end)
 
-  it("has the surface of a mesh, and its numbers of nodes as they change", function()
+  it("has the surface of a mesh", function()
     local scene = sw.scene {}
     scene:obstacle { shape = "plane" }
     local wire = scene:wire { E = 5e6, density = 1200, radius = 0.005, from = { 0, 0, 0.006 },
@@ -215,7 +218,7 @@ describe("a film", function()
     assert.truthy(wire)
   end)
 
-  it("of a run that failed has places and no results", function()
+  it("of a failed run has positions and no results", function()
     local scene = laying()
     local read = film.read((core.film(scene, -math.huge, math.huge, false)))
     for _, t in ipairs(read.tracks) do
@@ -224,7 +227,7 @@ describe("a film", function()
     end
   end)
 
-  it("takes the frames of a span of time, or none", function()
+  it("takes the frames of a time span, or none", function()
     local scene = laying()
     local _, frames = core.film(scene, 0.1, 0.2, true)
     local expected = 0
@@ -239,7 +242,7 @@ describe("a film", function()
     assert.equal(0, #film.read(packed).tracks)
   end)
 
-  it("packs bytes as zlib and text as base64 do", function()
+  it("packs bytes as zlib does and text as base64 does", function()
     local text = ("laying a wire, "):rep(300) .. "\0\255"
     assert.equal(text, film.inflate(core.deflate(text)))
     assert.is_true(#core.deflate(text) < 100)

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A few cases of random calls, as `make fuzz` does by the thousand, and that they would tell.
+-- A few cases of random calls of the kind that `make fuzz` does by the thousand; and that findings are
+-- reported.
 local program = require "host.program"
 local quote = program.quote
 
@@ -21,7 +22,7 @@ describe("random calls", function()
     end)
   end
 
-  for _, seed in ipairs{ 400000, 720010, 800006 } do -- that found something
+  for _, seed in ipairs{ 400000, 720010, 800006 } do -- seeds that once found something
     it(("find nothing any more: seed %d"):format(seed), function()
       local out, code = fuzz(("seed=%d calls=150 shrink=0 cpu=120 slow=60 out=%s"):format(seed,
         quote(program.folder())))
@@ -30,7 +31,7 @@ describe("random calls", function()
     end)
   end
 
-  it("tell how often each method was reached", function()
+  it("report how often each method was reached", function()
     local out = fuzz(("seed=1 calls=100 per=100 shrink=0 cpu=120 slow=60 reach=1 out=%s"):format(
       quote(program.folder())))
     local fine, called = out:match "(%d+) of +(%d+)  scene%.run\n"
@@ -57,7 +58,7 @@ describe("random calls", function()
     assert.equal(first, log())
   end)
 
-  it("are told when they are no good", function()
+  it("report bad errors", function()
     local wire = "v[1]:wire{ cable = 'GXL 1.5', from = { 0, 0, 0 }, to = { 1, 0, 0 } }"
     local good = "v[1] = sw.scene{}\n\nreturn v[1].name\n\n"
     for _, case in ipairs{ { "return 1", "0 findings" },
@@ -75,7 +76,7 @@ describe("random calls", function()
     end
   end)
 
-  it("tell of numbers that are none after a run that is ok", function()
+  it("report invalid numbers after a run that says ok", function()
     local out = replayed [=[
 v[1] = sw.scene{}
 

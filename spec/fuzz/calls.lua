@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Arguments of the calls that need more than one guess: what a method takes, as Lua text. What is
--- not listed here gets guesses of all kinds.
+-- Arguments, as Lua text, of the methods that need more than one guess. Other methods get guesses of all
+-- kinds.
 local o = require "fuzz.objects"
 local words = require "fuzz.words"
 local samples = require "contract.samples"
@@ -206,7 +206,7 @@ for _, name in ipairs{ "position", "tangent", "curvature", "tension", "strain", 
   by_call["wire." .. name] = o.at_place
 end
 
--- How often a method is called among those of its kind; 1 when not listed.
+-- How often a method is called among the methods of its kind; 1 when not listed.
 calls.weights = { ["scene.run"] = 14, ["scene.settle"] = 3, ["scene.wire"] = 3, ["scene.gripper"] = 3,
   ["scene.process"] = 12, ["scene.clamp"] = 3, ["scene.pin"] = 2, ["scene.grip"] = 2, ["scene.feed"] = 2,
   ["scene.obstacle"] = 2, ["scene.force"] = 5, ["scene.close"] = 0.05, ["scene.clip"] = 2,
@@ -240,7 +240,7 @@ local function guess(r, learned)
   return r.of{ words.callback(r), words.hostile(r), r.pick "any" .. ", " .. fields, "'a'" }
 end
 
---- Text of the arguments of a call; learned: names of parameters that its errors told.
+--- Text of a call's arguments; learned: names of parameters that its error messages gave.
 function calls.arguments(r, call, learned)
   if r.chance(0.1 * r.hostility) then return words.hostile(r) .. ", " .. words.hostile(r) end
   local make = by_call[call]

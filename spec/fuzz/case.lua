@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Random cases: calls made up one after the other from what there is by then. A seed gives the
--- same case every time.
+-- Random cases: each call is made up from the objects that exist by then. A seed always gives the same case.
 local sw = require "softworld"
 local calls = require "fuzz.calls"
 local checked = require "fuzz.checked"
@@ -29,7 +28,7 @@ local function add(self, text)
       self.slots[#self.slots + 1] = n
     end
   end
-  if not results[1] and type(results[2]) == "string" and self.last then -- what it would have taken
+  if not results[1] and type(results[2]) == "string" and self.last then -- names that it would have taken
     local list = results[2]:match "known are:? ([%w_ ,]+)"
     if list and not results[2]:find "unit" then
       local names = {}
@@ -45,7 +44,7 @@ local function slot(self)
   return self.last_slot
 end
 
--- Slots of things that are there; a few that are not any more stay in it.
+-- Slots of existing objects; a few slots of removed objects stay in the list.
 local function live(self, list)
   local there = {}
   for _, n in ipairs(list or {}) do
@@ -65,7 +64,7 @@ local function pick(self, kind)
   return ("v[%d]"):format(list[r.chance(0.5) and #list or r.whole(1, #list)])
 end
 
--- A name of the object at slot n by weight: name and whether it is a method.
+-- A member of the object at slot n, chosen by weight: its name, and whether it is a method.
 local function member_of(self, n)
   local object, kind = self.case.v[n], self.kinds[n]
   local fine, names = pcall(checked.names_of, object)
@@ -91,14 +90,14 @@ local function is_thin(wire)
   return not fine or thin
 end
 
--- One call or reading of an object, and its "kind.name".
+-- One call of a method or reading of a field, and its "kind.name".
 local function use(self, n)
   local name, method = member_of(self, n)
   local call = self.kinds[n] .. "." .. name
   if not method then return ("v[%d].%s"):format(n, name), call end
   if call == "scene.process" then return nil, call end
   local arguments = calls.arguments(self.r, call, self.learned[call])
-  if name == "remodel" and is_thin(self.case.v[n]) then -- tens of thousands of particles
+  if name == "remodel" and is_thin(self.case.v[n]) then -- it has tens of thousands of particles
     arguments = self.r.of{ "{ model = 'string' }", "{ model = 'rod' }",
       "{ model = 'tube', region = { 0.1, 0.12 } }", "{ model = 'radial', region = { 0, 0.02 } }" }
   end
@@ -128,7 +127,7 @@ local function statement(self, depth)
   return use(self, r.of(self.slots)) or "coroutine.yield(1)"
 end
 
--- The scene of a gripper, and a wire of it, if there are such.
+-- The scene of a gripper and a wire of this scene, if they exist.
 local function of_one_scene(self, gripper)
   local g = self.case.v[tonumber(gripper:match "%d+" or 0)]
   local fine, scene = pcall(function() return g.scene end)
@@ -143,7 +142,7 @@ local function of_one_scene(self, gripper)
       or pick(self, "wire")
 end
 
--- What a process engineer would write, on one gripper and wire.
+-- A sequence that a process engineer would write, with one gripper and one wire.
 local function sequence(self)
   local r, g = self.r, pick(self, "gripper")
   local scene, w = of_one_scene(self, g)
@@ -212,7 +211,7 @@ local function of_module(self)
   return ("v[%d] = %s(%s)"):format(slot(self), name, arguments)
 end
 
--- Wires of thousands of particles take long for a step; they get few.
+-- Wires of thousands of particles take long for a step, so they get few steps.
 local function is_heavy(self)
   for _, n in ipairs(self.of_kind.wire or {}) do
     local fine, points = pcall(function() return self.case.v[n]:particles() end)
@@ -236,7 +235,7 @@ local function step(self)
   if what <= 10 then
     return ("v[%d].%s = %s"):format(r.of(self.slots), r.of(words.names), words.value(r, r.of(words.names)))
   end
-  local list = live(self, what <= 55 and self.of_kind.scene or self.slots) -- scenes are where all comes from
+  local list = live(self, what <= 55 and self.of_kind.scene or self.slots) -- most objects come from scenes
   local n = #list > 0 and r.of(list) or r.of(self.slots)
   local text, call = use(self, n)
   self.last = call
@@ -255,7 +254,7 @@ local function step(self)
   return "return " .. text
 end
 
--- One of the numbers of a call replaced by something hostile.
+-- The text of a call with one of its numbers replaced by a hostile value.
 local function spoilt(r, text)
   local places = {}
   for from, to in text:gmatch "= ()%-?%d[%d%.e%-]*()" do places[#places + 1] = { from, to } end
@@ -264,7 +263,7 @@ local function spoilt(r, text)
   return text:sub(1, at[1] - 1) .. words.hostile(r) .. text:sub(at[2])
 end
 
--- A scene with a wire, so that most calls have something to work on.
+-- A scene with a wire, so that most calls have an object to work on.
 local function begin(self)
   local r = self.r
   if r.chance(0.8) then
@@ -289,8 +288,8 @@ local function begin(self)
   end
 end
 
---- Make up and do `count` calls. options: files (folder), log(text) before each call, report(kind,
--- text) for what is found.
+--- Makes up and runs `count` calls. options: files (folder), log(text) before each call, report(kind, text)
+-- for each finding.
 function case.run(seed, count, options)
   local self = setmetatable({ log = options.log, case = checked.new(options.files, options.report),
     kinds = {},
@@ -309,7 +308,7 @@ function case.run(seed, count, options)
   return self.made
 end
 
---- Do the calls of a list of texts again.
+--- Runs the calls of a list of texts again.
 function case.replay(list, options)
   local done = checked.new(options.files, options.report)
   done.slow = options.slow or done.slow

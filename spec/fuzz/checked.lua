@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs the calls of a case and looks at what each of them did: errors that tell nothing, objects
--- left half changed, numbers that are not finite after a run that says ok, calls that take long.
+-- Runs the calls of a case and checks the effects of each: useless error messages, objects left half
+-- changed, numbers that are not finite after a run that says ok, calls that take long.
 local sw = require "softworld"
 local core = sw.core
 local hostile = require "fuzz.hostile"
@@ -16,7 +16,7 @@ local function kind_of(object)
 end
 checked.kind_of = kind_of
 
---- Names that an object answers to, in order.
+--- Names of an object's members, sorted.
 function checked.names_of(object)
   local meta, names = getmetatable(object), {}
   if type(meta) ~= "table" then return names end
@@ -52,13 +52,13 @@ local library = { tostring = true, ipairs = true, pairs = true, next = true, ins
     read = true,
   lines = true, byte = true, char = true, error = true }
 
--- Why the message of an error is of no use, or nil.
+-- Returns why an error message is useless, or nil.
 local function poor(message, asked_memory)
   if message == hostile.marked then return nil end
   if type(message) ~= "string" then return "an error that is a " .. type(message) end
   if message:find("raised by the caller", 1, true) then return nil end
   if message:find "^case:%d+: attempt" or message:find "^%[string \"case\"%]" then return nil end
-  if message:find "fuzz/hostile%.lua:%d+: attempt" then return nil end -- callbacks' own
+  if message:find "fuzz/hostile%.lua:%d+: attempt" then return nil end -- errors of the callbacks themselves
   for _, pattern in ipairs(raw) do
     if message:find(pattern) then return "a raw error" end
   end
@@ -71,7 +71,7 @@ end
 
 -- --- numbers --------------------------------------------------------------------------
 
--- The first number within value that is none, as "[key].x = nan".
+-- Returns the first number within value that is not a number, as "[key].x = nan".
 local function wrong_number(value, path, infinite, depth)
   if type(value) == "number" then
     if value ~= value then return path .. " = nan" end
@@ -82,7 +82,7 @@ local function wrong_number(value, path, infinite, depth)
     table.sort(keys, function(a, b) return tostring(a) < tostring(b) end)
     for _, key in ipairs(keys) do
       local inside = infinite or type(key) == "string" and (key:find "radius" or key:find "limit"
-        or key:find "smallest" or key == "error") -- an error bar of what the data do not tell
+        or key:find "smallest" or key == "error") -- an error bar where the data give none
       local found = wrong_number(rawget(value, key), ("%s.%s"):format(path, type(key) == "number" and "#"
         or tostring(key)), inside, depth + 1)
       if found then return found end
@@ -102,7 +102,7 @@ local no_reading = { close = true, release = true, remove = true, restore = true
 
 local of_body = { wire = true, particles = true }
 
--- Every number that an object tells.
+-- Reads every number that an object gives.
 local function read_outs(object, kind)
   for _, name in ipairs(checked.names_of(object)) do
     if not no_reading[name] then
@@ -126,13 +126,13 @@ end
 local Case = {}
 Case.__index = Case
 
---- A case; report(kind, text) takes what is found. files: a folder of its own.
+--- A case; report(kind, text) receives the findings. files: a folder for the case alone.
 function checked.new(files, report)
   local self = setmetatable({ v = {}, slow = 6, written = setmetatable({}, { __mode = "k" }) }, Case)
   function self.report(kind, text) report(kind, ("%s, in: %s"):format(text, self.doing)) end
   local T, F = hostile.make(self.v)
   self.v.dir = files
-  lfs.link("/dev/full", files .. "/full", true) -- a link: a device must not be replaced by mistake
+  lfs.link("/dev/full", files .. "/full", true) -- a link, so that the device is not replaced by mistake
   local function try(f, ...)
     local results = table.pack(pcall(f, ...))
     if results[1] then return table.unpack(results, 2, results.n) end
@@ -165,7 +165,7 @@ local function flat(value)
   return table.concat(list, " ")
 end
 
--- What can be seen of all scenes, as a list of texts.
+-- The visible state of all scenes, as a list of texts.
 local function picture(self)
   local list = {}
   local function add(label, f, ...)
@@ -189,7 +189,7 @@ local function picture(self)
   return list
 end
 
--- Calls that may go part of the way before they fail.
+-- Calls that may do part of their work before they fail.
 local going = { "run", "settle", "advance", "restore", "resume", "close", "F%.", "process", "v%[%d+%] = nil",
   "core%.", "handover", "thaw", "freeze", "finish", "collect", "%.load", "clear" }
 
@@ -200,13 +200,13 @@ local function whole(text)
   return true
 end
 
--- What gives no numbers of the state.
+-- Members that give no numbers of the state.
 local PLAIN = { run = true, ledger = true, process = true, snapshot = true, shape = true, trajectory = true }
 
 local function check_run(self, result)
   if not (kind_of(result) == "run" and result.ok) then return end
   for _, entry in ipairs(objects(self)) do
-    -- what a ledger says is checked below: scripts may write into the table
+    -- ledgers are checked below; scripts may write into other tables
     if not PLAIN[entry.kind] then
       local mine = true
       if entry.kind == "scene" then mine = entry.object == result.scene end
@@ -222,7 +222,7 @@ local function sum_of(list)
   return sum, size
 end
 
--- The energy ledger of a run that says ok: finite, closed, and nothing from nowhere.
+-- Checks the energy ledger of a run that says ok: finite and closed, with no energy out of nowhere.
 local function check_ledger(self, result)
   if not (kind_of(result) == "run" and result.ok) then return end
   local book = result:ledger()
@@ -238,12 +238,12 @@ local function check_ledger(self, result)
   if math.abs(open) > 1e-6 * size then
     self.report("ledger", ("open by %.3g J of %.3g J"):format(open, size))
   end
-  if book.gained > 0.05 * book.play then -- such a run must not say ok
+  if book.gained > 0.05 * book.play then -- a run that says ok must not gain this much
     self.report("ledger", ("%.3g J gained, %.3g J in play"):format(book.gained, book.play))
   end
 end
 
---- Do one call, given as text. Returns pcall's results.
+--- Runs one call, given as text. Returns pcall's results.
 function Case:call(text)
   local chunk, why = load(text, "=case", "t", self.env)
   if not chunk then return false, why end
@@ -251,7 +251,7 @@ function Case:call(text)
     or text:find "1e300" or text:find "long" or text:find "huge"
   self.doing = text:sub(1, 300)
   local written = tonumber(text:match "^v%[(%d+)%]%.[%w_]+ = ")
-  if written then self.written[self.v[written] or 0] = true end -- what the case writes may be no number
+  if written then self.written[self.v[written] or 0] = true end -- the case may write anything, also nan
   local before, acted = whole(text) and picture(self), hostile.acted
   local began = os.clock()
   local results = table.pack(pcall(chunk))
@@ -262,9 +262,9 @@ function Case:call(text)
     local message = results[2]
     local bad = poor(message, self.memory)
     if bad then self.report("error", ("%s: %s"):format(bad, tostring(message))) end
-    if before and hostile.acted == acted then -- else a function of the script's own did it
+    if before and hostile.acted == acted then -- otherwise a callback of the script changed it
       local after = picture(self)
-      for i = 1, #after < #before and 0 or #after do -- a callback may forget its objects
+      for i = 1, #after < #before and 0 or #after do -- a callback may drop its objects
         if before[i] ~= after[i] then
           self.report("changed", ("an error, and yet changed: %s (%s)"):format(
             tostring(before[i]):match "^[^)]*%) %a+", tostring(message)))
@@ -282,7 +282,7 @@ function Case:call(text)
   return table.unpack(results, 1, results.n)
 end
 
---- At the end: what is left when nothing is used any more.
+--- At the end: the memory left when nothing is used any more.
 function Case:finish()
   for key in pairs(self.v) do self.v[key] = nil end
   self.env = nil

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A small part of what scripts/fuzz_files.lua does for hours: damaged files of every kind.
+-- A small part of the work that scripts/fuzz_files.lua does for hours: damaged files of every kind.
 local program = require "host.program"
 
 local SCRIPT = program.root .. "/scripts/fuzz_files.lua"
 
 describe("damaged files", function()
   for _, seed in ipairs { 1, 2, 3 } do
-    it("give what they are for or an error that names them: seed " .. seed, function()
+    it("load, or give an error that names them: seed " .. seed, function()
       local out, _, code = program.run { SCRIPT, "--seed", tostring(seed), "--bytes", "6e5", "--quiet" }
       assert.equal(0, code, out)
       local cases, bytes, refused = out:match "(%d+) cases, (%d+) bytes, (%d+) refused, 0 found\n$"
@@ -32,7 +32,7 @@ describe("damaged files", function()
     program.clean()
   end)
 
-  it("that end the program are found", function()
+  it("are reported when they end the program", function()
     local folder = program.folder()
     local text, count = program.read(SCRIPT):gsub("math%.randomseed%(seed, number%)",
       "%0\n  if number == 9 then os.exit(3, true) end")

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What random calls hand in besides numbers and texts: tables that raise, and functions that do
--- what a function called back should not do.
+-- Hostile arguments for random calls, besides numbers and texts: tables that raise errors, and callbacks
+-- that do what a callback should not do.
 local sw = require "softworld"
 local core = sw.core
 
-local hostile = { acted = 0 } -- how often a function that was called back did something to an object
+local hostile = { acted = 0 } -- how often a callback changed an object
 
 local function raises() error("raised by the caller", 0) end
 
@@ -26,7 +26,7 @@ local function tables()
   return T
 end
 
--- Functions that are the same for every object.
+-- Callbacks that do not depend on an object.
 local function plain(v)
   local F, count, marked = {}, 0, { "thrown by the caller" }
   hostile.marked = marked
@@ -71,7 +71,7 @@ local function plain(v)
   return F
 end
 
--- Functions that do something to an object; each does it a few times only.
+-- Callbacks that change an object; each does so only a few times.
 local function with_objects(F, v)
   local function make(name, act)
     F[name .. "_it"] = function(object)
@@ -101,7 +101,7 @@ local function with_objects(F, v)
   end)
 end
 
---- T, F for the objects v of a case.
+--- Returns T (tables and texts) and F (callbacks) for the objects v of a case.
 function hostile.make(v)
   local F = plain(v)
   with_objects(F, v)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Random arguments of what a scene is made of: wires, holds, obstacles, forces, runs, moves.
+-- Random arguments for the parts of a scene: wires, holds, obstacles, forces, runs, moves.
 local sw = require "softworld"
 local words = require "fuzz.words"
 local samples = require "contract.samples"
@@ -106,7 +106,7 @@ local function tolerance(r)
   return ("{ ['%s'] = %s }"):format(r.of(quantities), words.or_hostile(r, r.size(-3, 1)))
 end
 
--- Every run ends: it has few steps, whatever else it is given.
+-- Every run ends, because it has few steps; its other arguments are random.
 function objects.run(r)
   local fixed = {}
   if r.chance(0.75) then fixed[1] = { "duration", words.or_hostile(r, r.size(-2.5, -0.5)) } end
@@ -188,7 +188,7 @@ function objects.section_words(r)
     "composite" }]), 0.05, { { "mesh", words.value(r, "mesh") }, { "cable", words.value(r, "cable") } })
 end
 
--- A study of few evaluations, of one number or of a scene.
+-- A study with few evaluations, of a number or of a scene.
 function objects.study(r)
   local evaluate = r.of{ "function(p) return { r = p.x, q = p.x * p.x } end",
     "function(p, s) return { r = p.x, q = s and s.time or 0 } end",
@@ -218,7 +218,7 @@ function objects.few(name, count)
   return { name, ("%d"):format(count) }
 end
 
--- A picture or a film of a few pixels, into the case's folder; none that other programs draw for minutes.
+-- A picture or film of a few pixels, written to the case's folder; no external program draws for minutes.
 function objects.drawing(name, ...)
   local keys = { ... }
   return function(r)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Which methods random calls reach: how often each was called, and how often without an error.
--- Watching puts a function around each method, so places in messages may differ.
+-- Counts the methods that random calls reach: how often each was called, and how often without an error.
+-- Watching wraps a function around each method, so places in messages may differ.
 local core = require("softworld").core
 
 local reach = { counts = {} }
@@ -19,7 +19,7 @@ local function watched(method, count)
   end
 end
 
---- Count the calls of the methods of this class from now on.
+--- Counts the calls of this class's methods from now on.
 function reach.watch(kind, class)
   if seen[class] then return end
   seen[class] = true
@@ -36,7 +36,7 @@ function reach.watch(kind, class)
   end
 end
 
---- All classes of the core; those of tables when there is an object.
+--- Watches all classes of the core, and classes made in Lua as soon as an object exists.
 function reach.begin()
   for kind, class in pairs(core.class) do reach.watch(kind, class) end
 end
@@ -46,7 +46,7 @@ function reach.object(object, kind)
   if type(object) == "table" and type(meta) == "table" then reach.watch(kind, meta) end
 end
 
---- The counts as lines of a file, and those of many files added up.
+--- Returns the counts as lines of a file; sums those of many files.
 function reach.text()
   local lines = {}
   for name, count in pairs(reach.counts) do
@@ -63,7 +63,7 @@ function reach.add(sums, text)
   end
 end
 
---- What was called, the least reached first.
+--- Returns the called methods, the least reached first.
 function reach.list(sums)
   local names = {}
   for name in pairs(sums) do names[#names + 1] = name end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Scenes that work, for random calls to begin from: put(text) does "v[n] = text" and gives "v[n]".
+-- Valid scenes for random calls to start from: put(text) does "v[n] = text" and returns "v[n]".
 local samples = require "contract.samples"
 local words = require "fuzz.words"
 

@@ -1,24 +1,24 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Arguments of random calls as Lua text: plausible ones by their name or parameter row, and
--- hostile ones that may stand in the place of any other.
+-- Arguments of random calls as Lua text: plausible values by name or parameter row, and hostile values that
+-- may replace any other.
 local sw = require "softworld"
 local core = sw.core
 local samples = require "contract.samples"
 
 local words = {}
 
---- What a case draws from: whole numbers, shares, members of lists; `hostility` is the share
--- of arguments that are hostile. `pick(kind)` gives the text of an object of a kind.
+--- The random source of a case: whole numbers, shares, members of lists. `hostility` is the share of hostile
+-- arguments. `pick(kind)` gives the text of an object of a kind.
 function words.source(seed, hostility, pick)
   local random = samples.random(seed)
-  for _ = 1, 8 do random(0, 1) end -- seeds near to each other begin alike
+  for _ = 1, 8 do random(0, 1) end -- nearby seeds start alike
   local r = { hostility = hostility, pick = pick }
   function r.share() return random(0, 1) end
   function r.chance(p) return random(0, 1) < p end
   function r.whole(low, high) return math.min(high, low + math.floor(random(0, 1) * (high - low + 1))) end
   function r.of(list) return list[r.whole(1, #list)] end
   function r.between(low, high) return ("%.4g"):format(random(low, high)) end
-  function r.size(low, high) return ("%.3g"):format(10 ^ random(low, high)) end -- by powers of ten
+  function r.size(low, high) return ("%.3g"):format(10 ^ random(low, high)) end -- log-uniform
   return r
 end
 
@@ -31,13 +31,13 @@ local hostile = { "nan", "huge", "-huge", "1e300", "-1e300", "1e-300", "5e-324",
   "coroutine.create(print)", "v", "{ axis = { 0, 0, 0 }, angle = 1 }", "{ 0, 0, 0, 0 }", "F.raise", "F.yield",
   "F.nothing", "F.nonsense", "F.nans", "F.collect", "\"2\"", "2^31", "-2^31", "1e-12", "1e12" }
 
---- Text of something that hardly fits anywhere.
+--- Text of a value that hardly fits anywhere.
 function words.hostile(r)
   if r.chance(0.15) then return r.pick "any" end
   return r.of(hostile)
 end
 
--- The given text, or now and then a hostile one instead.
+-- The given text, or sometimes a hostile one.
 local function or_hostile(r, text)
   if r.chance(r.hostility) then return words.hostile(r) end
   return text
@@ -78,7 +78,7 @@ end
 
 local function indices(r) return list_of(r, r.whole(1, 4), function() return tostring(r.whole(1, 7)) end) end
 
--- Values of what has no row, or where the row does not tell what is sensible.
+-- Values of arguments without a row, or whose row does not give a sensible range.
 local by_name = {
   s = function(r) return r.between(0, 0.6) end,
   from = function(r) return words.vector(r, 0.2) end,
@@ -174,7 +174,7 @@ local by_name = {
   times = function() return "{ 0, 0.1 }" end, law_ = function() return "'linear'" end,
 }
 
---- A function that is called back.
+--- Text of a callback.
 function words.callback(r)
   local name = r.of{ "raise", "raise_table", "yield", "nonsense", "nans", "collect", "nothing", "number",
     "way",
@@ -217,7 +217,7 @@ local function by_row(r, row)
   return by_name.point(r)
 end
 
--- Every row by name; several tables may have one of the name.
+-- Every row by name; several tables may have a row of the same name.
 local rows = {}
 local function learn(list)
   for _, row in ipairs(list) do
@@ -234,7 +234,7 @@ for _, family in ipairs{ "forces", "holds", "shapes" } do
 end
 learn(core.trajectory_parameters())
 
---- Text of a value that a parameter of this name may have.
+--- Text of a possible value for a parameter of this name.
 function words.value(r, name, row)
   local text
   if by_name[name] and not (row and row.type == "vector" and name == "force") then text = by_name[name](r)
@@ -248,8 +248,8 @@ end
 
 local function key_text(key) return key:find "^%a[%w_]*$" and key or ("[%q]"):format(key) end
 
---- A table constructor with some of the keys (each with probability `share`), and always those
--- of `fixed`, a list of { key, text }.
+--- A table constructor with some of the keys (each with probability `share`), and always the keys of `fixed`,
+-- a list of { key, text }.
 function words.table_of(r, keys, share, fixed)
   local list, has = {}, {}
   for _, pair in ipairs(fixed or {}) do
@@ -271,7 +271,7 @@ function words.table_of(r, keys, share, fixed)
   return "{ " .. table.concat(list, ", ") .. " }"
 end
 
---- Names of parameters that there are.
+--- Names of existing parameters.
 words.names = {}
 for name in pairs(by_name) do words.names[#words.names + 1] = name end
 for name in pairs(rows) do

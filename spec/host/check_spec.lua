@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- softworld --check SCRIPT: the exit code tells what the checks of the script found.
+-- softworld --check SCRIPT: the exit code gives the verdict of the script's checks.
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
 local program = dofile(here .. "/program.lua")
 
@@ -61,7 +61,7 @@ bad:clamp(b, { s = 0 })
 local r = bad:run{ duration = 1, dt = 1.2 * bad:stable_dt(), integrator = "velocity-verlet", unstable = true }
 ]]
 
-  it("exits with 3 where a run failed, looked at or not, checked or not", function()
+  it("exits with 3 when a run failed, whether or not the script looked at it or checked it", function()
     for _, rest in ipairs{ "", "assert(not r.ok)", "print(r:check{})" } do
       local _, err, code = check(wild .. rest .. "\nrun():check{ limits = none, checks = own(2) }")
       assert.equal(3, code, err)
@@ -70,7 +70,7 @@ local r = bad:run{ duration = 1, dt = 1.2 * bad:stable_dt(), integrator = "veloc
     assert.equal(3, code, err)
   end)
 
-  it("does not count what a search tries", function()
+  it("does not count the checks of runs that a search tries", function()
     local _, err, code = check([[
       sw.tune.minimise{ from = 0, to = 1, max_iterations = 3, f = function(x)
         run():check{ limits = none, checks = own(x - 1) }
@@ -81,19 +81,19 @@ local r = bad:run{ duration = 1, dt = 1.2 * bad:stable_dt(), integrator = "veloc
     assert.truthy(err:find("1 checks: 1 pass", 1, true), err)
   end)
 
-  it("leaves the exit code alone without the option", function()
+  it("keeps the exit code unchanged without the option", function()
     local name = program.write(program.folder() .. "/script.lua", start
       .. "run():check{ limits = none, checks = own(0.5) }")
     local _, err, code = program.run{ name }
     assert.same({ 0, "" }, { code, err })
   end)
 
-  it("hands its words to the script", function()
+  it("passes the arguments to the script", function()
     local out, _, code = check("print(arg[1])\nrun():check{ limits = none }", { "--check" })
     assert.same({ 0, "--check\n" }, { code, out })
   end)
 
-  it("wants a script, and neither the prompt nor the view", function()
+  it("needs a script, and refuses the prompt and the view", function()
     for words, wanted in pairs{ ["--check"] = "a script is missing after", ["--check -e 'x=1'"] =
       "a script is missing after", ["--check -i a.lua"] = "neither -i nor --view goes with",
       ["--check --view a.lua"] = "neither -i nor --view goes with" } do

@@ -24,7 +24,7 @@ local wire = "local w = s:wire{ name = 'w', E = 5e7, density = 1500, radius = 0.
 describe("softworld new", function()
   after_each(program.clean)
 
-  it("writes a script that runs, and that lint has nothing against", function()
+  it("writes a script that runs and passes lint without warnings", function()
     local folder = program.folder()
     local name = "it's \"my\" lay $x"
     local out, err, code = run(folder, "new " .. quote(name))
@@ -40,7 +40,7 @@ describe("softworld new", function()
     end
   end)
 
-  it("never writes over a file, and tells what is wrong", function()
+  it("never overwrites a file, and reports wrong names", function()
     local folder = program.folder()
     program.write(folder .. "/a.lua", "mine")
     local _, err, code = run(folder, "new a")
@@ -60,7 +60,7 @@ end)
 describe("softworld new, doc, lint", function()
   after_each(program.clean)
 
-  it("show the program's help where it is asked for, and write nothing", function()
+  it("show the program's help on request, and write nothing", function()
     local folder = program.folder()
     for _, words in ipairs { "new --help", "new -h", "doc --help", "lint -h" } do
       local out, err, code = run(folder, words)
@@ -106,9 +106,9 @@ describe("softworld lint", function()
       "s.lua:3: wire 'wire1': radius = 2.5 m is above 0.1 m; did you mean sw.units.mm(2.5)?" },
   }
   for _, case in ipairs(cases) do
-    it("on " .. case[1], function()
+    it("warns of " .. case[1], function()
       local out, err, code = lint(start .. case[2])
-      if case[4] == false then -- stiff, but not beyond steel
+      if case[4] == false then -- stiff, but not stiffer than steel
         return assert.is_nil(out:find(case[3], 1, true), out)
       end
       assert.same({ 1, "" }, { code, err })
@@ -116,14 +116,14 @@ describe("softworld lint", function()
     end)
   end
 
-  it("has nothing against a wire that lies on a table beside a wall", function()
+  it("has no warning for a wire that lies on a table beside a wall", function()
     local out, err, code = lint(start .. wire:format(100):gsub("0%.1}", "0.0025}")
       .. "s:obstacle{ shape = 'plane' }\n"
       .. "s:obstacle{ shape = 'box', size = {1, 0.1, 0.1}, at = {0.5, 0.0525, 0.05} }\n")
     assert.same({ 0, "", "s.lua: 0 warnings, 1 scene\n" }, { code, err, out })
   end)
 
-  it("runs nothing, and goes on behind runs", function()
+  it("runs nothing, and continues after the calls of run", function()
     local started = os.clock()
     local out, err, code = lint(start .. wire:format(100) .. [[
 local run = s:run{ duration = 1e6, dt = 1e-4 }
@@ -141,7 +141,7 @@ sw.plot{ run, path = "x.svg" }
     assert.is_nil(out:find("nil", 1, true))
   end)
 
-  it("says where it could not go on, and tells errors of the script", function()
+  it("says where it had to stop, and reports errors of the script", function()
     local out, err, code = lint(start .. wire:format(100)
       .. "local run = s:run{ duration = 1 }\nlocal x = ('%g'):format(run.time)\n")
     assert.same({ 0, "" }, { code, err })
@@ -159,7 +159,7 @@ sw.plot{ run, path = "x.svg" }
     end
   end)
 
-  it("has nothing against the examples", function()
+  it("has no warning for the examples", function()
     for _, name in ipairs { "01_hanging_cable", "03_laying", "04_two_grippers", "13_fabric" } do
       local folder = program.folder()
       local file = lfs.currentdir() .. "/examples/" .. name .. ".lua"
@@ -173,7 +173,7 @@ end)
 describe("softworld --log", function()
   after_each(program.clean)
 
-  it("appends what was run and how it ended, with remarks and errors", function()
+  it("appends each run and its end, with remarks and errors", function()
     local folder = program.folder()
     program.write(folder .. "/s.lua", start .. wire:format(10) .. [[
 s:obstacle{ shape = "plane", friction = 30, at = {0, 0, -9} }
@@ -187,7 +187,7 @@ local failed = s:run{ duration = 1, dt = 1.2 * s:stable_dt(), integrator = "velo
     local _, plain, code_without = run(folder, "s.lua")
     local out, err, code = run(folder, "--log log s.lua")
     assert.equal("printed\n", out)
-    assert.same({ code_without, plain }, { code, err }) -- the failed run is told as ever
+    assert.same({ code_without, plain }, { code, err }) -- the failed run is reported as before
     run(folder, "--log log -e 'error \"two\\nlines\"'")
     local text = program.read(folder .. "/log")
     for line in text:gmatch "[^\n]+" do
@@ -201,13 +201,13 @@ local failed = s:run{ duration = 1, dt = 1.2 * s:stable_dt(), integrator = "velo
     end
   end)
 
-  it("tells when the file cannot be written", function()
+  it("reports when the file cannot be written", function()
     local folder = program.folder()
     local _, err, code = run(folder, "--log no/log -e 'print(1)'")
     assert.equal(1, code)
     assert.truthy(err:find("cannot write the log: no/log: No such file", 1, true), err)
     local out
-    out, err, code = run(folder, "--log /dev/full -e 'print(1)'") -- goes on without
+    out, err, code = run(folder, "--log /dev/full -e 'print(1)'") -- continues without the log
     assert.same({ "1\n", 0 }, { out, code })
     assert.truthy(err:find("cannot write the log /dev/full: No space left", 1, true), err)
     assert.equal(2, (select(3, run(folder, "--log"))))

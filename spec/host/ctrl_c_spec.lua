@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Ctrl-C stops scripts wherever they are, and resume and wrap, which the host
--- replaces for that, still behave.
+-- Ctrl-C stops scripts wherever they are. The host replaces coroutine.resume and coroutine.wrap for this;
+-- they still behave as in the stock interpreter.
 
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
 local program = dofile(here .. "/program.lua")
@@ -32,12 +32,12 @@ describe("Ctrl-C", function()
       .. "coroutine.wrap(f)()", 2)
   end)
 
-  it("stops the one that resumes when the coroutine is done by then", function()
+  it("stops the caller when the coroutine has finished by then", function()
     interrupted("local f = coroutine.wrap(function() while true do coroutine.yield() end end)\n"
       .. "while true do f() end", "%d")
   end)
 
-  it("stops a wait in a C function", function()
+  it("stops a call that waits in a C function", function()
     local pipe = program.folder() .. "/pipe"
     os.execute("mkfifo " .. pipe)
     local out, err, code = program.run({ "-e", "io.read() x = 1" },
@@ -47,7 +47,7 @@ describe("Ctrl-C", function()
     assert.equal(130, code)
   end)
 
-  it("is not lost when it comes in the last call of all", function()
+  it("is not lost when it comes during the last call", function()
     local pipe = program.folder() .. "/pipe"
     os.execute("mkfifo " .. pipe)
     local _, err, code = program.run({ "-e", "return io.read()" },
@@ -56,7 +56,7 @@ describe("Ctrl-C", function()
     assert.equal(130, code)
   end)
 
-  it("is one error, which a script may catch", function()
+  it("raises one error, which a script may catch", function()
     local out, err, code = script([[
       local ok, message = pcall(function() while true do end end)
       print(ok, message:match "interrupted")
@@ -68,13 +68,13 @@ describe("Ctrl-C", function()
     assert.equal(0, code)
   end)
 
-  it("twice within a second ends what swallows errors", function()
+  it("ends a script that swallows errors, when pressed twice within a second", function()
     local _, _, code = script("while true do pcall(function() while true do end end) end", nil, TWICE)
     assert.equal(130, code)
   end)
 
-  it("twice at once counts once", function()
-    -- a busy machine may put more than the 50 ms between both that make them two
+  it("counts once when pressed twice at the same time", function()
+    -- on a busy machine more than 50 ms may pass between the two, which then count as two
     for attempt = 1, 8 do
       local out, err, code = script([[
         pcall(function() while true do end end)
@@ -90,7 +90,7 @@ describe("Ctrl-C", function()
     end
   end)
 
-  it("leaves jobs alone that a shell started with it ignored", function()
+  it("does not stop jobs that a shell started with SIGINT ignored", function()
     local out, _, code = script("local t = os.clock() while os.clock() - t < 1 do end print 'done'", nil,
       { signals = { 0.3 } })
     assert.equal("done\n", out)

@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs that fail: told at the end of a script that did not look, frames, pictures, progress.
+-- Runs that fail: reported at the end of a script that did not look at them; their frames, pictures and
+-- progress.
 local sw = require "softworld"
 
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
 local program = dofile(here .. "/program.lua")
 local script = program.script
 
--- Explicit steps somewhat too long: the wire is torn apart after a while.
+-- Explicit steps slightly too long: the wire is torn apart after a while.
 local failing = [[
 local sw = require "softworld"
 local function fail()
@@ -24,7 +25,7 @@ end
 describe("a run that failed", function()
   after_each(program.clean)
 
-  it("is told at the end of a script that did not look, which fails", function()
+  it("is reported at the end of a script that did not look at it, and the script fails", function()
     local out, err, code = script(failing .. "local run = fail()\nprint 'done'")
     assert.equal("done\n", out)
     assert.truthy(err:find("run of 'wild' at script.lua:8 FAILED at t = ", 1, true), err)
@@ -34,7 +35,7 @@ describe("a run that failed", function()
 
   for what, code in pairs{ ok = "assert(not run.ok)", reason = "print(run.reason)", print = "print(run)",
     summary = "run:summary()", use = "print(pcall(run.series, run))" } do
-    it("is not told when the script looked: " .. what, function()
+    it("is not reported when the script looked: " .. what, function()
       local _, err, status = script(failing .. "local run = fail()\n" .. code)
       assert.equal("", err)
       assert.equal(0, status)
@@ -48,7 +49,7 @@ describe("a run that failed", function()
     assert.equal(0, status)
   end)
 
-  it("is told with error bars when nobody looks at the whole", function()
+  it("is reported with error bars when the script does not look at the result", function()
     local _, err, status = script [[
       local sw = require "softworld"
       local scene = sw.scene{ name = "bars" }
@@ -63,14 +64,14 @@ describe("a run that failed", function()
     assert.equal(1, status)
   end)
 
-  it("is told for code of -e too", function()
+  it("is reported for code of -e too", function()
     local _, err, code = program.run{ "-e", failing .. "fail()" }
     assert.truthy(err:find("FAILED", 1, true), err)
     assert.equal(1, code)
   end)
 end)
 
--- Peaks begin anew with each run and settle; what a run tells stays.
+-- Peaks start anew with each run and settle; the results of an earlier run stay.
 describe("a run before the last one", function()
   local function hanging()
     local scene = sw.scene{}
@@ -96,7 +97,7 @@ describe("a run before the last one", function()
     end)
   end
 
-  -- A run holds its scene, and nothing but the script holds runs; the list has no hold on what is in it.
+  -- A run holds its scene, and only the script holds runs; the list of runs keeps neither alive.
   for what, go_on in pairs{ nothing = function() end, ["another run"] = function(scene)
     return scene:run{ duration = 0.1 }
   end, ["a settle"] = function(scene) scene:settle() end,
@@ -111,7 +112,7 @@ describe("a run before the last one", function()
       assert.is_false(run.ok)
       return run
     end } do
-    it("is collected with its scene when the script lets go of them, after " .. what, function()
+    it("is collected with its scene when the script drops both, after " .. what, function()
       local function made()
         local scene = hanging()
         local run = scene:run{ duration = 0.1 }
@@ -132,7 +133,7 @@ describe("a run before the last one", function()
     end)
   end
 
-  it("keeps its scene as long as the script has it", function()
+  it("keeps its scene for as long as the script has the run", function()
     local function made() return (hanging():run{ duration = 0.1 }) end
     local run = made()
     local rows = run:document().summary
@@ -159,7 +160,7 @@ describe("frames of a run that failed", function()
     assert.is_true(run.time - frames[#frames].t < 0.0021)
   end)
 
-  it("are written for ParaView, and numbers are not", function()
+  it("are written for ParaView, while series, charts and tables are refused", function()
     local folder = program.folder()
     run:vtk(folder .. "/wild.pvd")
     assert.truthy(program.read(folder .. "/wild.pvd"):find("wires_00003", 1, true))
@@ -171,7 +172,7 @@ describe("frames of a run that failed", function()
     program.clean()
   end)
 
-  it("make pictures: the last ones, marked", function()
+  it("give pictures of the last frames, with a note of the failure", function()
     local folder = program.folder()
     local made = run:pictures{ path = folder .. "/x.png", count = 2, draft = true, width = 300 }
     assert.truthy(made.note:find("FAILED at t = ", 1, true), made.note)
@@ -189,7 +190,7 @@ describe("what to try next", function()
     { "the tolerance needs steps below 1e-09 s", { tolerance = 1e-9 }, "a larger tolerance" },
   }
   for _, case in ipairs(cases) do
-    it("fits: " .. case[1], function()
+    it("matches the reason: " .. case[1], function()
       local text = advice.of(case[1], case[2])
       assert.truthy(text:gsub("%.0+ ", " "):find(case[3], 1, true), text)
     end)
@@ -213,13 +214,13 @@ describe("progress", function()
     return table.concat(lines)
   end
 
-  it("says nothing of short runs", function() assert.equal("", bar_after(0.7)) end)
-  it("shows long ones", function()
+  it("shows nothing for short runs", function() assert.equal("", bar_after(0.7)) end)
+  it("is shown for long runs", function()
     assert.truthy(bar_after(3):find("%", 1, true))
     assert.truthy(bar_after(3):find("steps in", 1, true))
   end)
 
-  it("shows on a terminal by default, not elsewhere", function()
+  it("is shown on a terminal by default, not elsewhere", function()
     if not program.has "script" then error "the program script is needed" end
     local folder = program.folder()
     local name = program.write(folder .. "/s.lua", [[
@@ -243,7 +244,7 @@ describe("progress", function()
   end)
 end)
 
-it("the module that keeps failures is not fooled by many", function()
+it("the list of unread failures shows the first ones and counts the rest", function()
   local unread = require "softworld.unread"
   unread.finish()
   for i = 1, 30 do unread.add("failure " .. i) end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How the prompt shows values, and which names it offers.
+-- How the prompt shows values, and which names its completion offers.
 
 package.path = "lua/?.lua;lua/?/init.lua;" .. package.path
 local pretty = require "softworld.prompt.pretty"
@@ -24,7 +24,7 @@ describe("pretty()", function()
     assert.equal([[{ "a\n\"\000" }]], pretty { 'a\n"\0' })
   end)
 
-  it("shows long tables one item a line", function()
+  it("shows long tables with one item per line", function()
     local points = {}
     for i = 1, 3 do points[i] = { i + 0.5, i / 3, 0.123456789 } end
     assert.equal("{\n  { 1.5, 0.3333333, 0.1234568 },\n  { 2.5, 0.6666667, 0.1234568 },\n"
@@ -40,7 +40,7 @@ describe("pretty()", function()
     assert.matches("300 bytes", text)
   end)
 
-  it("stops at the greatest number of items", function()
+  it("stops at the largest allowed number of items", function()
     local t = {}
     for i = 1, 1000 do t[i] = i end
     local text = pretty(t, { items = 10 })
@@ -62,12 +62,12 @@ describe("pretty()", function()
     assert.equal("{ <table whose __tostring fails> }", pretty { setmetatable({}, { __tostring = error }) })
   end)
 
-  it("says where functions are from", function()
+  it("says where functions are defined", function()
     assert.equal("{ print = function (built in) }", pretty { print = print })
     assert.matches("^function %(.*pretty_spec.lua:%d+%)$", pretty(function() end))
   end)
 
-  it("takes a table of a million in its stride", function()
+  it("shows a table with a million items within 5 s", function()
     local t = {}
     for i = 1, 1e6 do t[i], t[-i] = i, i end
     local start = os.clock()
@@ -108,12 +108,12 @@ describe("completion", function()
     offers("seek setvbuf", "file:s")
   end)
 
-  it("asks the metamethod __names", function()
+  it("uses the metamethod __names", function()
     offers("part peak", "listed.")
     offers("run", "listed.part.r")
   end)
 
-  it("offers nothing where calls would have to be run", function()
+  it("offers nothing where it would have to run calls", function()
     offers("", "f().o")
     offers("", "strange.x.y")
     offers("", "missing.")

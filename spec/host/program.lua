@@ -25,7 +25,7 @@ function program.write(name, text)
   return name
 end
 
--- A folder for the spec's files; program.clean() removes all of them.
+-- Folders for a spec's files; program.clean() removes all of them.
 local folders = {}
 
 function program.folder()
@@ -41,7 +41,7 @@ function program.clean()
   folders = {}
 end
 
--- Run a shell command: what it wrote to stdout, to stderr, its exit code.
+-- Runs a shell command; returns its stdout, its stderr and its exit code.
 function program.shell(command)
   local out, err = os.tmpname(), os.tmpname()
   local _, how, code = os.execute(("( %s\n) >%s 2>%s"):format(command, out, err))
@@ -51,16 +51,16 @@ function program.shell(command)
   return texts[1], texts[2], how == "exit" and code or how .. code
 end
 
--- How long nothing may happen before a program counts as hanging. Wall time says little on a
--- machine that does other things, so the limit is on the program's own CPU time [s], with a wall
--- time beside it that is far beyond all that waiting for the processor could take.
+-- Time without progress after which a program counts as hanging. Wall time says little on a busy machine, so
+-- the limit is on the program's own CPU time [s]; the limit on wall time is far beyond any wait for the
+-- processor.
 local MOST_CPU, MOST_WALL = 40, 300
 
--- A time of 0 is some milliseconds: two signals that are not merged into one.
+-- A time of 0 becomes a few milliseconds, so that two signals are not merged into one.
 local MOMENT = "i=0; while [ $i -lt 10000 ]; do i=$((i+1)); done"
 
--- Shell functions about process $p. ticks: its CPU time t [1/100 s] and its state. ready: it
--- catches or ignores SIGINT by now, and has computed for a time since its start, or waits.
+-- Shell functions for process $p. ticks: its CPU time t [1/100 s] and its state. ready: it catches or
+-- ignores SIGINT by now, and has computed for a time since its start or is waiting.
 local SHELL = [[
 ticks() {
   read -r line 2>/dev/null </proc/$p/stat || return 1
@@ -98,10 +98,10 @@ watch() { # ends it when it goes on for too long
 }
 ]]
 
--- Run it in the background and send SIGINT: first when it has computed for the first of the times
--- [s] (or waits), then after each other time, of which it has computed three quarters (or waits);
--- with again = true, more of them until it ends. KILL (code 137) comes should it go on for long. Its
--- own number stays taken until wait, so no other process can be hit.
+-- Runs the command in the background and sends SIGINT: first when it has computed for the first of the times
+-- [s] (or waits), then after each further time, once it has computed for three quarters of that time (or
+-- waits). With again = true it sends more until the program ends. If the program does not end, KILL follows
+-- (code 137). The process id stays reserved until wait, so no other process can be hit.
 local function with_signals(command, times)
   local steps = {}
   for i, time in ipairs(times) do
@@ -117,9 +117,8 @@ local function with_signals(command, times)
     .. "exit $c"):format(SHELL, command, 100 * MOST_CPU, 5 * MOST_WALL, table.concat(steps, "; "))
 end
 
--- Run the program with a list of arguments. options: stdin (a text), input (a
--- redirection instead of it), before (put in front of the command: "FOO=1"),
--- signals (a list of times).
+-- Runs the program with a list of arguments. options: stdin (a text), input (a redirection instead of
+-- stdin), before (text in front of the command: "FOO=1"), signals (a list of times).
 function program.run(arguments, options)
   options = options or {}
   local words = { options.before or "", quote(options.path or program.path) }
@@ -133,7 +132,7 @@ function program.run(arguments, options)
   return out, err, code
 end
 
--- Run a script given as text; more arguments follow its name.
+-- Runs a script given as text; more arguments follow its name.
 function program.script(text, arguments, options)
   local name = program.write(program.folder() .. "/script.lua", text)
   local out, err, code = program.run({ name, table.unpack(arguments or {}) }, options)
@@ -142,8 +141,8 @@ end
 
 function program.has(tool) return (os.execute("command -v " .. tool .. " >/dev/null 2>&1")) end
 
--- Can a program be given a terminal? true; false where the system has none to give (no /dev/pts,
--- as in some containers); an error where it has one but script(1), which makes them, fails.
+-- Returns true if the program can be given a terminal; false if the system has none (no /dev/pts, as in some
+-- containers). Raises an error if it has one but script(1), which makes terminals, fails.
 function program.has_terminals()
   local _, why, code = program.shell "script -qec true /dev/null </dev/null"
   if code == 0 then return true end
@@ -152,7 +151,7 @@ function program.has_terminals()
   return false
 end
 
--- quiet N: process $p waits for something, or has computed for N/100 s more.
+-- quiet N: process $p waits for input, or has computed for another N/100 s.
 local TYPING = [[
 quiet() {
   ticks || return; from=$t; still=0
@@ -163,9 +162,9 @@ quiet() {
 }
 ]]
 
--- The session at a terminal: keys is a list of texts typed, each when the program waits for it or
--- computes, and of numbers of seconds of its computing time that pass. Gives what the terminal
--- showed and the exit code.
+-- A session at a terminal. keys: a list of texts and numbers. A text is typed when the program waits for
+-- input or computes; a number is a span of the program's computing time [s]. Returns the terminal's output
+-- and the exit code.
 function program.terminal(keys, options)
   options = options or {}
   local number = program.folder() .. "/number"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Remarks on values that are allowed but hardly meant.
+-- Remarks on values that are allowed but probably a mistake.
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
 local program = dofile(here .. "/program.lua")
 local script = program.script
@@ -45,7 +45,7 @@ describe("remarks", function()
       .. wire(good .. ", segments = 20"), "segments = 200 makes edges half as long as the radius" },
   }
   for _, case in ipairs(cases) do
-    it("on " .. case[1], function()
+    it("appear for " .. case[1], function()
       local _, err, code = script(start .. case[1])
       assert.truthy(err:find("script.lua:2: remark: ", 1, true), err)
       assert.truthy(err:find(case[2], 1, true), err)
@@ -53,7 +53,7 @@ describe("remarks", function()
     end)
   end
 
-  it("are not made of ties that are slack, or as long as the places are apart", function()
+  it("do not appear for ties that are slack or exactly as long as the distance", function()
     local _, err = script(start .. "local w = " .. wire(good) .. [[
 
       s:tie(w, { s = 0.5, to = { 0.5, 0, 0.15 } }) s:tie(w, { s = 0.2 })
@@ -61,7 +61,7 @@ describe("remarks", function()
     assert.equal("", err)
   end)
 
-  it("are made once for a line", function()
+  it("appear once per line", function()
     local _, err = script(start
       .. "for i = 1, 5 do s:obstacle{ shape = 'plane', friction = 10 * i } end\n"
       .. "s:obstacle{ shape = 'plane', friction = 30 }")
@@ -69,7 +69,7 @@ describe("remarks", function()
     assert.equal(2, count)
   end)
 
-  it("are not made on what is usual", function()
+  it("do not appear for usual values", function()
     local _, err = script(start .. [[
       s:obstacle{ shape = "plane", friction = 0.4 }
       s:obstacle{ shape = "box", size = {0.1, 0.1, 0.1}, at = {0.5, 0, 0.05} }
@@ -86,7 +86,7 @@ describe("remarks", function()
     assert.equal("", err)
   end)
 
-  it("change nothing: a wire with other values than usual runs", function()
+  it("change nothing: a wire with unusual values runs", function()
     local out, err, code = script(start .. wire("E = 5e3, density = 1500, radius = 0.0025, "
       .. "from = {0,0,1}, to = {1,0,1}") .. " print(s:run{ duration = 0.01 }.ok)")
     assert.equal("true\n", out)

@@ -5,7 +5,7 @@ local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/host"
 local program = dofile(here .. "/program.lua")
 local run = program.run
 
--- What a session through a pipe prints; the library may be absent, and says so.
+-- Output of a session through a pipe; the library may be missing, and the prompt then says so.
 local function session(text, arguments)
   local out, err, code = run(arguments or { "-i" }, { stdin = text })
   return out, err:gsub("note: softworld is not there:[^\n]*\n", ""), code
@@ -30,7 +30,7 @@ describe("the prompt through a pipe", function()
     prints("", "x = 1\n\n   \n-- a comment\n;\n(function() end)()\nlocal y = 2\n")
   end)
 
-  it("waits for the rest of a chunk", function()
+  it("waits for the rest of a statement", function()
     prints("1\n2\n", "for i = 1, 2 do\nprint(i)\nend\n")
     prints("a\nb\n", "[[a\nb]]\n")
     prints("3\n", "1 +\n2\n")
@@ -38,7 +38,7 @@ describe("the prompt through a pipe", function()
     prints("{ 1, 2 }\n", "{\n1,\n2\n}\n")
   end)
 
-  it("goes on after errors, at the right line", function()
+  it("continues after errors, and gives the right line", function()
     local out, err, code = session "error 'boo'\nx = = 1\nfor i = 1, 2 do\nx = )\n1\n'abc\n2\n"
     assert.equal("1\n2\n", out)
     assert.equal("input:1: boo\ninput:1: unexpected symbol near '='\n"
@@ -51,11 +51,11 @@ describe("the prompt through a pipe", function()
     assert.equal("input:3: 'end' expected (to close 'for' at line 1) near <eof>\n", err)
   end)
 
-  it("copes with long lines and zero bytes", function()
+  it("accepts long lines and zero bytes", function()
     prints("200003\n", "#'" .. ("x"):rep(200000) .. "\0yz'\n")
   end)
 
-  it("follows -e and a script, also a failing one", function()
+  it("follows -e and a script, also one that failed", function()
     local name = program.write(program.folder() .. "/s.lua", "a = 5 error('no', 0)")
     local out, err, code = session("a, b\n", { "-i", "-e", "b = 6", name })
     assert.equal("5\t6\n", out)
@@ -81,7 +81,7 @@ describe("the prompt through a pipe", function()
     prints("5\n10\nnil\n10\n", "5\n_ * 2\nnil\n_\n")
   end)
 
-  it("asks for help with ?", function()
+  it("shows help for ?", function()
     local out, err = session "?clip\nscene = sw.scene{}\n?scene\n?scene:clamp\n?no_such_topic\n"
     assert.matches("scene:clip{", out)
     assert.matches("\nscene 'scene' at t = 0 s\n", out)
@@ -90,12 +90,12 @@ describe("the prompt through a pipe", function()
     prints((session "help()\n"), "?\n")
   end)
 
-  it("times a call, and gives what it gives", function()
+  it("times a call, and returns its values", function()
     local out = session "time(math.max, 3, 4)\ntime(error, 'boo')\n1\n"
     assert.matches("^[%d.e-]+ s, [%d.e-]+ s of computing\n4\n1\n$", out)
   end)
 
-  it("tells of an object what it is made of, how it is, and its extremes", function()
+  it("shows an object's parts, its state and its extremes", function()
     local out = session [[
       scene = sw.scene{}
       wire = scene:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 1, 0, 0 } }
@@ -113,7 +113,7 @@ describe("the prompt through a pipe", function()
     assert.matches("plane 'floor'[^\n]*\n  at %(0, 0, %-2%) m\n", out)
   end)
 
-  it("tells when a result cannot be shown", function()
+  it("says when a result cannot be shown", function()
     prints("<table whose __tostring fails>\n1\n", "setmetatable({}, { __tostring = error })\n1\n")
   end)
 end)
@@ -123,7 +123,7 @@ describe("the prompt at a terminal", function()
   local possible = program.has_terminals()
   if not possible then
     print "not tested here: the prompt at a terminal, for there is no /dev/pts"
-    it("is the one through a pipe where there are no terminals", function()
+    it("gives the same results through a pipe where there are no terminals", function()
       local out, _, code = program.run({}, { stdin = "print(6 * 7)" })
       assert.equal("42\n", out)
       assert.equal(0, code)

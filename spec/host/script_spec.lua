@@ -44,7 +44,7 @@ describe("softworld script.lua", function()
     assert.equal("function\n", (run { name }))
   end)
 
-  it("copes with very long lines and zero bytes", function()
+  it("accepts very long lines and zero bytes", function()
     local text = ("x"):rep(300000)
     local out, _, code = script("local s = '" .. text .. "\0'  print(#s)")
     assert.equal("300001\n", out)
@@ -114,7 +114,7 @@ describe("softworld options", function()
     assert.equal("a file called -e\n", out)
   end)
 
-  it("tell version and usage", function()
+  it("print the version and the usage", function()
     local out, _, code = run { "-v" }
     assert.matches("^SoftWorld %d+%.%d+%.%d+ %(Lua 5%.4%.%d+%)\n$", out)
     assert.equal(0, code)
@@ -136,7 +136,7 @@ end)
 describe("softworld.host", function()
   after_each(program.clean)
 
-  it("tells how the program runs", function()
+  it("gives the way in which the program runs", function()
     local out = script [[
       local host = package.loaded["softworld.host"]
       print(host.executable:match "[^/]*$", host.interactive, host.terminal, host.columns())
@@ -167,11 +167,11 @@ end)
 describe("softworld.core for the stock interpreter", function()
   local folder = program.path:match "^(.*)/" or "."
 
-  it("loads, of the same version", function()
+  it("loads, and has the same version", function()
     assert.is_true(program.has "lua5.4", "the package lua5.4 is missing")
     local code = "print(require('softworld.core').version)"
-    -- a core with sanitizers needs their library first in a program without;
-    -- leaks of the stock interpreter are not ours
+    -- A core built with sanitizers needs their library loaded first in a program without them. Leaks of the
+    -- stock interpreter do not count.
     local sanitizer = os.getenv "SOFTWORLD_PRELOAD"
     local preload = sanitizer and ("LD_PRELOAD=%s ASAN_OPTIONS=detect_leaks=0 ")
       :format(program.quote(sanitizer)) or ""

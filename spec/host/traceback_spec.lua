@@ -18,7 +18,7 @@ local FAILING = "pretty({}, { width = {} })"
 describe("an error", function()
   after_each(program.clean)
 
-  it("in the main chunk is one line", function()
+  it("in the main chunk gives one line", function()
     assert.equal("script.lua:2: boo\n", errors "\nerror 'boo'")
     assert.equal("script.lua:3: unexpected symbol near '='\n", errors "\n\nx = = 1")
   end)
@@ -29,7 +29,7 @@ describe("an error", function()
       .. "\tscript.lua:2: in local 'g'\n\tscript.lua:3: in main chunk\n", text)
   end)
 
-  it("in a C function called by the user names it", function()
+  it("in a C function called by the user names this function", function()
     local text = errors "string.rep()"
     assert.matches("^script.lua:1: bad argument #1 to 'rep'", text)
     assert.matches("\n\t%[C%]: in [%a ]+'[%a.]*rep'\n\tscript.lua:1: in main chunk\n$", text)
@@ -43,13 +43,13 @@ describe("an error", function()
       .. "\tscript.lua:5: in main chunk\n$", text)
   end)
 
-  it("inside the library, in a coroutine, too", function()
+  it("inside the library points at the user's line in a coroutine, too", function()
     local text = errors(LIBRARY .. "local co = coroutine.create(function()\n  " .. FAILING
       .. "\nend)\nprint(error((select(2, coroutine.resume(co))), 0))")
     assert.matches("^script.lua:3: [^/]*\n", text)
   end)
 
-  it("shows everything when asked", function()
+  it("shows the whole traceback on request", function()
     local text = errors(LIBRARY .. FAILING, { before = "SOFTWORLD_TRACEBACK=full" })
     assert.matches("/softworld/prompt/pretty.lua:%d+: .*\nstack traceback:\n", text)
     assert.matches("traceback:\n.*/softworld/prompt/pretty.lua:.*%[C%]: in %?", text)
@@ -68,7 +68,7 @@ describe("an error", function()
     assert.equal("script.lua:1: a\0b", first "error 'a\\0b'")
   end)
 
-  it("in a runaway recursion stays short", function()
+  it("in a runaway recursion gives a short text", function()
     local text = errors "local function f() return 1 + f() end\nf()"
     assert.matches("^script.lua:1: stack overflow", text)
     assert.matches("\n\t... %(%d+ calls in between%)\n", text)

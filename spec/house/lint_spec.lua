@@ -35,7 +35,7 @@ describe("lint: layout", function()
 end)
 
 describe("lint: licence line", function()
-  it("is missed in C, Lua, shell and Makefile", function()
+  it("is required in C, Lua, shell and Makefile", function()
     finds("spdx", { ["csrc/base/a.c"] = "int a;\n" }, "csrc/base/a.c:1:", "no licence line")
     finds("spdx", { ["csrc/base/a.def"] = "X(a)\n" }, "csrc/base/a.def:1:", "no licence line")
     finds("spdx", { ["scripts/a.lua"] = "print(1)\n" }, "scripts/a.lua:1:", "no licence line")
@@ -51,41 +51,41 @@ describe("lint: rooms", function()
   local function includes(path, line, words)
     finds("includes", { [path] = C .. "\n" .. line .. "\n" }, path .. ":3:", words)
   end
-  it("sees a room reaching into one it may not know", function()
+  it("rejects a room that includes a room it may not know", function()
     includes("csrc/integrate/newmark.c", '#include "force/force.h"', "integrate may not include")
     includes("csrc/solve/band.c", '#include "state/state.h"', "solve may not include")
     includes("csrc/base/vec.h", '#include "state/state.h"', "nothing else")
   end)
-  it("sees another room's private header", function()
+  it("rejects another room's private header", function()
     includes("csrc/force/bend.c", '#include "state/slots.h"', "private to state")
     includes("csrc/film/a.c", '#include "read/kept_frames.h"', "private to read")
   end)
-  it("lets steps, and nothing in the scene, see both", function()
+  it("lets only steps include both scene and step headers", function()
     clean("includes", { ["csrc/step/a.c"] = C .. '#include "scene/world.h"\n' })
     includes("csrc/scene/a.c", '#include "step/step.h"', "scene may not include")
   end)
-  it("counts those that include the scene's whole inside", function()
+  it("counts the files that include the scene's internals", function()
     local files = {}
     for k = 1, 11 do files[("csrc/step/a%02d.c"):format(k)] = C .. '#include "scene/world.h"\n' end
     clean("includes", files)
     files["csrc/step/b.c"] = files["csrc/step/a01.c"]
     finds("includes", files, "csrc/step/b.c:2:", "scene/world.h has more than 11 includers")
   end)
-  it("sees a member including another member", function()
+  it("rejects a member that includes another member", function()
     finds("includes", { ["csrc/force/list.def"] = C .. "X(bend)\nX(twist)\n",
       ["csrc/force/twist.c"] = C .. '#include "force/bend.h"\n' }, "csrc/force/twist.c:2:",
       "member twist includes member bend")
   end)
-  it("sees the core's insides used by the binding", function()
+  it("rejects the core's internals in the binding", function()
     includes("csrc/bind/scene.c", '#include "scene/scene.h"', "through softworld.h only")
     includes("csrc/scene/scene.c", '#include "softworld.h"', "headers of the rooms")
   end)
-  it("sees included C files, unknown rooms and includes without a room", function()
+  it("rejects included C files, unknown rooms and includes without a room", function()
     includes("csrc/base/a.c", '#include "base/b.c"', "is included")
     finds("includes", { ["csrc/kitchen/a.c"] = C }, "csrc/kitchen/a.c:1:", "csrc/kitchen is no room")
     includes("csrc/base/a.c", '#include "vec.h"', "names no room")
   end)
-  it("lets good includes pass", function()
+  it("accepts valid includes", function()
     clean("includes", { ["csrc/force/list.def"] = C .. "X(bend)\n",
       ["csrc/force/bend.c"] = C .. '#include "force/bend.h"\n#include "force/force.h"\n'
         .. '#include "base/vec.h"\n#include "state/state.h"\n#include <math.h>\n'
@@ -101,20 +101,20 @@ describe("lint: circles of files", function()
     for _, other in ipairs(calls) do code = code .. "  sw_" .. other .. "();\n" end
     return code .. "}\n"
   end
-  it("may have three files, not four", function()
+  it("may have three files, but not four", function()
     local three = { ["csrc/base/b.c"] = file("b", { "c" }), ["csrc/base/c.c"] = file("c", { "d" }),
       ["csrc/base/d.c"] = file("d", { "b" }), ["csrc/base/e.c"] = file("e", { "b", "d" }) }
     clean("circles", three)
     three["csrc/base/d.c"] = file("d", { "e" })
     finds("circles", three, "csrc/base/b.c:1:", "circle of 4 files (3 at most)")
   end)
-  it("see a call into a room that may not be included, whatever header declares it", function()
+  it("reject a call into a room that may not be included, whichever header declares it", function()
     local calls = { ["csrc/base/b.c"] = file("b", {}), ["csrc/solve/c.c"] = file("c", { "b" }) }
     clean("circles", calls)
     calls["csrc/base/b.c"], calls["csrc/solve/c.c"] = file("b", { "c" }), file("c", {})
     finds("circles", calls, "csrc/base/b.c:1:", "calls sw_c of csrc/solve/c.c, whose room it may not include")
   end)
-  it("do not come from functions of the same name that stay in their files", function()
+  it("ignore functions of the same name that are static in their files", function()
     local four = {}
     for _, name in ipairs { "b", "c", "d", "e" } do
       four["csrc/base/" .. name .. ".c"] = file(name, {}) .. "static void go(void) {\n}\n"
@@ -127,7 +127,7 @@ describe("lint: outside libraries", function()
   local function outside(path, line)
     finds("includes", { [path] = C .. line .. "\n" }, path .. ":2:", "may be included only in")
   end
-  it("stay in their adapters", function()
+  it("may be included only in their adapters", function()
     outside("csrc/force/bend.c", "#include <lua.h>")
     outside("csrc/scene/scene.c", '#include "lauxlib.h"')
     outside("csrc/solve/band.c", "#include <gsl/gsl_linalg.h>")
@@ -137,7 +137,7 @@ describe("lint: outside libraries", function()
     outside("csrc/solve/sparse.c", "#include <suitesparse/cholmod.h>")
     outside("csrc/bind/a.c", "#include <readline/readline.h>")
   end)
-  it("may be used there", function()
+  it("are accepted in their adapters", function()
     clean("includes", { ["csrc/shape/ccd_adapter.c"] = C .. "#include <ccd/ccd.h>\n",
       ["csrc/calibrate/fit_gsl.c"] = C .. "#include <gsl/gsl_vector.h>\n",
       ["csrc/shape/hull_qhull.c"] = C .. "#include <libqhull_r/qhull_ra.h>\n" })
@@ -149,7 +149,7 @@ describe("lint: calls", function()
     finds("calls", { ["csrc/scene/a.c"] = C .. "void a(void) {\n  " .. body .. "\n}\n" },
       "csrc/scene/a.c:3:", words)
   end
-  it("of files, prints, exits and plain allocation are seen", function()
+  it("of file, print, exit and plain allocation functions are rejected", function()
     calls('FILE *f = fopen("a", "r");', "calls fopen")
     calls('printf("%d", 1);', "calls printf")
     calls("puts (text);", "calls puts")
@@ -157,7 +157,7 @@ describe("lint: calls", function()
     calls("exit(1);", "calls exit")
     calls("double *x = malloc(8);", "calls malloc")
   end)
-  it("in comments, texts, longer names and members are not", function()
+  it("in comments, strings, longer names and members are ignored", function()
     clean("calls", { ["csrc/scene/a.c"] = C .. [[
 /* printf("x") and fopen(
    malloc(3) */
@@ -177,21 +177,21 @@ describe("lint: headers", function()
 end)
 
 describe("lint: checkers", function()
-  it("warns of long files without failing", function()
+  it("warn of long files without failing", function()
     local text, status = lint("length", { ["lua/a.lua"] = LUA .. ("\n"):rep(400) })
     assert.truthy(text:find("lua/a.lua:400: warning: 401 lines", 1, true), text)
     assert.equal(0, status)
   end)
-  it("is an error of a header, earlier", function()
+  it("reject a header at fewer lines", function()
     clean("length", { ["csrc/a/b.h"] = C .. ("\n"):rep(249) })
     finds("length", { ["csrc/a/b.h"] = C .. ("\n"):rep(250) }, "csrc/a/b.h:250:", "251 lines, 250 at most")
     clean("length", { ["csrc/a/b.c"] = C .. ("\n"):rep(250) })
   end)
-  it("passes on what luacheck says", function()
+  it("pass on the warnings of luacheck", function()
     finds("luacheck", { ["lua/a.lua"] = LUA .. "undefined_thing()\n" }, "lua/a.lua:2", "undefined_thing")
     clean("luacheck", { ["lua/a.lua"] = LUA .. "print(1)\n" })
   end)
-  it("says what to install when a checker is missing", function()
+  it("say what to install when a checker is missing", function()
     local folder = tree.make { ["csrc/base/a.c"] = C, ["bin/none"] = "" }
     local text, status = tree.run(([[
       cd %s && for tool in sh find sort lua5.4; do ln -s "$(command -v $tool)" bin/; done
@@ -201,7 +201,7 @@ describe("lint: checkers", function()
     assert.truthy(text:find("clang-tidy is not installed; sh scripts/setup.sh --lint", 1, true), text)
     assert.equal(1, status)
   end)
-  it("refuses an unknown check", function()
+  it("refuse an unknown check", function()
     local text, status = lint("nonsense", {})
     assert.truthy(text:find("no check named nonsense", 1, true), text)
     assert.equal(2, status)

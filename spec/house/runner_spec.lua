@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The spec runner: nothing passes by skipping, crashing, leaving early or not being there.
+-- The spec runner: no test passes by being skipped, crashing, leaving early or not existing.
 local tree = require "house.tree"
 
 local LUA = "-- SPDX-License-Identifier: GPL-3.0-or-later\n"
@@ -16,7 +16,7 @@ local function spec(files, options)
   return text, status, text:match "([^\n]*)\n$"
 end
 
--- One file alone must fail with these words and this closing line.
+-- A single file must fail with these words and this closing line.
 local function fails(text, words, closing, options)
   local output, status, last = spec({ ["room/a"] = text }, options)
   assert.truthy(output:find(words, 1, true), "no '" .. words .. "' in:\n" .. output)
@@ -31,13 +31,13 @@ describe("spec runner", function()
     assert.equal(0, status)
     assert.truthy(text:find "spec/a_spec.lua +2 passed, 0 failed +[%d.]+ s\nspec/b_spec.lua", text)
   end)
-  it("shows place and message of a failure, and what the file printed", function()
+  it("shows the place and the message of a failure, and the output of the file", function()
     fails(LUA .. 'it("differs", function()\n  print "seen"\n  assert.equal(1, 2)\nend)',
       "FAIL spec/room/a_spec.lua:4: differs\n    Expected objects to be equal.", "0 passed, 1 failed")
     fails(LUA .. 'it("differs", function() print "seen" assert.equal(1, 2) end)',
       "its output:\n    seen", "0 passed, 1 failed")
   end)
-  it("shows what was measured when asked to", function()
+  it("shows measured values on request", function()
     local file = { a = LUA
       .. 'it("x", function() print("measured: 42", os.getenv "SOFTWORLD_MEASURED") end)' }
     assert.falsy((spec(file)):find("measured", 1, true))
@@ -61,7 +61,7 @@ describe("spec runner", function()
     fails(GOOD .. 'pending("later")', "not run, so not passed", "2 passed, 1 failed")
     fails(GOOD .. 'it("x", function() pending "later" end)', "later", "2 passed, 1 failed")
   end)
-  it("counts a file without tests, and no file at all, as failed", function()
+  it("counts a file without tests as failed, and a run without files too", function()
     fails(LUA, "holds no test", "0 passed, 1 failed")
     fails(GOOD, "no test was found", "0 passed, 1 failed", "nowhere")
     fails(GOOD, "no test was found", "0 passed, 1 failed", "--name nothing")
@@ -94,7 +94,7 @@ describe("spec runner", function()
     local text = spec({ a = GOOD }, "--slow 1")
     assert.truthy(text:find "slowest tests:\n +[%d.]+ s  spec/a_spec.lua:%d: %a+\n2 passed", text)
   end)
-  it("runs under stock lua5.4 too, with the module for it", function()
+  it("also runs under stock lua5.4, with its module", function()
     local folder = tree.make { ["spec/a_spec.lua"] = GOOD
       .. 'it("loads", function() assert.is_string(require "softworld.core".version) end)\n' }
     -- A module built with sanitizers needs their library loaded first.

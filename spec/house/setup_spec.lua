@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run.sh and test.sh on a machine played by a few false commands: id, dpkg-query, apt-get.
+-- run.sh and test.sh on a simulated machine, with fake commands: id, dpkg-query, apt-get.
 local tree = require "house.tree"
 
--- What the scripts may use: all of it is in a bare Debian.
+-- Commands that the scripts may use: a bare Debian has all of them.
 local BASE = "sh dirname date cat sort tail mktemp awk sed env rm mkdir nproc"
 
 describe("set-up", function()
@@ -68,13 +68,13 @@ esac
       assert.equal("", calls())
     end)
   end
-  it("uses sudo when it may", function()
+  it("uses sudo when it is allowed to", function()
     machine { uid = 1000, sudo = "works" }
     local text, status = run "setup.sh"
     assert.equal(0, status, text)
     assert.truthy(calls():find("noninteractive .* install"), calls())
   end)
-  it("names the command with sudo when sudo wants a password and nobody is there", function()
+  it("gives the command with sudo when sudo wants a password and nobody can type it", function()
     machine { uid = 1000, sudo = "refuses" }
     local text, status = run "setup.sh"
     assert.equal(1, status)
@@ -87,7 +87,7 @@ esac
     assert.equal(0, status, text)
     assert.equal("", calls())
   end)
-  it("installs exactly what is missing, in one call, asking nothing", function()
+  it("installs exactly the missing packages, in one call and without questions", function()
     machine { uid = 0, installed = "gcc\nmake\nlibc6-dev\npkg-config\nliblua5.4-dev\nlibgsl-dev\n"
       .. "libccd-dev\nlibassimp-dev\nlibqhull-dev\nlibsuitesparse-dev\nlibreadline-dev\n"
       .. "libnlopt-dev\n"
@@ -98,7 +98,7 @@ esac
     local update, install, rest = calls():match "^([^\n]*)\n([^\n]*)\n(.*)$"
     assert.equal("", rest)
     assert.truthy(update:find "^noninteractive .* update$", update)
-    -- lua5.4 again: lua-busted alone would be content with another Lua
+    -- lua5.4 is named again: lua-busted alone would accept another Lua
     assert.truthy(install:find(" install --no-install-recommends cmark-gfm lua-busted lua-check "
       .. "lua-filesystem chromium chromium-driver lua-socket lua-dkjson slurmctld slurmd "
       .. "slurm-client munge lua5.4", 1, true), install)

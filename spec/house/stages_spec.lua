@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- csrc/step/stages.def is read by people as the contents of csrc/step. It has to be true: each stage
--- is defined where its row says, what comes first in a section leads to what comes after it, and no
--- file of the room is left out.
+-- People read csrc/step/stages.def as the contents of csrc/step, so it has to be true: each stage is defined
+-- in the file of its row, earlier rows of a section lead to later ones, and no file of the room is missing.
 local tree = require "house.tree"
 
 local function read(path)
@@ -11,7 +10,7 @@ local function read(path)
   return text
 end
 
--- Rows { section =, name =, file = } in their order.
+-- The rows { section =, name =, file = }, in their order.
 local function rows_of(text)
   local rows, section = {}, nil
   for line in text:gmatch "[^\n]+" do
@@ -36,7 +35,7 @@ describe("the list of stages", function()
     code[row.file] = code[row.file] or read(tree.root .. "/csrc/" .. row.file)
   end
 
-  it("has each line of the file that is a row", function()
+  it("is read completely by this spec", function()
     local count = 0
     for _ in read(tree.root .. "/csrc/step/stages.def"):gmatch "\nSW_%u+%(" do count = count + 1 end
     assert.equal(count, #rows)
@@ -47,9 +46,9 @@ describe("the list of stages", function()
       assert.is_true(defines(code[row.file], row.name), row.name .. " is not defined in " .. row.file)
     end
   end)
-  it("goes from what comes first to what that leads to", function()
+  it("calls each stage from a row before it or from the binding", function()
     local bind = tree.run("cat " .. tree.quote(tree.root) .. "/csrc/bind/*.c")
-    bind = bind:gsub("LSW_DO[%u_]*%(L, ([%w_]+), ", "%1(") -- the binding's ways to call a function and raise
+    bind = bind:gsub("LSW_DO[%u_]*%(L, ([%w_]+), ", "%1(") -- the binding calls functions by macros
     for k, row in ipairs(rows) do
       local led = row.rung or bind:find("%f[%w_]" .. row.name .. "%(") ~= nil
       for j = 1, k - 1 do
@@ -59,7 +58,7 @@ describe("the list of stages", function()
       assert.is_true(led, "no file of a row before it calls " .. row.name)
     end
   end)
-  it("has rungs that call the next one, but for the last", function()
+  it("has rungs that each call the next one, except the last", function()
     local rungs = {}
     for _, row in ipairs(rows) do if row.rung then rungs[#rungs + 1] = row end end
     assert.equal(5, #rungs)
@@ -69,7 +68,7 @@ describe("the list of stages", function()
       assert.equal(k < #rungs, goes ~= nil, row.name)
     end
   end)
-  it("leaves no file of the room out", function()
+  it("contains every file of the room", function()
     local names = tree.run("cd " .. tree.quote(tree.root) .. "/csrc && ls step/*.c")
     for name in names:gmatch "[^\n]+" do
       assert.is_string(code[name], name .. " is in no row of csrc/step/stages.def")

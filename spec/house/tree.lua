@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Throw-away folders and commands for the specs of the scripts.
+-- Temporary folders and commands for the specs of the scripts.
 local tree = {}
 
 tree.root = os.getenv "SOFTWORLD_ROOT"
@@ -7,7 +7,7 @@ tree.host = os.getenv "SOFTWORLD_BIN"
 
 function tree.quote(text) return "'" .. text:gsub("'", "'\\''") .. "'" end
 
--- A new folder holding files = { ["path/in/it"] = text }. The blank in its name is meant.
+-- Makes a new folder with files = { ["path/in/it"] = text }. Its name has a blank on purpose.
 function tree.make(files)
   local pipe = io.popen "mktemp -d '/tmp/soft world.XXXXXX'"
   local folder = pipe:read "l"
@@ -25,7 +25,7 @@ end
 
 function tree.remove(folder) os.execute("rm -rf " .. tree.quote(folder)) end
 
--- Everything the command prints, and its exit status.
+-- Returns everything that the command prints, and its exit status.
 function tree.run(command)
   local pipe = io.popen("(" .. command .. ") 2>&1")
   local text = pipe:read "a"

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every example of the manual and of the README runs as a user would run it: complete ones as they stand,
--- shorter ones after the first block of the page "start", each in a folder and a process of its own.
+-- Every example of the manual and of the README runs as a user would run it: complete ones as they are,
+-- shorter ones after the first block of the page "start", each in its own folder and process.
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/manual"
 local program = dofile(here .. "/../host/program.lua")
 local lfs = require "lfs"
@@ -24,7 +24,7 @@ local function run(block)
   local out, err, code = program.shell(("cd %s && %s script.lua"):format(program.quote(folder),
     program.quote(path)))
   assert.are.equal(0, code, err)
-  assert.are.equal("", err) -- no remark, no failure that nobody looked at
+  assert.are.equal("", err) -- no remark, and no unread failure
   return out, folder
 end
 
@@ -41,9 +41,9 @@ describe("examples of the manual:", function()
     end
   end
 
-  it("are many", function() assert.is_true(count >= 40, count) end)
+  it("number at least 40", function() assert.is_true(count >= 40, count) end)
 
-  it("saved runs go on with all steps done", function()
+  it("saved runs continue with all their steps done", function()
     local block = blocks_of(manual.read "save")[1] .. "\nprint(sw.load 'laying.sws'.time == scene.time)"
     local out, folder = run(block)
     assert.are.equal("true\n", out)
@@ -56,9 +56,9 @@ describe("examples of the manual:", function()
     assert.matches("true\tfrozen\n$", out)
   end)
 
-  -- Capstan by its weight-free pull: with friction 0.2 over half a turn the hand pulls less than the pin
-  -- when it stops, both in tension, and the peg bears the sum of both.
-  it("a wire wound half round a peg presses on it with the pulls of both ends", function()
+  -- The capstan without weight: with friction 0.2 over half a turn the hand pulls less than the pin when it
+  -- stops. Both are in tension, and the peg bears the sum of both.
+  it("a wire wound half round a peg presses on it with the pull of both ends", function()
     local out = run(blocks_of(manual.read "winding")[1])
     local peg, radius, hand = out:match "^true\t(%S+)\t(%S+)\t[^\n]-(%S+)\n$"
     assert.is_truthy(peg, out)
@@ -70,7 +70,7 @@ end)
 describe("the README's script", function()
   teardown(program.clean)
 
-  -- The wire ends up hanging over the wall, pulled by its own friction: less than its weight, 0.289 N.
+  -- The wire ends hanging over the wall, held by its own friction: its pull is below its weight, 0.289 N.
   it("runs as it stands", function()
     local blocks = blocks_of(program.read "README.md")
     assert.are.equal(1, #blocks)

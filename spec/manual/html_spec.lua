@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- make manual: every page is written, and no link leads to nothing or out of the folder.
+-- make manual: every page is written, and every link has its target in the folder.
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/manual"
 local program = dofile(here .. "/../host/program.lua")
 local lfs = require "lfs"
@@ -40,7 +40,7 @@ describe("make manual", function()
     end
   end)
 
-  it("leads nowhere that is not there, and not into the network", function()
+  it("has no broken link and no link to the network", function()
     local count = 0
     for file, html in pairs(pages) do
       for target in html:gmatch '%f[%w]%l+="([^"]*%.%l+[^"]*)"' do
@@ -68,7 +68,7 @@ describe("make manual", function()
     end
   end)
 
-  it("says what it lacks, and what it does not know", function()
+  it("reports missing tools and unknown options", function()
     local tools = program.folder()
     for _, tool in ipairs{ "mkdir", "cp", "mv", "rm" } do
       program.shell(("ln -s $(command -v %s) %s/"):format(tool, tools))

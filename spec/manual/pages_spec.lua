@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The manual: its pages are listed and shown alike everywhere, and what they and the README name is there.
+-- The manual: its pages are listed and shown the same way everywhere, and everything that they and the
+-- README name exists.
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/manual"
 local program = dofile(here .. "/../host/program.lua")
 local lfs = require "lfs"
@@ -32,7 +33,7 @@ local function shown(topic)
 end
 
 describe("manual", function()
-  it("lists every page of its folder once, and no other", function()
+  it("lists every page of its folder once, and no others", function()
     local listed = {}
     for _, name in ipairs(pages) do
       assert.is_nil(listed[name], name .. " is listed twice")
@@ -49,7 +50,7 @@ describe("manual", function()
     end
   end)
 
-  it("shows each page, of lines that fit a terminal", function()
+  it("shows each page, in lines that fit a terminal", function()
     for _, name in ipairs(pages) do
       local text = text_of(manual.read(name))
       assert.is_truthy(shown(name):find(text, 1, true), name)
@@ -57,7 +58,7 @@ describe("manual", function()
     end
   end)
 
-  it("shows the same by help and by softworld doc", function()
+  it("shows the same text by help and by softworld doc", function()
     for _, topic in ipairs{ "grip", "feed", "wire", "box", "forces", "winding" } do
       local out, err, code = program.run{ "doc", topic }
       assert.are.equal(0, code, err)
@@ -70,7 +71,7 @@ describe("manual", function()
     end
   end)
 
-  it("tells the nearest topic, and exit statuses", function()
+  it("suggests the nearest topic, and gives exit statuses", function()
     local out, err, code = program.run{ "doc", "gripp" }
     assert.are.same({ "", "softworld: no help on 'gripp'; did you mean 'grip'?\n", 1 }, { out, err, code })
     out, err, code = program.run{ "doc", "qqqqqqqqqq" }
@@ -84,7 +85,7 @@ describe("manual", function()
     assert.matches("no help on", err)
   end)
 
-  it("leaves a script of that name to ./doc", function()
+  it("leaves a script named doc to ./doc", function()
     local folder = program.folder()
     program.write(folder .. "/doc", "print('mine', ...)")
     local path = program.path:find "^/" and program.path or lfs.currentdir() .. "/" .. program.path
@@ -94,8 +95,8 @@ describe("manual", function()
   end)
 end)
 
-describe("what the manual and the README name:", function()
-  it("files are there", function()
+describe("names in the manual and the README:", function()
+  it("files exist", function()
     local count = 0
     each_text(function(name, text)
       for path in text:gmatch "`([%l]+/[%w_%-/%.]+)" do
@@ -110,7 +111,7 @@ describe("what the manual and the README name:", function()
     assert.is_true(count > 80, count) -- day.md alone has fifty
   end)
 
-  it("links and pictures are there", function()
+  it("link targets and pictures exist", function()
     each_text(function(name, text)
       local base = name == "README.md" and "" or FOLDER
       for target in text:gmatch "%]%(([^)]*)%)" do
@@ -122,7 +123,7 @@ describe("what the manual and the README name:", function()
     end)
   end)
 
-  it("topics of help are there, in sources too", function()
+  it("help topics exist, also those named in sources", function()
     local function check(name, text)
       for _, pattern in ipairs{ 'help "([%w_%-]+)"', "help '([%w_%-]+)'", 'help \\"([%w_%-]+)\\"' } do
         for topic in text:gmatch(pattern) do
@@ -143,7 +144,7 @@ describe("what the manual and the README name:", function()
     pipe:close()
   end)
 
-  it("targets of make and cases of the bench are there", function()
+  it("make targets and benchmark cases exist", function()
     local makefile, bench = read "Makefile", read "scripts/bench.lua" .. read "scripts/bench/choice.lua"
     each_text(function(name, text)
       for target in text:gmatch "`make ([%l]+)" do
@@ -158,7 +159,7 @@ describe("what the manual and the README name:", function()
   end)
 end)
 
--- One object of each kind, under the words by which pages call them.
+-- One object of each kind, under the names that the pages use.
 local function objects()
   local scene = sw.scene{ name = "named" }
   local wire = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 8, from = { 0, 0, 0.1 },
@@ -198,9 +199,9 @@ describe("names of methods and parameters", function()
     assert.is_true(count > 150, count)
   end)
 
-  -- A parameter is a word before "=" within braces of code. Rows know most of them; those of objects made in
-  -- Lua are words of their sources, whose own specs check them.
-  it("before an equals sign are words of rows or of the library", function()
+  -- A parameter is a word before "=" within braces of code. Most of them have rows. Parameters of objects
+  -- made in Lua only have to occur in the library's sources; their own specs check them.
+  it("before an equals sign occur in rows or in the library", function()
     local words = {}
     local function add(text) for word in text:gmatch "[%a_][%w_]*" do words[word] = true end end
     local pipe = io.popen "find lua/softworld csrc/bind -name '*.lua' -o -name '*.c' | grep -v /bench"
@@ -256,13 +257,13 @@ describe("one day in the life of", function()
       end
       lines = lines + 1
     end
-    assert.are.equal(5, stories) -- and the end
+    assert.are.equal(5, stories) -- the end mark counts too
   end)
 end)
 
 describe("errors of an engineer's day", function()
-  -- Each message that the page quotes, from the mistake that it names.
-  it("are told in the words of the page", function()
+  -- Each message that the page quotes, raised by the mistake that the page names.
+  it("have the wording of the page", function()
     local page = manual.read "mistakes"
     local function quoted(text)
       assert.is_truthy(page:find("`" .. text, 1, true) or page:find(text .. "`", 1, true), text)
@@ -294,7 +295,7 @@ describe("errors of an engineer's day", function()
     assert.is_truthy(err:find(remark, 1, true), err)
   end)
 
-  it("end with the exit statuses of the page", function()
+  it("give the exit statuses of the page", function()
     local failing = [[ -- explicit steps somewhat too long: the wire is torn apart
       local s = require "softworld".scene{}
       local w = s:wire{ E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = { 0, 0, 0.1 },

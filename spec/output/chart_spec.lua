@@ -7,7 +7,7 @@ local sink = require "softworld.output.sink"
 local awkward = "a_b^2 {x} 'q' \"d\" `id` $H @x 100 % <&> µ\\n"
 local escaped = "a_b^2 {x} 'q' \"d\" `id` $H @x 100 % &lt;&amp;> µ\\n"
 
--- All the text that an SVG shows, piece after piece.
+-- All the text of an SVG, piece by piece.
 local function shown(path)
   local texts = {}
   for _, element in ipairs(files.xml(sink.read_file(path))) do texts[#texts + 1] = element.text end
@@ -27,7 +27,7 @@ describe("chart", function()
     { x = 0.1, y = 1e-3, series = "late" },
   }
 
-  it("writes large numbers at its axes without marks of markup", function()
+  it("writes large numbers at its axes without markup", function()
     local run = scene.run { frames = 5 }
     for i, frame in ipairs(run.frames) do frame.energy = { kinetic = 1e6 * i, elastic = 0, gravity = 0 } end
     chart.series { run = run, energy = true, path = folder .. "/large.svg" }
@@ -36,7 +36,7 @@ describe("chart", function()
     assert.falsy(text:find("^{", 1, true))
   end)
 
-  it("draws energies of the frames, and running means under a title that says so", function()
+  it("draws the energies of the frames, and running means under a title that says so", function()
     local run = scene.run { frames = 5 }
     for i, frame in ipairs(run.frames) do
       frame.energy = { kinetic = i, elastic = 2 * i, gravity = -i }
@@ -50,7 +50,7 @@ describe("chart", function()
     assert.truthy(shown(folder .. "/m.svg"):find("forces, means over 0.05 s", 1, true))
   end)
 
-  it("draws series as SVG with names, units and nothing left behind", function()
+  it("draws series as SVG with names and units, and leaves no other files", function()
     local run = scene.run { frames = 2 }
     run.name = awkward
     run.series.columns[3] = { name = awkward, unit = "N", values = run.series.columns[1].values }
@@ -62,7 +62,7 @@ describe("chart", function()
     local flat = sink.read_file(folder .. "/it's.svg")
     flat = flat:gsub("&quot;", '"'):gsub("&apos;", "'"):gsub("&gt;", ">")
     local _, times = flat:gsub((escaped:gsub("%p", "%%%0")), "")
-    assert.is_true(times >= 2, flat:match("a_b[^<]*")) -- as the title and in the key
+    assert.is_true(times >= 2, flat:match("a_b[^<]*")) -- in the title and in the key
     assert.same({ "it's.svg" }, files.list(folder))
   end)
 
@@ -89,7 +89,7 @@ describe("chart", function()
     assert.truthy(chart.front { points = points, title = "cost" }:find("cost", 1, true))
   end)
 
-  it("keeps the peaks of long series and copes with gaps, constants and single points", function()
+  it("keeps the peaks of long series, and accepts gaps, constants and single points", function()
     local time, values, flat = {}, {}, {}
     for i = 1, 100000 do time[i], values[i], flat[i] = i * 1e-3, 0, 5 end
     values[54321], values[2] = 1000, 0 / 0
@@ -155,7 +155,7 @@ describe("chart", function()
     assert.same({}, files.list(folder))
   end)
 
-  it("names path and reason, and leaves nothing behind", function()
+  it("gives path and reason of an error, and leaves no files", function()
     assert.has_error(function() chart.front { points = points, path = folder .. "/no/x.svg" } end,
       "cannot write " .. folder .. "/no/x.svg: No such file or directory")
     assert.error_matches(function() chart.front { points = points, path = folder .. "/x.gif" } end,

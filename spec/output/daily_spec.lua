@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Charts, VTK files and pictures of a run with many things in it.
+-- Charts, VTK files and pictures of a run with many kinds of objects.
 local files = require "spec.output.files"
 local povscene = require "softworld.output.povscene"
 local sink = require "softworld.output.sink"
@@ -34,7 +34,7 @@ setup(function()
 end)
 teardown(function() files.remove(folder) end)
 
--- The names in the keys of an SVG with the place where each begins, and the drawing's size.
+-- The names in the keys of an SVG with their positions, and the size of the drawing.
 local function keys_of(path)
   local text, list = sink.read_file(path), {}
   local key = 'translate%(([%d.]+),([%d.]+)%)"[^>]*text%-anchor="start">%s*<text>([^<]*)<'
@@ -46,7 +46,7 @@ local function keys_of(path)
 end
 
 describe("a chart of all series", function()
-  it("names every curve that it draws, within its edges", function()
+  it("names every curve that it draws, within the edges of the drawing", function()
     run:chart{ path = folder .. "/all.svg" }
     local keys, width, height = keys_of(folder .. "/all.svg")
     local found = {}
@@ -60,10 +60,10 @@ describe("a chart of all series", function()
       "a clamp with quite a long name indeed.force" } do
       assert.is_true(found[name], name)
     end
-    assert.is_nil(found["hand.force_x"]) -- of so many, components are drawn when asked for
+    assert.is_nil(found["hand.force_x"]) -- with so many curves, components are drawn only on request
   end)
 
-  it("grows with the number of those that are named", function()
+  it("grows with the number of named curves", function()
     local names = {}
     for _, c in ipairs(run:series().columns) do
       if c.unit == "N" then names[#names + 1] = c.name end
@@ -78,10 +78,10 @@ describe("a chart of all series", function()
     for _, name in ipairs(names) do assert.truthy(rows[name], name) end
     assert.is_true(lowest < height - 60)
     local first = keys[1].x
-    for _, key in ipairs(keys) do assert.near(first, key.x, 1) end -- one column
+    for _, key in ipairs(keys) do assert.near(first, key.x, 1) end -- a single column
   end)
 
-  it("leaves out radii of bends of almost straight wire", function()
+  it("leaves out the bend radii of almost straight wire", function()
     run:chart{ path = folder .. "/bends.svg", columns = { "wire1.bend_radius" } }
     assert.truthy(sink.read_file(folder .. "/bends.svg"):find("wire1.bend_radius [m]", 1, true))
   end)
@@ -128,7 +128,7 @@ describe("VTK files", function()
       end
     end
   end)
-  it("of a wire at rest on a table have its weight as contact force", function()
+  it("of a wire at rest on a table have contact forces that sum to its weight", function()
     local scene = sw.scene{}
     scene:obstacle{ shape = "plane", friction = 0.3 }
     local w = scene:wire{ E = 50e6, density = 1500, radius = 0.0025, segments = 10, from = { 0, 0, 0.0025 },

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:gltf, run:obj, run:stl: files are read back and compared with the run; a .glb file must keep the rules
--- of glTF 2.0 (lengths, alignment, bounds of accessors, indices in range).
+-- run:gltf, run:obj, run:stl: files are read back and compared with the run. A .glb file must follow the
+-- rules of glTF 2.0 (lengths, alignment, bounds of accessors, indices in range).
 local dkjson = require "dkjson"
 local files = require "spec.output.files"
 local sink = require "softworld.output.sink"
@@ -9,7 +9,7 @@ local sw = require "softworld"
 local width = { SCALAR = 1, VEC3 = 3, VEC4 = 4 }
 local bytes = { [5126] = 4, [5125] = 4 }
 
--- The document and the data of a .glb file, whose frame is checked.
+-- Reads a .glb file and checks its header and chunks; returns its document and its data.
 local function read(path)
   local text = sink.read_file(path)
   local magic, version, total, length, kind = ("<c4I4I4I4c4"):unpack(text)
@@ -92,7 +92,7 @@ local function check_animation(doc, data)
   end
 end
 
--- Each node has at most one parent, and only numbers of what there is.
+-- Each node has at most one parent, and refers only to existing objects.
 local function check_nodes(doc)
   local parents = {}
   for _, node in ipairs(doc.nodes) do
@@ -153,7 +153,7 @@ describe("exchange", function()
   end)
   teardown(function() files.remove(folder) end)
 
-  it("keeps the rules of glTF, and has everything by its name", function()
+  it("follows the rules of glTF, and has every object under its name", function()
     local path = run:gltf(folder .. "/it's.glb")
     local doc = check(path)
     for _, name in ipairs { "table", "block", "arm", "w\n1", "hose", "cloth", "hand", "it's \"a\" <b>" } do
@@ -188,7 +188,7 @@ describe("exchange", function()
     end
   end)
 
-  it("moves what moves, by what the frames have, and hides what is not there", function()
+  it("moves objects as the frames do, and hides absent ones", function()
     local doc, data = check(run:gltf(folder .. "/a.glb"))
     local paths = {}
     for _, channel in ipairs(doc.animations[1].channels) do
@@ -201,11 +201,11 @@ describe("exchange", function()
       assert.near(run.scene:frame(f).obstacles[3].position[3], places[3 * f], 1e-6)
     end
     assert.is_nil(paths["block translation"])
-    assert.equal(0, paths["hand scale"][1]) -- it comes when it grasps
+    assert.equal(0, paths["hand scale"][1]) -- the hand appears when it grasps
     assert.equal(1, paths["hand scale"][#paths["hand scale"]])
   end)
 
-  it("hides a wire in frames in which it was taken away, or had not been made", function()
+  it("hides a wire in frames before it was made and after it was removed", function()
     local scene, done = sw.scene(), false
     local function rod(name, y)
       return scene:wire { name = name, E = 5e6, density = 1500, radius = 0.003, from = { 0, y, 0 },
@@ -234,14 +234,14 @@ describe("exchange", function()
     assert.same({ first = { 1, 0 }, later = { 0, 1 } }, sizes)
   end)
 
-  it("takes fewer frames, and one", function()
+  it("writes fewer frames, or one", function()
     local doc = check(run:gltf(folder .. "/a.glb", { frames = 3 }))
     assert.equal(2, #doc.meshes[node_of(doc, "w\n1").mesh + 1].weights)
     doc = check(run:gltf(folder .. "/a.glb", { frames = 1 }))
     assert.is_nil(doc.animations)
   end)
 
-  it("writes triangles that enclose what they should: the volume of the shapes", function()
+  it("writes triangles that enclose the volume of the shapes", function()
     run:stl(folder .. "/a.stl", { t = 0 })
     local text = sink.read_file(folder .. "/a.stl")
     local count = ("<I4"):unpack(text, 81)
@@ -251,16 +251,16 @@ describe("exchange", function()
       local v = { ("<ffffffffffff"):unpack(text, 85 + 50 * k) }
       local a, b, c = { v[4], v[5], v[6] }, { v[7], v[8], v[9] }, { v[10], v[11], v[12] }
       local n = { b[2] * c[3] - b[3] * c[2], b[3] * c[1] - b[1] * c[3], b[1] * c[2] - b[2] * c[1] }
-      local open = a[2] >= 3 -- the cloth, which encloses nothing
+      local open = a[2] >= 3 -- the cloth is not closed
       volume = volume + (open and 0 or 1) * (a[1] * n[1] + a[2] * n[2] + a[3] * n[3]) / 6
     end
     local r, hose = 0.0025, 0.01
     local wanted = 0.05 * 0.2 * 0.04 + 4 / 3 * math.pi * 0.02 ^ 3 + math.pi * r ^ 2 * 0.25
       + math.pi * hose ^ 2 * 0.1
-    assert.near(wanted, volume, 0.03 * wanted) -- round things are polygons
+    assert.near(wanted, volume, 0.03 * wanted) -- round shapes become polygons
   end)
 
-  it("writes OBJ files that are read back as obstacles", function()
+  it("writes OBJ files that can be read back as obstacles", function()
     local path = run:obj(folder .. "/a.obj", { t = 0.2 })
     local text = sink.read_file(path)
     for _, name in ipairs { "block", "w_1", "hose", "cloth" } do
@@ -271,7 +271,7 @@ describe("exchange", function()
     assert.near(0, (back.shape:distance { 0.3, 0, 0.04 }), 1e-6) -- on top of the block
   end)
 
-  it("refuses what is wrong by name, and leaves nothing behind", function()
+  it("refuses wrong arguments by name, and leaves no files", function()
     local list = files.list(folder)
     local function refuses(method, path, args, text)
       local fine, why = pcall(run[method], run, path, args)

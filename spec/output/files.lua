@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Folders to write into, and a system with less in it, for the specs.
+-- Temporary folders, and a system with fewer programs and modules, for the specs.
 
 local files = {}
 
@@ -7,7 +7,7 @@ local count = 0
 
 local function quote(text) return "'" .. text:gsub("'", "'\\''") .. "'" end
 
---- A fresh, empty folder.
+--- Makes a fresh, empty folder.
 function files.folder()
   local name = os.tmpname()
   os.remove(name)
@@ -22,7 +22,7 @@ function files.remove(folder)
   os.execute("rm -rf " .. quote(folder))
 end
 
---- The names in a folder, hidden ones too, sorted.
+--- Returns the names in a folder, also hidden ones, sorted.
 function files.list(folder)
   local names = {}
   local pipe = io.popen("ls -A " .. quote(folder))
@@ -40,7 +40,7 @@ local function replacing(owner, key, value, body)
   if not ok then error(why, 0) end
 end
 
---- Run a function while no program is on the search path.
+--- Runs a function while no program is on the search path.
 function files.without_programs(body)
   local popen = io.popen
   replacing(io, "popen", function(command, mode)
@@ -48,7 +48,7 @@ function files.without_programs(body)
   end, body)
 end
 
---- Run a function while LuaFileSystem cannot be loaded.
+--- Runs a function while LuaFileSystem cannot be loaded.
 function files.without_lfs(body)
   local loaded = package.loaded.lfs
   package.loaded.lfs = nil
@@ -58,7 +58,7 @@ function files.without_lfs(body)
   package.loaded.lfs = loaded
 end
 
---- Width and height of a PNG file, from its header.
+--- Returns width and height of a PNG file, from its header.
 function files.png_size(path)
   local file = assert(io.open(path, "rb"))
   local head = file:read(24)
@@ -68,8 +68,8 @@ function files.png_size(path)
   return width, height
 end
 
---- The elements of an XML text as { tag=, at = attributes, text= } in order;
--- raises if tags do not pair up.
+--- Returns the elements of an XML text as { tag=, at = attributes, text= } in order; raises an error if tags
+-- do not pair up.
 function files.xml(text)
   local list, open = {}, {}
   text = text:gsub("<%?.-%?>", ""):gsub("<!%-%-.-%-%->", ""):gsub("<!DOCTYPE.->", "")
@@ -88,7 +88,7 @@ function files.xml(text)
   return list
 end
 
---- Numbers in a text.
+--- Returns the numbers in a text.
 function files.numbers(text)
   local list = {}
   for word in text:gmatch("%S+") do list[#list + 1] = assert(tonumber(word), word) end

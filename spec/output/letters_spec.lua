@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A script saved in Latin-1: its names are not UTF-8, the files that it writes are.
+-- A script saved in Latin-1: its names are not UTF-8, but the files it writes are.
 local sw = require "softworld"
 local files = require "spec.output.files"
 

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Numbers have a point in all that is written and read, in locales with a decimal comma too.
+-- Numbers have a decimal point in all output and input, also in locales with a decimal comma.
 local program = require "host.program"
 
--- A locale "comma" of which only the numbers are other than usual: glibc's file of that category,
--- six texts behind their places. So the spec needs no locale of the system's.
+-- A locale "comma" that differs from the usual one only in its numbers: glibc's file of this category, six
+-- texts behind their offsets. So the spec needs no locale of the system.
 local function make_locale()
   local folder = program.folder()
   os.execute("mkdir " .. program.quote(folder .. "/comma"))
@@ -62,7 +62,7 @@ describe("numbers in a locale with a decimal comma", function()
     return folder, out
   end
 
-  it("are what they are elsewhere, in every file and text", function()
+  it("are the same as elsewhere, in every file and text", function()
     local usual, said = work()
     local names = program.shell(("cd %s && find . -type f"):format(program.quote(usual)))
     assert.matches("run.csv", names)
@@ -72,9 +72,10 @@ describe("numbers in a locale with a decimal comma", function()
       assert.equal(said, out)
       for name in names:gmatch "[^\n]+" do
         local a, b = program.read(usual .. "/" .. name), program.read(folder .. "/" .. name)
-        -- POV-Ray's rays are a little random: pictures of one size; it reads no number with a comma
+        -- POV-Ray's rays are slightly random: only the sizes of pictures are compared. It cannot read a
+        -- comma
         if name:find "%.png$" then a, b = a:match "IHDR........", b:match "IHDR........" end
-        -- a saved scene keeps times of the clock; it was read again by the script itself
+        -- a saved scene has clock times; the script itself has read it back
         if not name:find "%.sws$" then
           a, b = a:gsub('"[cw][pa][ul]l?":[%d.e-]+', ""), b:gsub('"[cw][pa][ul]l?":[%d.e-]+', "")
           assert.is_true(a == b, name .. " with the locale set " .. when)
@@ -83,7 +84,7 @@ describe("numbers in a locale with a decimal comma", function()
     end
   end)
 
-  it("leave os.setlocale what it is for all else", function()
+  it("leave os.setlocale unchanged for everything else", function()
     local out, err = program.script([[
       local core = require "softworld.core"
       print(os.setlocale("comma", "numeric"), os.setlocale(nil, "numeric"), 1.5, os.setlocale("no such"))

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pictures without display or other programs, and films: what is where in them is compared with the
--- projection of what was drawn.
+-- Pictures without a display or other programs, and films. The places of things in a picture are compared
+-- with the projection of what was drawn.
 local core = require "softworld.core"
 local files = require "spec.output.files"
 local picture = require "softworld.output.picture"
@@ -10,7 +10,7 @@ local sink = require "softworld.output.sink"
 local sw = require "softworld"
 local view = require "softworld.output.view"
 
--- A camera at a height straight above the origin: x to the right, y up; 1 m at the origin is half of it.
+-- A camera straight above the origin: x to the right, y up; 1 m at the origin is half the picture.
 local function from_above()
   return { at = { 0, 0, 4 }, forward = { 0, 0, -1 }, right = { 1, 0, 0 }, up = { 0, 1, 0 }, sky = { 0, 0, 1 },
     tx = 0.5, ty = 0.5, middle = { 0, 0, 0 } }
@@ -24,7 +24,7 @@ local function shown(drawing, technique)
   return canvas
 end
 
--- Red, green, blue of the dot that a point of the plane z = 0 falls on.
+-- Red, green and blue of the pixel at a point of the plane z = 0.
 local function dot(canvas, x, y)
   local column, row = math.floor(size * (0.5 + x / 4)), math.floor(size * (0.5 - y / 4))
   return canvas:rgb():byte(3 * (size * row + column) + 1, 3 * (size * row + column) + 3)
@@ -39,7 +39,7 @@ local function is_red(r, g, b) return r > 1.5 * g and r > 1.5 * b end
 local function is_green(r, g, b) return g > 1.5 * r and g > 1.5 * b end
 
 describe("a drawing", function()
-  it("shows things where they are, and what is nearer in front, in either order", function()
+  it("shows things in their places, nearer ones in front, in either order of drawing", function()
     for _, first in ipairs { 1, 2 } do
       local drawing = core.drawing()
       for k = 1, 2 do
@@ -56,7 +56,7 @@ describe("a drawing", function()
     end
   end)
 
-  it("draws tubes as wide as they are, and round", function()
+  it("draws tubes in their width, shaded as round", function()
     local drawing = core.drawing()
     drawing:tube({ -1, 0, 0, 0, 0, 0, 1, 0, 0 }, 0.2, { 1, 0.1, 0.1 }, 0)
     local canvas = shown(drawing)
@@ -70,7 +70,7 @@ describe("a drawing", function()
     local function light(with)
       local drawing = core.drawing()
       drawing:floor({ 0, 0, 0 }, { 0, 0, 1 }, 100, 50, { 0.8, 0.8, 0.8 }) -- one square
-      add_square(drawing, { 1.4, 1.4, 0.01 }, { 0.5, 0.5, 0.5 }) -- the same lamp in both
+      add_square(drawing, { 1.4, 1.4, 0.01 }, { 0.5, 0.5, 0.5 }) -- keeps the lamp the same in both
       add_square(drawing, { -1.4, -1.4, 1 }, { 0.5, 0.5, 0.5 })
       if with then drawing:balls({ 0, 0, 0.6 }, 0.2, { 1, 1, 1 }, 0) end
       return shown(drawing):rgb()
@@ -79,11 +79,11 @@ describe("a drawing", function()
     for i = 1, #bare, 3 do
       if dark:byte(i) < 0.8 * bare:byte(i) and dark:byte(i) > 60 then lit = lit + 1 end
     end
-    local ball = math.pi * (0.2 * size / 4) ^ 2 -- its own dots
+    local ball = math.pi * (0.2 * size / 4) ^ 2 -- its own pixels
     assert.is_true(lit > 0.7 * ball and lit < 4 * ball, lit)
   end)
 
-  it("colours points, from one to the next", function()
+  it("interpolates colours between points", function()
     local drawing = core.drawing()
     drawing:tube({ -1, 0, 0, 1, 0, 0 }, 0.2, { 1, 0, 0, 0, 1, 0 }, 0)
     local canvas = shown(drawing)
@@ -93,7 +93,7 @@ describe("a drawing", function()
     assert.is_true(math.abs(r - g) < 30)
   end)
 
-  it("shows edges and lines, and pale what is behind", function()
+  it("shows edges and lines, and hidden ones pale", function()
     local drawing = core.drawing()
     add_square(drawing, { 0, 0, 1 }, { 0, 0, 0 })
     drawing:lines({ -1.5, 0, 0, 1.5, 0, 0 }, { 1, 0, 0 })
@@ -110,12 +110,12 @@ describe("a drawing", function()
     assert.is_true(reddest(0) > 15 and reddest(0) < 80, reddest(0)) -- behind the square
     local dark = 255
     for k = -3, 3 do dark = math.min(dark, (dot(canvas, 0.5 * 4 / 3 + 4 * k / size, 0.3))) end
-    assert.is_true(dark < 130, dark) -- its edge
+    assert.is_true(dark < 130, dark) -- the edge of the square
     local inside = { dot(canvas, 0.3, 0.3) }
     assert.same({ 255, 255, 255 }, inside)
   end)
 
-  it("refuses numbers that are not finite, and corners that are not there", function()
+  it("refuses numbers that are not finite, and corners that do not exist", function()
     local drawing = core.drawing()
     local none = { 1, 0, 0 }
     assert.error_matches(function() drawing:tube({ 0, 0, 0, 0 / 0, 0, 0 }, 1, none) end, "not finite")
@@ -132,12 +132,12 @@ describe("a drawing", function()
     end, "out of range")
     assert.error_matches(function() core.canvas(0, 10) end, "out of range")
     assert.error_matches(function() core.canvas(16384, 16384) end, "out of range")
-    canvas:fill(8, 8, 100, 100, none) -- what leaves it is cut
+    canvas:fill(8, 8, 100, 100, none) -- what leaves the canvas is cut off
     canvas:text("a long text with \255 bytes", -5, 200, 30, none)
     canvas:text("a long text", 2, 9, 30, none)
   end)
 
-  it("gives back all memory, also when that runs out", function()
+  it("frees all its memory, also when memory runs out", function()
     local function draw()
       local drawing = core.drawing()
       add_square(drawing, { 0, 0, 0 }, { 1, 0, 0 })
@@ -169,7 +169,7 @@ describe("a drawing", function()
 end)
 
 describe("a canvas", function()
-  it("writes PNG files that others read back dot by dot", function()
+  it("writes PNG files that other programs read back pixel by pixel", function()
     local folder = files.folder()
     local canvas = core.canvas(37, 23)
     for k = 0, 22 do canvas:fill(k, k, 9, 3, { k / 23, 1 - k / 23, 0.3 }) end
@@ -182,7 +182,7 @@ describe("a canvas", function()
     files.remove(folder)
   end)
 
-  it("writes letters, and tells how long they are", function()
+  it("writes letters, and gives their width", function()
     local canvas = core.canvas(100, 30)
     local long = canvas:text("III", 10, 22, 20, { 0, 0, 0 })
     assert.near(core.text_width("III", 20), long, 1e-12)
@@ -198,7 +198,7 @@ describe("a canvas", function()
 end)
 
 describe("a scale of colours", function()
-  it("goes from the least to the largest value; 0 is in the middle of both signs", function()
+  it("goes from the smallest to the largest value; with both signs 0 is in the middle", function()
     local s = scale.new("tension", 0, 4)
     assert.same(s.at(0), s.at(-1))
     assert.same(s.at(4), s.at(5))
@@ -226,7 +226,7 @@ describe("pictures", function()
   end)
   teardown(function() files.remove(folder) end)
 
-  it("are of the size asked for, in each technique", function()
+  it("have the requested size, in each technique", function()
     for _, technique in ipairs { "shaded", "particles", "wireframe" } do
       local result = run:picture { path = folder .. "/it's \"a\".png", technique = technique, width = 320,
         height = 240, t = 0.1 }
@@ -262,7 +262,7 @@ describe("pictures", function()
     assert.is_true(nearest < 0.3, nearest)
   end)
 
-  it("have one scale for all moments, that of the run, or the one asked for", function()
+  it("have one scale for all times: the scale of the run, or the requested one", function()
     local a = run:picture { path = folder .. "/a.png", t = 0, colour = "curvature", width = 200 }
     local b = run:picture { path = folder .. "/a.png", t = 0.3, colour = "curvature", width = 200 }
     assert.same({ a.low, a.high }, { b.low, b.high })
@@ -275,7 +275,7 @@ describe("pictures", function()
     assert.same({ 1, 5 }, { b.low, b.high })
   end)
 
-  it("of a scene show it as it is and leave it so", function()
+  it("of a scene show its present state and leave it unchanged", function()
     local before, frames = run.scene:snapshot(), run.scene:frame_count()
     local x = wire:positions()
     local result = run.scene:picture { path = folder .. "/now.png", width = 300, colour = "stress" }
@@ -290,7 +290,7 @@ describe("pictures", function()
     assert.equal(0, fresh:frame_count())
   end)
 
-  it("never change what a run computes", function()
+  it("never change the results of a run", function()
     local function tip(look)
       local s = sw.scene {}
       local w = s:wire { E = 1e7, density = 1200, radius = 0.003, from = { 0, 0, 0.2 }, to = { 0.4, 0, 0.2 } }
@@ -304,7 +304,7 @@ describe("pictures", function()
     assert.same(tip(false), tip(true))
   end)
 
-  it("leave out what is no number, and say so when nothing is left", function()
+  it("leave out points that are not numbers, and say when nothing is left", function()
     local made = scene.run { frames = 3 }
     made.range = function() return 0, 1 end
     made.frames[3].wires[1][5] = 0 / 0
@@ -315,7 +315,7 @@ describe("pictures", function()
       "no frame with finite coordinates")
   end)
 
-  it("refuse what is wrong by name, and leave nothing behind", function()
+  it("refuse wrong arguments by name, and leave no files", function()
     local list = files.list(folder)
     local function refuses(given, text, method)
       local fine, why = pcall(run[method or "picture"], run, given)
@@ -343,7 +343,7 @@ describe("pictures", function()
     assert.same(list, files.list(folder))
   end)
 
-  it("show runs that failed as far as they came", function()
+  it("show a failed run up to its end", function()
     local s = sw.scene {}
     s:clamp(s:wire { E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = { 0, 0, 0.1 },
       to = { 0.5, 0, 0.1 } }, { s = 0 })
@@ -355,7 +355,7 @@ describe("pictures", function()
     assert.truthy(result.note:find("FAILED", 1, true), result.note)
   end)
 
-  it("as films are as long as the run, and shorter when they are faster", function()
+  it("as films last as long as the run, and less when they are faster", function()
     local function length(path)
       local fine, text = sink.run("ffprobe -v error -show_entries format=duration -of csv=p=0 "
         .. sink.quote(path))
@@ -369,7 +369,7 @@ describe("pictures", function()
     assert.equal(0, quick.width % 2 + quick.height % 2)
   end)
 
-  it("as films name the package that is missing, and what ffmpeg complains about", function()
+  it("as films name the missing package, and pass on what ffmpeg complains about", function()
     files.without_programs(function()
       assert.error_matches(function() run:film(folder .. "/m.gif") end, "apt%-get install ffmpeg")
     end)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Where files go: paths of any characters, what killed processes leave, devices, the disk.
+-- Where files go: paths with any characters, remains of killed processes, devices, the disk.
 local chart = require "softworld.output.chart"
 local core = require "softworld.core"
 local csv = require "softworld.csv"
@@ -20,7 +20,7 @@ describe("a path with odd characters", function()
   before_each(function() folder = files.folder() end)
   after_each(function() files.remove(folder) end)
 
-  -- Nothing but the file is there, and it is not empty.
+  -- The file is the only one there, and it is not empty.
   local function alone(place, name)
     local text = sink.read_file(place .. "/" .. name)
     assert.is_true(#text > 0)
@@ -72,7 +72,7 @@ describe("a path with odd characters", function()
 end)
 
 describe("a title that begins with a quote", function()
-  it("is drawn as it is, on axes and in keys too", function()
+  it("is drawn literally, also on axes and in keys", function()
     local folder = files.folder()
     for _, title in ipairs { "'a' \\n `id` \"b\" @x $H", "'", "''", "'''x", '"', '""x', "`id`" } do
       local path = folder .. "/t.svg"
@@ -93,7 +93,7 @@ describe("temporary files", function()
   before_each(function() folder = files.folder() end)
   after_each(function() files.remove(folder) program.clean() end)
 
-  -- A program that is killed in the middle of what it does with a path.
+  -- A program that is killed while it works on a path.
   local function killed(body)
     program.script(([[
       local sink = require "softworld.output.sink"
@@ -116,7 +116,7 @@ describe("temporary files", function()
     assert.same({ "other.txt" }, files.list(folder))
   end)
 
-  it("of a killed run that saves, and of a killed chart, go the same way", function()
+  it("of a killed save and of a killed chart are removed in the same way", function()
     local left = 0
     for _, body in ipairs {
       [[local sw = require "softworld"
@@ -133,10 +133,10 @@ describe("temporary files", function()
       sink.write_file(folder .. "/c.svg", "text")
       assert.same({ "c.svg" }, files.list(folder))
     end
-    assert.equal(3, left) -- the second time there is a file from the first
+    assert.equal(3, left) -- in the second round c.svg of the first is still there
   end)
 
-  it("of a process that lives are left alone, and so are other people's", function()
+  it("of a living process stay, and so do other people's files", function()
     local own = sink.temporary(folder .. "/a")
     local names = { ".x.tmp", ".x.1.tmp", ".x.1-.tmp", "x.1-2.tmp", ".x.1-2.tmp.gz", ".1-2.tmp", "y.tmp" }
     for _, name in ipairs(names) do program.write(folder .. "/" .. name, "mine") end
@@ -152,7 +152,7 @@ describe("temporary files", function()
     assert.is_nil(core.kind(own))
   end)
 
-  it("are closed and gone after whatever fails", function()
+  it("are closed and removed after any failure", function()
     local function open() return #files.list "/proc/self/fd" end
     for _ = 1, 2 do collectgarbage() end -- pipes of other tests
     local before = select(2, pcall(open))
@@ -168,8 +168,8 @@ describe("temporary files", function()
   end)
 end)
 
-describe("what is no file", function()
-  it("is written to in place", function()
+describe("a path that is not a regular file", function()
+  it("is written in place", function()
     local folder = files.folder()
     local pipe = folder .. "/pipe"
     os.execute("mkfifo " .. pipe)
@@ -189,7 +189,7 @@ describe("what is no file", function()
     files.remove(folder)
   end)
 
-  it("is not read, for it may never end", function()
+  it("is not read, because reading might never end", function()
     local folder = files.folder()
     os.execute("mkfifo " .. folder .. "/pipe.stl")
     local scene <close> = sw.scene{}
@@ -210,7 +210,7 @@ describe("what is no file", function()
 end)
 
 describe("a saved scene", function()
-  it("is on the disk before it takes the old one's place, and the folder after it", function()
+  it("is synced to the disk before it replaces the old file, and its folder after that", function()
     local folder, order = files.folder(), {}
     local sync, rename = core.sync, os.rename
     core.sync = function(path, is_folder)

@@ -13,7 +13,7 @@ local function run_of(name, height)
   return scene:run { duration = 0.1, dt = 0.01 }
 end
 
--- The script that gnuplot is given.
+-- The script that gnuplot gets.
 local function script_of(args)
   local draw, kept = gnuplot.draw, nil
   gnuplot.draw = function(script)
@@ -34,7 +34,7 @@ describe("sw.plot", function()
   end)
   teardown(function() files.remove(folder) end)
 
-  it("leaves out bend radii of what is as good as straight, as run:chart does", function()
+  it("leaves out bend radii of almost straight wire, as run:chart does", function()
     local scene = sw.scene {}
     local wire = scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
     scene:clamp(wire, { s = 0 })
@@ -46,7 +46,7 @@ describe("sw.plot", function()
     assert.is_true(most <= 100 * least and least > 0, most .. " of " .. least)
   end)
 
-  it("lays runs over one another, one panel for each unit", function()
+  it("overlays runs, with one panel for each unit", function()
     local script = script_of { a, b, path = "x.svg",
       columns = { "wall.force", "wall.moment", "wall.force_z" } }
     local _, plots = script:gsub("\nplot ", "")
@@ -59,7 +59,7 @@ describe("sw.plot", function()
     assert.truthy(sink.read_file(path):find("b &amp; &lt;c>, wall.force", 1, true))
   end)
 
-  it("draws each value that it is given, with its error", function()
+  it("draws every given value with its error", function()
     local script = script_of { { name = "m", x = { 1, 3 }, y = { 0.25, { value = 0.5, error = 0.125 } } } }
     assert.truthy(script:find("\n1 0.25 0\n3 0.5 0.125\n", 1, true), script)
     assert.truthy(script:find("yerrorbars", 1, true))
@@ -69,7 +69,7 @@ describe("sw.plot", function()
     assert.truthy(script:find("\n2 NaN\n", 1, true), script)
   end)
 
-  it("has logarithmic axes, and says what cannot stand on them", function()
+  it("has logarithmic axes, and names curves that have no positive value", function()
     local script = script_of { { x = { 1, 10 }, y = { 2, 200 } }, log = "xy" }
     assert.truthy(script:find("set logscale x", 1, true) and script:find("set logscale y", 1, true))
     script = script_of { { x = { -1, 10 }, y = { 2, 200 } }, log = "y" }
@@ -87,7 +87,7 @@ describe("sw.plot", function()
     assert.truthy(sw.plot { { name = "squares", y = { 1, 4, 9 } } }:find("squares", 1, true))
   end)
 
-  it("refuses what is wrong by name, and leaves nothing behind", function()
+  it("refuses wrong arguments by name, and leaves no files", function()
     local list = files.list(folder)
     local function refuses(args, text)
       local fine, why = pcall(sw.plot, args)
@@ -111,7 +111,7 @@ describe("sw.plot", function()
     assert.same(list, files.list(folder))
   end)
 
-  it("of a run that failed tells that it has no series", function()
+  it("of a failed run says that it has no series", function()
     local scene = sw.scene { name = "wild" }
     local wire = scene:wire { E = 5e6, density = 1500, radius = 0.0025, segments = 20, from = { 0, 0, 0.1 },
       to = { 0.5, 0, 0.1 } }

@@ -15,7 +15,7 @@ local function each_point(run, visit)
 end
 
 describe("view", function()
-  it("holds everything in the picture, close to its edges and in its middle", function()
+  it("fits everything into the picture, centred and close to its edges", function()
     for _, aspect in ipairs { 0.5, 1, 1.5, 3 } do
       local run = scene.run { frames = 5 }
       local camera = view.camera(run, aspect)
@@ -52,7 +52,7 @@ describe("view", function()
     assert.near(u[3], r[1] * f[2] - r[2] * f[1], 1e-12) -- right x forward = up
   end)
 
-  it("takes gravity, no gravity and a camera of one's own", function()
+  it("handles gravity, no gravity and the script's own camera", function()
     local run = scene.run { frames = 1 }
     run.gravity = { 0, 9.81, 0 }
     assert.same({ 0, -1, 0 }, view.up(run))
@@ -74,7 +74,7 @@ describe("povray", function()
   before_each(function() folder = files.folder() end)
   after_each(function() files.remove(folder) end)
 
-  it("traces a strip of six in the size asked for and leaves nothing else", function()
+  it("renders a strip of six in the requested size and leaves no other files", function()
     local path = folder .. "/it's a \"strip\" µ.png"
     local result = povray.strip {
       run = scene.run { frames = 13 }, path = path, width = 460, height = 300, draft = true,
@@ -90,7 +90,7 @@ describe("povray", function()
     assert.same({ path:match("[^/]*$") }, files.list(folder))
   end)
 
-  it("shows the wire in each of the pictures", function()
+  it("shows the wire in each picture", function()
     local run = scene.run { frames = 2 }
     povray.picture { run = run, frame = 1, path = folder .. "/with.png", size = { 200, 160 }, draft = true }
     run.wires[1].color = { 0, 1, 0 }
@@ -99,7 +99,7 @@ describe("povray", function()
     assert.same({ 200, 160 }, { files.png_size(folder .. "/with.png") })
   end)
 
-  it("traces every shape, several wires and open grips", function()
+  it("renders every shape, several wires and open grips", function()
     local run = scene.run { frames = 1 }
     local frame = run.frames[1]
     run.obstacles = {
@@ -139,20 +139,20 @@ describe("povray", function()
     assert.truthy(text:find("mesh2 {\nvertex_vectors { 66,", 1, true)) -- 6 x 8, and two ends of 9
     assert.truthy(text:find("face_indices { 96,", 1, true)) -- 2 x 5 x 8, and twice 8
     assert.is_nil(text:find("sphere {", 1, true))
-    look.thickness = 2 -- away from the middle line
+    look.thickness = 2 -- further from the centreline
     text = povscene.text(run, run.frames[1], look)
     assert.truthy(text:find("<0,0.04,0.05>", 1, true))
     povray.picture { run = run, path = folder .. "/a.png", size = { 120, 100 }, draft = true }
     assert.same({ 120, 100 }, { files.png_size(folder .. "/a.png") })
   end)
 
-  it("chooses round squares for the table", function()
+  it("chooses round sizes for the squares of the table", function()
     assert.near(0.2, povscene.square(3.4), 1e-15)
     assert.near(0.05, povscene.square(1), 1e-15)
     assert.near(0.001, povscene.square(0.014), 1e-15)
   end)
 
-  it("takes the frames nearest to the times told, with their captions", function()
+  it("takes the frames nearest to the given times, with their captions", function()
     local run = scene.run { frames = 9 }
     local shot = povray.strip { run = run, path = folder .. "/t.png", draft = true, width = 400,
       columns = 2, times = { run.frames[1].t, run.frames[4].t, 1e9 }, captions = { "first", "then" } }
@@ -169,7 +169,7 @@ describe("povray", function()
     assert.same({}, files.list(folder))
   end)
 
-  it("names what is wrong, and leaves nothing behind", function()
+  it("names wrong arguments, and leaves no files", function()
     local run = scene.run { frames = 2 }
     assert.error_matches(function() povray.strip { run = run, path = folder .. "/x.jpg" } end,
       "does not end in .png")

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- run:report and sw.report without a browser: what is refused, what a full disk leaves, how much is written.
+-- run:report and sw.report without a browser: refused arguments, a full disk, the size of the page.
 local core = require "softworld.core"
 local files = require "spec.output.files"
 local film = require "spec.film.film"
@@ -20,7 +20,7 @@ describe("run:report", function()
   before_each(function() folder = files.folder() end)
   after_each(function() files.remove(folder) end)
 
-  it("writes one file and nothing else", function()
+  it("writes one file and no others", function()
     assert.equal(folder .. "/x.html", run:report(folder .. "/x.html"))
     assert.same({ "x.html" }, files.list(folder))
     local html = read(folder .. "/x.html")
@@ -30,7 +30,7 @@ describe("run:report", function()
     end
   end)
 
-  it("marks what grippers met on the way", function()
+  it("marks slips and other events of grippers", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.1 }, to = { 0.3, 0, 0.1 }, segments = 12 }
     scene:clamp(wire, { s = 0 })
@@ -53,7 +53,7 @@ describe("run:report", function()
     end
   end)
 
-  it("tells which file cannot be written, and why", function()
+  it("names a file that cannot be written, and gives the reason", function()
     local told = { [folder .. "/no/x.html"] = "No such file or directory",
       [folder .. "/x.txt"] = "does not end in .html" }
     for path, why in pairs(told) do
@@ -69,7 +69,7 @@ describe("run:report", function()
     assert.same({}, files.list(folder))
   end)
 
-  it("leaves the old file when the disk is full", function()
+  it("keeps the old file when the disk is full", function()
     local open = io.open
     local path = folder .. "/x.html"
     local file = assert(open(path, "wb"))
@@ -84,7 +84,7 @@ describe("run:report", function()
     assert.same({ "x.html" }, files.list(folder))
   end)
 
-  it("writes through a device, and tells when that is full", function()
+  it("writes through a device, and reports when it is full", function()
     local ok, text = pcall(run.report, run, "/dev/full")
     assert.is_false(ok)
     assert.truthy(text:find("/dev/full: No space left on device", 1, true), text)
@@ -95,7 +95,7 @@ describe("run:report", function()
     scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 20 }
     local long = scene:run { duration = 0.5, dt = 1e-5, frame = 5e-7, frames = { memory = 1e6 } }
     assert.is_true(long.ok)
-    -- a frame: 21 nodes of 12 numbers of 4 bytes and what is beside them; a million were asked for
+    -- a frame: 21 nodes of 12 numbers of 4 bytes, and its other data; a million frames were requested
     local count = scene:frame_count()
     assert.is_true(count * 21 * 12 * 4 < 1e6 and count > 200, count)
     assert.is_true(core.frames_thinned(scene) >= 32)
@@ -103,12 +103,12 @@ describe("run:report", function()
     assert.is_true(#read(folder .. "/x.html") < 2.5e6)
   end)
 
-  it("leaves frames out whose places are no numbers", function()
+  it("leaves out frames with positions that are not numbers", function()
     local scene = sw.scene {}
     scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 20 }
     local far = scene:obstacle { name = "far", shape = "sphere", radius = 0.1, at = { 0, 5, 0 } }
     scene:run { duration = 0.1, dt = 0.01, frame = 0.02 }
-    far:pose { 0, 1e39, 0 } -- beyond what 32 bits hold
+    far:pose { 0, 1e39, 0 } -- larger than 32 bits can hold
     local rest = scene:run { duration = 0.1, dt = 0.01, frame = 0.02 }
     local packed, whole, broken = core.film(scene, -math.huge, math.huge, true)
     assert.is_true(whole >= 5 and broken >= 5, whole .. " " .. broken)
@@ -121,7 +121,7 @@ describe("run:report", function()
     assert.truthy(read(folder .. "/x.html"):find('"broken":' .. broken, 1, true))
   end)
 
-  it("refuses a run whose frames went with a snapshot", function()
+  it("refuses a run whose frames were dropped by a snapshot", function()
     local scene = sw.scene {}
     scene:wire { E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
     local snapshot = scene:snapshot()
@@ -132,7 +132,7 @@ describe("run:report", function()
     assert.truthy(text:find("snapshot was restored", 1, true), text)
   end)
 
-  it("has the peaks of series that are too long to be all shown", function()
+  it("has the peaks of series that are too long to be shown in full", function()
     local scene = sw.scene {}
     local wire = scene:wire { E = 1e7, density = 1500, radius = 1e-3, from = { 0, 0, 0 }, to = { 0.5, 0, 0 },
       segments = 10 }
@@ -167,7 +167,7 @@ describe("run:report", function()
 end)
 
 describe("sw.report", function()
-  it("refuses what are no runs, at the script's line", function()
+  it("refuses arguments that are not runs, at the script's line", function()
     local run = runs.laying()
     for told, args in pairs { ["[1] must be a run, got"] = { 3, path = "x.html" },
       ["path is required"] = { run }, ["a run is wanted"] = { path = "x.html" },

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- An invented laying for the specs of the writers: a wire is dragged by its
--- first end in arches over thin walls on a table. Kinematics only.
+-- An invented laying for the specs of the writers: a gripper drags a wire by its first end in arches over
+-- thin walls on a table. Kinematics only.
 
 local scene = {}
 
 local walls = { 0.4, 0.9, 1.4 }
 local wall_height, clearance = 0.1, 0.04
 
--- Where the gripper is at the share u of the laying, 0..1.
+-- Position of the gripper at the share u of the laying, 0..1.
 local function tip(u)
   local x = 0.05 + 1.75 * u
   local z = 0.004
@@ -20,7 +20,7 @@ local function tip(u)
   return x, 0.03 * math.sin(6 * u), z
 end
 
--- The wire follows the gripper and lies over walls it has passed.
+-- The wire follows the gripper and lies over the walls that it has passed.
 local function rest_height(x, radius)
   local z = radius
   for _, wall in ipairs(walls) do
@@ -91,7 +91,7 @@ function scene.run(options)
   return run
 end
 
---- The surface of a wire that is a mesh: a tube of `around` points along x, in `sections`.
+--- The surface of a wire that is a mesh: a tube along x with `around` points in each of `sections`.
 function scene.surface(around, sections, radius)
   local surface, line = { around = around, points = {}, force = {} }, {}
   for i = 0, sections - 1 do

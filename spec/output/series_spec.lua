@@ -5,7 +5,7 @@ local scene = require "spec.output.scene"
 local series = require "softworld.output.series"
 local sink = require "softworld.output.sink"
 
--- A reader of JSON just good enough to check the writer.
+-- A reader of JSON, just good enough to check the writer.
 local function parse(text)
   local chunk = text:gsub('"([^"]*)":', '["%1"]='):gsub("%[(%-?[%d%[])", "{%1"):gsub("null", "false")
   chunk = chunk:gsub("=%[", "={"):gsub("%]([,}\n])", "}%1")
@@ -39,7 +39,7 @@ describe("series", function()
     assert.same({ "a.csv" }, files.list(folder))
   end)
 
-  it("quotes awkward names and writes what is not finite", function()
+  it("quotes awkward names and writes values that are not finite", function()
     local data = {
       time = { 0.0, 0.5 },
       columns = {
@@ -83,8 +83,8 @@ describe("series", function()
 end)
 
 describe("series derived from others", function()
-  it("average over a time, whatever the steps, and keep gaps", function()
-    -- The mean of a straight line over a centred window is the line; that of a step is a ramp.
+  it("average over a time for any step sizes, and keep gaps", function()
+    -- The mean of a straight line over a centred window is the line itself; the mean of a step is a ramp.
     local time, line, jump = {}, {}, {}
     for i = 1, 201 do
       time[i] = ((i - 1) / 200) ^ 1.5 -- uneven steps
@@ -114,7 +114,7 @@ describe("series derived from others", function()
       { t = 0.5, energy = { kinetic = 4, elastic = 5, gravity = -7 } } } }
     assert.same({ 0, 0.5 }, data.time)
     assert.same({ 1, 4 }, data.columns[1].values)
-    assert.same({ 4, 0 }, data.columns[3].values) -- from the lowest
+    assert.same({ 4, 0 }, data.columns[3].values) -- measured from the lowest
     assert.error_matches(function() series.energy { frames = { { t = 0 } } } end, "hold no energies")
   end)
 end)
@@ -124,10 +124,10 @@ describe("json", function()
     assert.equal('{"a":[1,2.5,null,true],"b":{},"c":[],"d":null}',
       json.encode { a = { 1, 2.5, 0 / 0, true }, b = json.object {}, c = {}, d = 1 / 0 })
     assert.equal('"q\\" \\\\ \\n \\u0001 \\u007f µ %"', json.encode 'q" \\ \n \1 \127 µ %')
-    assert.equal('"\195\191"', json.encode "\255") -- not UTF-8: read as Latin-1
+    assert.equal('"\195\191"', json.encode "\255") -- not UTF-8, so it is read as Latin-1
   end)
 
-  it("rejects what has no form", function()
+  it("rejects values that JSON cannot hold", function()
     assert.error_matches(function() json.encode(print) end, "a function cannot")
     assert.error_matches(function() json.encode { [1.5] = 2 } end, "a key of type number")
     assert.error_matches(function() json.encode { 1, a = 2 } end, "both")

@@ -8,14 +8,14 @@ describe("sink", function()
   before_each(function() folder = files.folder() end)
   after_each(function() files.remove(folder) end)
 
-  it("writes text and leaves nothing else behind", function()
+  it("writes text and leaves no other files", function()
     local path = folder .. "/a b'c\"%d µ.txt"
     assert.equal(path, sink.write_file(path, "one\0two\n"))
     assert.equal("one\0two\n", sink.read_file(path))
     assert.same({ "a b'c\"%d µ.txt" }, files.list(folder))
   end)
 
-  it("writes through a function, and replaces what was there", function()
+  it("writes through a function, and replaces the old content", function()
     local path = folder .. "/x.txt"
     sink.write_file(path, "old")
     sink.write_file(path, function(write) write("n", "e"); write "w" end)
@@ -33,7 +33,7 @@ describe("sink", function()
     assert.same({ "x.txt" }, files.list(folder))
   end)
 
-  it("names path and reason when a file cannot be written", function()
+  it("gives path and reason when a file cannot be written", function()
     assert.has_error(function() sink.write_file(folder .. "/no/x.txt", "") end,
       "cannot write " .. folder .. "/no/x.txt: No such file or directory")
     sink.make_folder(folder .. "/taken")
@@ -47,7 +47,7 @@ describe("sink", function()
     assert.error_matches(function() sink.write_file(folder .. "/a", 3) end, "function%(write%) expected")
   end)
 
-  it("tells of a full disk", function()
+  it("reports a full disk", function()
     local probe = io.open("/dev/full", "wb")
     if not probe then return end
     probe:close()
@@ -98,21 +98,21 @@ describe("sink", function()
     end
   end)
 
-  it("takes paths apart", function()
+  it("splits paths into folder and extension", function()
     assert.same({ ".", "/", "a/b", "/a" },
       { sink.folder "x", sink.folder "/x", sink.folder "a/b/x", sink.folder "/a/x" })
     assert.same({ "gz", "", "", "svg" }, { sink.extension "a.tar.gz", sink.extension "a.b/c",
       sink.extension ".hidden", sink.extension "A.SVG" })
   end)
 
-  it("says which Debian package brings a missing program", function()
+  it("names the Debian package of a missing program", function()
     files.without_programs(function()
       assert.has_error(function() sink.need("gnuplot", "gnuplot-nox", "a chart") end,
         "a chart needs the program gnuplot, which is not installed: apt-get install gnuplot-nox")
     end)
   end)
 
-  it("gives exit codes", function()
+  it("returns exit codes and output", function()
     assert.same({ false, "", 3 }, { sink.run "exit 3" })
     assert.same({ true, "out\nerr\n", 0 }, { sink.run "echo out; echo err >&2" })
     assert.equal(127, (select(3, sink.run "no-such-program-at-all")))

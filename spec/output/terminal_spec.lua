@@ -4,7 +4,7 @@ local progress = require "softworld.output.progress"
 local scene = require "spec.output.scene"
 local summary = require "softworld.output.summary"
 
--- A stream that keeps what is written, and a clock that goes when told.
+-- A stream that keeps its text, and a clock that is set by the test.
 local function recorder()
   local kept = {}
   function kept:write(...)
@@ -22,7 +22,7 @@ local function clock()
 end
 
 describe("number", function()
-  it("gives four digits and a handy prefix", function()
+  it("gives four digits and a suitable prefix", function()
     local cases = {
       { 1.23456, "N", "1.235 N" }, { 0.0012345, "N", "1.234 mN" }, { -12345.678, "J", "-12.35 kJ" },
       { 999.96, "N", "1.000 kN" }, { 0.99996, "N", "1.000 N" }, { 0.03123, "m", "31.23 mm" },
@@ -87,7 +87,7 @@ describe("progress", function()
     assert.equal(last, stream:text():sub(-#last))
   end)
 
-  it("tells rate and time left when there is room, and nothing too wide when not", function()
+  it("gives rate and time left when there is room, and never exceeds the width", function()
     for width = 1, 200 do
       local stream, now, set = recorder(), clock()
       local bar = progress.new { total = 5.0, stream = stream, terminal = true, width = width, clock = now }
@@ -109,13 +109,13 @@ describe("progress", function()
     bar:finish()
     local text = stream:text()
     local _, lines = text:gsub("\n", "")
-    assert.equal(5, lines) -- at 0, 3, 6 and 9 s, and the last
+    assert.equal(5, lines) -- at 0, 3, 6 and 9 s, and at the end
     assert.is_nil(text:find("[\r\27]"))
     assert.truthy(text:find("^  0 %%  t = 0 s of 10.00 s, 0 steps\n"))
     assert.truthy(text:find("t = 10.00 s, 100 steps in 10.0 s\n$"))
   end)
 
-  it("clears up after an error and is silent when asked to be", function()
+  it("clears its line after an error, and is silent on request", function()
     local stream, now = recorder(), clock()
     pcall(function()
       local options = { total = 1, stream = stream, terminal = true, width = 80, clock = now }

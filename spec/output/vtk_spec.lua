@@ -49,12 +49,12 @@ describe("vtk", function()
       assert.equal(arrays.Linesoffsets[#arrays.Linesoffsets] or 0, #arrays.Linesconnectivity)
       assert.equal(arrays.Polysoffsets[#arrays.Polysoffsets] or 0, #arrays.Polysconnectivity)
     end
-    -- obstacles at rest: one file for all frames, and no temporary file
+    -- obstacles at rest: one file for all frames; no temporary file is left
     assert.same({ "objects.json", "obstacles_00000.vtp", "wires_00000.vtp", "wires_00001.vtp",
       "wires_00002.vtp", "wires_00003.vtp" }, files.list(folder .. "/lay & co.vtk"))
   end)
 
-  it("gives positions unchanged, radius and arc length", function()
+  it("gives unchanged positions, radius and arc length", function()
     local run = scene.run { frames = 2 }
     vtk.write(run, folder .. "/a.pvd")
     local arrays = read_vtp(folder .. "/a.vtk/wires_00001.vtp")
@@ -64,7 +64,7 @@ describe("vtk", function()
     assert.near(run.wires[1].length, arrays.s[101], 1e-12)
   end)
 
-  it("writes the surface of a mesh of particles as quadrilaterals and two ends", function()
+  it("writes the surface of a particle mesh as quadrilaterals and two ends", function()
     local run = scene.run { frames = 2 }
     run.wires[2] = { name = "hose", radius = 0.02, length = 0.3 }
     for _, frame in ipairs(run.frames) do
@@ -88,7 +88,7 @@ describe("vtk", function()
     assert.is_nil(io.open(folder .. "/b.vtk/surfaces_00001.vtp"))
   end)
 
-  it("moves obstacles by their pose and writes them again when they move", function()
+  it("moves obstacles by their pose, and writes them again when they move", function()
     local run = scene.run { frames = 3 }
     local half = math.sqrt(0.5)
     run.obstacles = { tetrahedron }
@@ -116,7 +116,7 @@ describe("vtk", function()
     assert.error_matches(function() vtk.write(run, folder .. "/b.pvd") end, "no frame with finite")
   end)
 
-  it("names what is wrong", function()
+  it("names wrong arguments", function()
     local run = scene.run { frames = 1 }
     assert.error_matches(function() vtk.write(run, folder .. "/a.vtu") end, "does not end in .pvd")
     assert.error_matches(function() vtk.write({}, folder .. "/a.pvd") end, "a run with frames")
@@ -143,7 +143,7 @@ describe("solid", function()
     end
   end)
 
-  it("closes the surface of a mesh of particles, outwards", function()
+  it("closes the surface of a particle mesh, with normals outwards", function()
     local surface = scene.surface(6, 5, 0.02)
     local quads, ends = solid.tube_faces(surface)
     local shape = { vertices = surface.points, indices = {} }
@@ -158,7 +158,7 @@ describe("solid", function()
     assert.near(3 * math.sin(math.pi / 3) * 0.02 ^ 2 * 0.4, tools.closed_volume(shape), 1e-12)
   end)
 
-  it("cuts a piece of a plane that lies in it", function()
+  it("cuts a piece of a plane that lies in the plane", function()
     local pose = { position = { 0, 0, 2 }, rotation = { 1, 0, 0, 0 } }
     local piece = solid.plane_piece({ shape = "plane", normal = { 1, 2, 3 } }, pose, { 5, 6, 7 }, 3)
     for i = 1, 12, 3 do

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A view that begins with nothing, run as a program of its own and used in a real browser.
+--- A view that starts with an empty scene, run as a separate program and used in a real browser.
 local browser = require "spec.page.browser"
 local program = dofile "spec/host/program.lua"
 local socket = require "socket"
 
-local begun = {} -- page, and folder that the program runs in, from open to close
+local begun = {} -- page, and the folder in which the program runs, from open to close
 
---- The page, and the folder.
+--- Opens the page and makes the folder.
 function begun.open()
   begun.folder = program.folder()
   begun.page = browser.open(1280, 720)
@@ -19,7 +19,7 @@ function begun.close()
   os.execute("rm -rf " .. program.quote(begun.folder))
 end
 
--- Run the program with these words, in a process of its own; where its page is.
+-- Runs the program with these arguments in its own process; returns the address of its page.
 function begun.begin(words)
   local path = program.path:find "^/" and program.path or require "lfs".currentdir() .. "/" .. program.path
   os.execute(("cd '%s' && rm -f err && { env --default-signal=INT '%s' %s >out 2>err & echo $! >pid; }")
@@ -50,7 +50,7 @@ function begun.click(selector)
   begun.page:run("document.querySelector(arguments[0]).click()", selector)
 end
 
--- The field of the open form that has this label, or one of its parts.
+-- The field of the open form with this label, or one of its parts.
 begun.FIELD = [[
   const label = [...document.querySelectorAll(".form-box label")]
     .find((l) => l.innerText.replace(" *", "") === arguments[0]);

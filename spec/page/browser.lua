@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A Chromium without a window, driven by chromedriver (WebDriver, JSON over HTTP). Graphics are computed
--- in software: they need no graphics card.
+-- A Chromium without a window, driven by chromedriver (WebDriver, JSON over HTTP). It renders in software,
+-- so no graphics card is needed.
 local json = require "dkjson"
 local http = require "socket.http"
 local ltn12 = require "ltn12"
@@ -8,7 +8,7 @@ local ltn12 = require "ltn12"
 local browser = {}
 browser.__index = browser
 
-http.TIMEOUT = 120 -- [s], of one order
+http.TIMEOUT = 120 -- [s], for one order
 
 local function order(self, method, path, body)
   local text = body and json.encode(body) or method == "POST" and "{}" or nil
@@ -25,7 +25,7 @@ local function order(self, method, path, body)
   return answer.value
 end
 
---- A browser with a window of so many pixels; close it.
+--- Opens a browser with a window of this size [px]; close it after use.
 function browser.open(width, height)
   local w, h = width or 1280, height or 720
   local self = setmetatable({ folder = os.tmpname() }, browser)
@@ -63,14 +63,15 @@ function browser:close()
   os.execute("rm -rf '" .. self.folder .. "'")
 end
 
---- Open an address, such as file:///..., and wait until a page of ours is ready.
+--- Opens an address, such as file:///..., and waits until the page is ready; foreign: a page that is not
+-- ours.
 function browser:go(address, foreign)
   order(self, "POST", "/url", { url = address })
   if foreign then return end
   self:wait "return document.body && document.body.classList.contains('ready')"
 end
 
---- What a piece of JavaScript returns; its arguments are arguments[0] and on.
+--- Runs a piece of JavaScript and returns its result; its arguments are arguments[0] and on.
 function browser:run(script, ...)
   local value = order(self, "POST", "/execute/sync", { script = script,
     args = setmetatable({ ... }, { __jsontype = "array" }) })
@@ -78,7 +79,7 @@ function browser:run(script, ...)
   return value
 end
 
---- The same of one that calls done(result), which is its last argument.
+--- The same for a script that calls done(result), its last argument.
 function browser:call(script, ...)
   local value = order(self, "POST", "/execute/async", {
     script = "const done = arguments[arguments.length - 1];" .. script,
@@ -87,7 +88,7 @@ function browser:call(script, ...)
   return value
 end
 
---- Wait until a script returns something true; raises after 30 s.
+--- Waits until a script returns a true value; raises an error after 30 s.
 function browser:wait(script)
   local value = self:call([[
     const begun = Date.now(), look = new Function(arguments[0]);
@@ -99,7 +100,7 @@ function browser:wait(script)
   return value
 end
 
---- Press keys, one after the other: characters, or names such as "ArrowRight".
+--- Presses keys, one after the other: characters, or names such as "ArrowRight".
 local codes = { ArrowLeft = "\u{E012}", ArrowRight = "\u{E014}", Home = "\u{E011}", End = "\u{E010}",
   Tab = "\u{E004}", Enter = "\u{E007}", Escape = "\u{E00C}", Shift = "\u{E008}" }
 function browser:keys(...)
@@ -111,7 +112,7 @@ function browser:keys(...)
   order(self, "POST", "/actions", { actions = { { type = "key", id = "keys", actions = actions } } })
 end
 
---- Move the pointer along points of the window [px], pressed (true) or not.
+--- Moves the pointer along points of the window [px], pressed (true) or not.
 function browser:pointer(points, pressed)
   local actions = {}
   for i, p in ipairs(points) do
@@ -124,10 +125,10 @@ function browser:pointer(points, pressed)
     parameters = { pointerType = "mouse" } } } })
 end
 
---- A picture of the window, base64 of a PNG file.
+--- Returns a picture of the window, a PNG file as base64.
 function browser:picture() return order(self, "GET", "/screenshot") end
 
---- What the console has been told since the last look: a list of { level =, message = }.
+--- Returns the console messages since the last call: a list of { level =, message = }.
 function browser:console() return order(self, "POST", "/se/log", { type = "browser" }) end
 
 return browser

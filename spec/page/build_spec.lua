@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- `softworld --view` alone, in a real browser: forms put a scene together, it is run, changed, run again and
--- saved; the saved script gives the same numbers.
+-- `softworld --view` alone, in a real browser: forms put a scene together; it is run, changed, run again and
+-- saved. The saved script gives the same numbers.
 package.path = "./?.lua;" .. package.path
 local begun = require "spec.page.begun"
 local program = dofile "spec/host/program.lua"
@@ -16,7 +16,7 @@ for _, x in ipairs((scene:find("cord"):positions())) do io.write(("%a "):format(
 print()
 ]]
 
--- The same as `softworld --view`, but for a file "tell": then it prints the numbers of its scene.
+-- The same as `softworld --view`, except that it prints the numbers of its scene when a file "tell" appears.
 local SCRIPT = [[
 require "softworld"
 local view = require("softworld.view.view").nothing { open = false }
@@ -33,7 +33,7 @@ end
 
 local told = 0
 
--- The numbers of the view's scene; it must be between two runs.
+-- The numbers of the view's scene; the view must be between two runs.
 local function numbers()
   program.write(folder .. "/tell", "")
   for _ = 1, 200 do
@@ -58,7 +58,7 @@ local function steps(count)
   end
 end
 
--- By the arrow along z of what is chosen.
+-- Drags the chosen object by its arrow along z.
 local function drag_up(name)
   page:run([[
     const actor = player.view.actors.find((a) => a.name === arguments[0]);
@@ -73,7 +73,7 @@ local function drag_up(name)
   page:pointer({ at, { at[1], at[2] - 10 }, { at[1], at[2] - 30 } }, true)
 end
 
--- The script as it would be saved prints what the view's scene has.
+-- The saved script prints the numbers of the view's scene.
 local function same_numbers()
   local script = page:run "return player.panel.build.script"
   program.write(folder .. "/again.lua", script .. TELL)
@@ -95,7 +95,7 @@ end)
 
 teardown(begun.close)
 
-describe("a view that begins with nothing", function()
+describe("a view that starts with an empty scene", function()
   it("opens an empty scene at its start", function()
     assert.equal("at the start", text "#status")
     assert.truthy(text(".stage > .empty"):find "Nothing is here yet")
@@ -105,7 +105,7 @@ describe("a view that begins with nothing", function()
     end
   end)
 
-  it("makes a wire of the catalogue, whose values and their sources are shown", function()
+  it("makes a wire of the catalogue, and shows its values and their sources", function()
     add "wire"
     fill("cable", "GXL 2.5")
     local sheet = text ".sheet"
@@ -137,7 +137,7 @@ describe("a view that begins with nothing", function()
     wait_for "block"
   end)
 
-  it("refuses a wrong value at the form, with the core's words, and changes nothing", function()
+  it("refuses a wrong value at the form with the core's message, and changes nothing", function()
     local before = things()
     add "hold"
     fill("s", "3")
@@ -154,7 +154,7 @@ describe("a view that begins with nothing", function()
     wait_for "clamp1"
   end)
 
-  it("moves what is chosen by its handles, as its form does", function()
+  it("moves the chosen object by its handles, as its form does", function()
     drag_up "block"
     page:wait [=[return player.panel.build.items.find((i) => i.name === "block").values.at[2] > 0.03]=]
     local place = page:run [=[return player.panel.build.items.find((i) => i.name === "block").values.at]=]
@@ -165,7 +165,7 @@ describe("a view that begins with nothing", function()
     page:wait [=[return player.panel.build.items.find((i) => i.name === "block").values.at[2] === 0.025]=]
   end)
 
-  it("removes an object with what speaks of it, and brings it back", function()
+  it("removes an object with everything that refers to it, and brings it back", function()
     click "[aria-label='Remove cord']"
     page:wait [[return !/clamp1/.test(document.querySelector("ul.things").innerText)]]
     assert.is_nil(things():find "cord")
@@ -174,7 +174,7 @@ describe("a view that begins with nothing", function()
     assert.truthy(things():find "cord")
   end)
 
-  it("changes an object by its form", function()
+  it("changes an object through its form", function()
     page:run [[[...document.querySelectorAll(".thing-name")].find((b) => /block/.test(b.innerText)).click()]]
     fill("friction", "0.7")
     submit()
@@ -182,7 +182,7 @@ describe("a view that begins with nothing", function()
     wait_for "friction = 0.7"
   end)
 
-  it("saves a run that was ended, gone back in, and gone on with", function()
+  it("saves a run that was ended, wound back and continued", function()
     set_duration "5"
     page:run [[player.link.order("pause")]]
     click "#run"
@@ -232,13 +232,13 @@ describe("a view that begins with nothing", function()
     assert.equal("at the start", text "#status")
   end)
 
-  it("is the same for a page that is loaded again", function()
+  it("is the same on a reloaded page", function()
     page:go(address)
     assert.truthy(things():find "block" and things():find "clamp1")
     assert.equal(4, page:run "return document.querySelectorAll('ol.things > li').length")
   end)
 
-  it("adds an object while a run is held, and takes it away", function()
+  it("adds an object while a run is paused, and removes it", function()
     set_duration "5"
     page:run [[player.link.order("pause")]]
     click "#run"
@@ -282,7 +282,7 @@ describe("a view that begins with nothing", function()
     page:wait "return player.state.get('run').done"
   end)
 
-  it("saves a script that prints the same numbers, what was done by hand included", function()
+  it("saves a script that prints the same numbers, also for actions by hand", function()
     page:run [[player.link.order("go"); player.link.order("run", { duration: 0.5 })]]
     page:wait "return player.state.get('run').done && player.state.get('time') > 0.5"
     local script = same_numbers()

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The page of a check in a real browser: the numbers of the terminal, links to time and place, pictures,
--- limits in the charts; used by keys; whatever names there are; without numbers where the run failed.
+-- limits in the charts, use by keys, odd names, and no numbers for a failed run.
 local browser = require "spec.page.browser"
 local files = require "spec.output.files"
 local number = require "softworld.output.number"
@@ -48,7 +48,7 @@ local function laying(name, dt)
   return scene:run { dt = dt or 0.005, frame = 0.02 }, scene, cable
 end
 
--- Of rows the shown cells, in the order of the page: number from 1, verdict, value, limit, margin, link.
+-- The shown cells of the rows, in the order of the page: number from 1, verdict, value, limit, margin, link.
 local cells = [[
   return [...document.querySelectorAll("table.rows tbody")].map((b) => {
     const r = b.rows[0], text = (k) => r.children[k].firstChild ? r.children[k].firstChild.textContent : "";
@@ -68,7 +68,7 @@ describe("the page of a check", function()
     open "check.html"
   end)
 
-  it("has the numbers of the terminal, the exact ones behind them, the worst first", function()
+  it("has the terminal's numbers, backed by exact ones, with the worst first", function()
     local shown, order = page:run(cells), { FAIL = 1, OPEN = 2, PASS = 3 }
     assert.equal(#check.rows, #shown)
     local before = 0
@@ -92,7 +92,7 @@ describe("the page of a check", function()
     assert_calm()
   end)
 
-  it("begins at the worst row that has a time, and fits its window", function()
+  it("starts at the worst row that has a time, and fits its window", function()
     assert.equal(check:row("left.peak_moment").time, page:run "return player.state.get('time')")
     assert.equal(1, page:run "return document.querySelectorAll('tbody[aria-current]').length")
     assert.is_true(page:run [[
@@ -125,7 +125,7 @@ describe("the page of a check", function()
     page:wait "return player.state.get('time') === 0.1"
   end)
 
-  it("has pictures of steps and of places, which are drawn and go there", function()
+  it("has pictures of steps and places, which link to their times", function()
     local list = page:run [[
       return player.check.pictures.map((p) => {
         const c = p.button.querySelector("canvas");
@@ -145,8 +145,9 @@ describe("the page of a check", function()
     assert.near(list[1][1], page:run "return player.state.get('time')", 1e-12)
   end)
 
-  -- The limit of the inside of a bend is, in the chart of the centre line, larger by the wire's radius.
-  it("draws limits in the charts, those that are far only when asked", function()
+  -- The limit applies to the inside of a bend; the chart of the centreline shows it larger by the wire's
+  -- radius.
+  it("draws limits in the charts, distant ones only on request", function()
     local list = page:run [[
       return player.charts.list.flatMap((c) => c.group.curves.filter((k) => k.limit)
         .map((k) => [k.name, k.values[0], k.values[k.values.length - 1], k.on]));]]
@@ -160,7 +161,7 @@ describe("the page of a check", function()
     assert.is_false(by["limit of cable.max_tension"][4])
   end)
 
-  it("is whole in dark and light, and draws its pictures anew", function()
+  it("is complete in dark and light, and redraws its pictures", function()
     for _, theme in ipairs { "dark", "light" } do
       local colours = page:run([[
         player.state.set({ theme: arguments[0], tab: "check" });
@@ -173,7 +174,7 @@ describe("the page of a check", function()
     end
   end)
 
-  it("has nothing of a run that came after", function()
+  it("shows nothing of a later run", function()
     local first, scene = laying("first")
     local early = first:check {}
     scene:run { duration = 0.1, dt = 0.01 }
@@ -183,7 +184,7 @@ describe("the page of a check", function()
     for _, time in ipairs(last) do assert.near(first.time, time, 1e-12) end
   end)
 
-  it("shows what study:change gave", function()
+  it("shows the result of study:change", function()
     local study = sw.study { name = "s", workers = 0, parameters = { a = { 0, 1, start = 1 } },
       evaluate = function(p)
         return run:check { limits = { cycle_time = { max = 0.4 + p.a, sure = true } } }
@@ -195,7 +196,7 @@ describe("the page of a check", function()
     fails("change must be what study:change gave, got 5", check.report, check, "x.html", { change = 5 })
   end)
 
-  it("is an error where it cannot be written", function()
+  it("is an error when it cannot be written", function()
     fails("check:report expects the name of an .html file, got nil", check.report, check)
     fails("does not end in .html", check.report, check, folder .. "/check.txt")
     fails("did you mean 'title'?", check.report, check, "x.html", { titel = "x" })
@@ -211,7 +212,7 @@ describe("the page of a check", function()
 end)
 
 describe("the page of a check that has no numbers", function()
-  it("says why and shows none, whether the run failed or was cut short", function()
+  it("gives the reason and no numbers, for a failed run and for one cut short", function()
     local scene = sw.scene { name = "cut" }
     scene:wire { name = "w", cable = "GXL 1.5", from = { 0, 0, 1 }, to = { 0.2, 0, 1 }, segments = 8 }
     local cut = scene:run { duration = 1, dt = 0.01, max_steps = 10 }
@@ -240,7 +241,7 @@ describe("the page of a check that has no numbers", function()
 end)
 
 describe("names of scenes, wires, rows, sources and steps", function()
-  it("are text, whatever they are", function()
+  it("are shown as text, whatever they contain", function()
     local odd = 'a "b" </script><img src=x onerror="bad=1"> \u{202E}live <!-- \' &amp;'
     local scene = sw.scene { name = odd }
     local wire = scene:wire { name = odd, cable = "GXL 1.5", from = { 0, 0, 1 }, to = { 0.2, 0, 1 } }
@@ -254,7 +255,7 @@ describe("names of scenes, wires, rows, sources and steps", function()
     assert.is_nil(page:run "return window.bad || document.querySelector('img')")
     assert.equal(odd, page:run "return document.querySelector('h1').textContent")
     assert.truthy(page:run "return document.querySelector('.rows').textContent":find(odd .. "2", 1, true))
-    -- what turns letters round ends with its element
+    -- characters that change the direction of text end with their element
     assert.equal(0, page:run [[
       const found = [...document.querySelectorAll("#panel-check *")].filter((e) => [...e.childNodes]
         .some((n) => n.nodeType === 3 && n.data.includes("\u202e")));

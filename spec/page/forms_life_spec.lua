@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Forms of a view while things move, and in a view that begins with nothing.
+-- Forms of a view during a run, and in a view that starts with an empty scene.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local json = require "softworld.output.json"
@@ -15,7 +15,7 @@ local function an_order(class, kind, values, serial)
   return { ["do"] = "add", class = class, kind = kind, values = values, serial = serial }
 end
 
-describe("objects added and removed while they move", function()
+describe("orders to add and remove objects during a run", function()
   local function scene_of()
     local scene = sw.scene { name = "live" }
     scene:wire(WIRE)
@@ -25,7 +25,7 @@ describe("objects added and removed while they move", function()
   local function line(scene, m) return orders.line(scene, m) end
   local function run(scene, text) load(text, "=x", "t", { scene = scene })() end
 
-  it("are one line each, and one that takes them away again", function()
+  it("give one line for each object, and one that removes it again", function()
     local scene = scene_of()
     local text, inverse = line(scene, an_order("obstacle", "plane", {}))
     assert.equal('scene:obstacle { name = "plane1", shape = "plane" }', text)
@@ -42,7 +42,7 @@ describe("objects added and removed while they move", function()
     assert.equal("made[3]:release()", inverse())
   end)
 
-  it("take away wires, grippers and the script's own forces too", function()
+  it("also remove wires, grippers and the script's own forces", function()
     local scene = scene_of()
     scene:force { kind = "damping", mass = 1 }
     local function take(m)
@@ -57,7 +57,7 @@ describe("objects added and removed while they move", function()
     assert.equal("", json.encode(leaving.objects(scene, {})):gsub("[%[%]]", ""))
   end)
 
-  it("come back by a line that makes them anew, where there is no way back", function()
+  it("have a line that makes an object again where the state cannot go back", function()
     local scene = scene_of()
     scene:obstacle { name = "box", shape = "box", size = { 0.1, 0.1, 0.1 } }:set { at = { 0, 1, 0 } }
     scene:force { kind = "drag", on = scene:find "cord", linear = 0.5 }
@@ -69,10 +69,10 @@ describe("objects added and removed while they move", function()
     scene:remove "box"
     load(box, "=x", "t", { scene = scene })()
     assert.are.same({ 0, 1, 0 }, (scene:find "box (2)":pose()))
-    assert.is_nil(leaving.again(scene, { object = "cord" }, 8)) -- what it did is only in a state
+    assert.is_nil(leaving.again(scene, { object = "cord" }, 8)) -- what the wire did is only in a state
   end)
 
-  it("lead a gripper on a straight way, no faster than told, and let it stay", function()
+  it("lead a gripper along a straight path at the given speed, and let it stay", function()
     local scene = scene_of()
     local grip = scene:gripper { name = "moved", at = { 0, 0, 0.2 } }
     local text = line(scene, { ["do"] = "lead", gripper = "moved", to = { 0.1, 0, 0.2 }, speed = 0.5 })
@@ -87,7 +87,7 @@ describe("objects added and removed while they move", function()
       line(scene, { ["do"] = "lead", gripper = "moved", to = grip:position(), speed = 0.5 }))
   end)
 
-  it("say so when they cannot go, or cannot be", function()
+  it("report objects that cannot be removed, or cannot exist", function()
     local scene = scene_of()
     local function refused(m, words)
       local fine, message = pcall(orders.line, scene, m)
@@ -115,8 +115,8 @@ describe("objects added and removed while they move", function()
   end)
 end)
 
-describe("a view that begins with nothing", function()
-  it("is as it was after messages that nobody can mean", function()
+describe("a view that starts with an empty scene", function()
+  it("is unchanged after meaningless messages", function()
     local page = visitor.open(viewing.nothing { open = false })
     local view = page.view
     page:add("wire", "rod", WIRE)
@@ -143,7 +143,7 @@ describe("a view that begins with nothing", function()
     page:close()
   end)
 
-  it("tells why it cannot run in the words of a script, without a place", function()
+  it("says why it cannot run, in the words of a script but without a place", function()
     local page = visitor.open(viewing.nothing { open = false })
     page:ask { ["do"] = "run", duration = 0.1 }
     page:hear(0.2)
@@ -151,7 +151,7 @@ describe("a view that begins with nothing", function()
     page:close()
   end)
 
-  it("does what its page asks, answers, and gives a script of the same bits, by hand included", function()
+  it("follows its page, answers, and gives a script of the same bits, also for actions by hand", function()
     local page = visitor.open(viewing.nothing { open = false })
     local view, got = page.view, page.got
     local function go(text, seconds)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What forms of a live view make of what pages say, without a browser: a scene that is put together line by
--- line, the same bits by its script, and nothing at all of messages that are wrong or meant to harm.
+-- What the forms of a live view do with the messages of pages, without a browser: a scene is put together
+-- line by line, its script gives the same bits, and wrong or harmful messages change nothing.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local draft = require "softworld.view.draft"
@@ -58,7 +58,7 @@ end
 describe("kinds that forms can make", function()
   local all = kinds.all().kinds
 
-  it("have fields of known types, with words and a unit, and go through JSON", function()
+  it("have fields of known types, with a description and a unit, and pass through JSON", function()
     for _, kind in ipairs(all) do
       assert.truthy(kind.doc, kind.kind)
       for _, field in ipairs(kind.fields) do
@@ -71,8 +71,8 @@ describe("kinds that forms can make", function()
     assert.equal(#all, #jsonread.decode(json.encode(kinds.all())).kinds)
   end)
 
-  -- The registries are the measure: what is added to one is in a form without a word here.
-  it("are all shapes, holds, models and forces of scripts", function()
+  -- The registries decide: a new entry of a registry appears in a form without further code.
+  it("cover all shapes, holds, models and forces of scripts", function()
     local registry = core.registry()
     for _, shape in ipairs(registry.shapes) do assert.truthy(kinds.of("obstacle", shape.name), shape.name) end
     for _, hold in ipairs(registry.holds) do assert.truthy(kinds.of("hold", hold.name), hold.name) end
@@ -84,12 +84,12 @@ describe("kinds that forms can make", function()
     end
   end)
 
-  it("give a line of Lua that compiles, whatever is filled in", function()
+  it("give a line of Lua that compiles, with any values", function()
     for _, kind in ipairs(all) do
       local values = {}
       for _, field in ipairs(kind.fields) do values[field.name] = example(field) end
-      if kind.kind == "tie" then values.to = nil end -- there is to_wire
-      if kind.kind == "wait_for_distance" then values.point = nil end -- there is to
+      if kind.kind == "tie" then values.to = nil end -- there is to_wire instead
+      if kind.kind == "wait_for_distance" then values.point = nil end -- there is to instead
       if kind.on then values._on = 'a "cord"\n' end
       if kind.self == "gripper" then values._by = "hand" end
       local it, read = fill.read(kind.class, kind.kind, values)
@@ -98,7 +98,7 @@ describe("kinds that forms can make", function()
     end
   end)
 
-  it("tell of each cable its values and where they are from", function()
+  it("give the values and sources of each cable", function()
     for _, cable in ipairs(kinds.all().cables) do
       for _, q in ipairs(cable.rows) do
         assert.equal(sw.cable(cable.name)[q.name].value, q.value)
@@ -109,7 +109,7 @@ describe("kinds that forms can make", function()
 end)
 
 describe("a scene put together by forms", function()
-  it("joins and ties wires, makes particles and holds them, and waits for what it reads", function()
+  it("joins and ties wires, makes and holds particles, and waits for sensor readings", function()
     local d = hanging()
     add(d, "wire", "rod", { name = "branch", cable = "GXL 1.5", from = { 0.25, 0, 0.1 },
       to = { 0.25, 0.2, 0.1 } })
@@ -134,7 +134,7 @@ describe("a scene put together by forms", function()
       assert.truthy(d:script():find(line, 1, true), line .. "\n" .. d:script())
     end
     assert.equal(6, scene:find("net").count)
-    -- 7 links along sides, 4 across cells; the sides' lengths are those of the cells
+    -- 7 links along the sides, 4 across the cells; links along the sides are as long as the cells
     local _, strains = scene:find("net"):links()
     assert.equal(11, #strains)
     local run = scene:run { dt = 0.002 }
@@ -161,7 +161,7 @@ describe("a scene put together by forms", function()
     end
   end)
 
-  it("is the scene of its script, bit for bit, after any number of changes", function()
+  it("equals the scene of its script, bit for bit, after any number of changes", function()
     local d = hanging()
     add(d, "gripper", "gripper", { name = "hand", at = { 0.5, 0, 0.2 } })
     add(d, "force", "drag", { on = "cord", linear = 0.01 })
@@ -176,7 +176,7 @@ describe("a scene put together by forms", function()
     assert.truthy(d:script():find("hand:grasp(cord, { s = 0.45 })", 1, true), d:script())
   end)
 
-  it("stays as it was when a change cannot be, with the core's words", function()
+  it("stays unchanged when a change is refused, with the core's message", function()
     local d = hanging()
     local before, shown = d:script(), json.encode(d:shown())
     for _, case in ipairs {
@@ -205,7 +205,8 @@ describe("a scene put together by forms", function()
     assert.equal(shown, json.encode(d:shown()))
   end)
 
-  it("takes with an object what speaks of it; undo brings all back, redo takes it again", function()
+  it("removes with an object everything that refers to it; undo brings all back, redo removes it "
+    .. "again", function()
     local d = hanging()
     local full = d:script()
     local _, words = d:change { what = "remove", id = 1 }
@@ -221,7 +222,7 @@ describe("a scene put together by forms", function()
     assert.error_matches(function() d:change { what = "undo" } end, "nothing to undo")
   end)
 
-  it("names an object anew everywhere", function()
+  it("renames an object everywhere", function()
     local d = hanging()
     d:change { what = "change", id = 1, class = "wire", kind = "rod", values = { name = "my \"cord\"\n",
       cable = "GXL 1", from = { 0, 0, 0.1 }, to = { 0.5, 0, 0.1 } } }
@@ -230,7 +231,7 @@ describe("a scene put together by forms", function()
     assert.equal('my "cord"\n', d:build():find('my "cord"\n').name)
   end)
 
-  it("has steps in the order told, several processes at once", function()
+  it("has steps in the chosen order, in several parallel processes", function()
     local d = hanging()
     add(d, "step", "wait", { seconds = 1 })
     add(d, "step", "wait", { seconds = 2 })
@@ -241,7 +242,7 @@ describe("a scene put together by forms", function()
     assert.error_matches(function() d:change { what = "shift", id = 6, by = 1 } end, "the last one")
   end)
 
-  it("tells remarks to who looks, at each change", function()
+  it("gives its remarks again with each change", function()
     local d = draft.new()
     add(d, "wire", "rod", { radius = 2.5, E = 1e6, density = 1000, from = { 0, 0, 0 }, to = { 100, 0, 0 } })
     local first = #d:shown().remarks
@@ -250,12 +251,12 @@ describe("a scene put together by forms", function()
   end)
 end)
 
--- Names and texts that would do harm if they were taken for Lua.
+-- Names and texts that would do harm if they were run as Lua.
 local EVIL = { [["]], [[" .. os.exit(3) .. "]], [[") os.exit(3) --]], "a\nos.exit(3)\n", "]] os.exit(3) --[[",
   "\\", "\\\"", "\0", "${x}", "%s%d", ("x"):rep(190), "end end", "os", "_ENV" }
 
 describe("hostile messages", function()
-  -- Whatever comes: an error in words, or a change whose script still is a script of calls of the scene.
+  -- Any message gives an error with a text, or a change after which the script is still valid Lua.
   local function told(d, m)
     local fine, message = pcall(d.change, d, m)
     if not fine then assert.equal("string", type(message)) end
@@ -263,7 +264,7 @@ describe("hostile messages", function()
     return fine, message
   end
 
-  it("never become Lua: names in quotes", function()
+  it("never become Lua when they are names with quotes", function()
     local exit, called = os.exit, false
     os.exit = function() called = true end -- luacheck: ignore
     for _, name in ipairs(EVIL) do
@@ -300,7 +301,7 @@ describe("hostile messages", function()
         "model" } do
         local given = { from = { 0, 0, 0 }, to = { 1, 0, 0 }, cable = "GXL 1" }
         given[name] = value
-        if not (name == "rolls" and value == true or name == "name" and value == "1") then -- these may be
+        if not (name == "rolls" and value == true or name == "name" and value == "1") then -- valid
           local fine, message = pcall(d.change, d, a_change("wire", "rod", given))
           assert.is_false(fine, name .. " = " .. tostring(value))
           assert.equal("string", type(message))

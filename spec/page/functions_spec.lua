@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Lua functions that are typed in a page of the live view: forces, ways, conditions, observers. A view that
--- was not told to take them takes none, whatever its pages say; what is typed is checked with its line, is in
--- the script that is saved, and gives the same numbers.
+-- Lua functions typed in a page of the live view: forces, paths, conditions, observers. A view accepts them
+-- only if the program allowed it, whatever its pages say. A typed function is checked with its line number,
+-- is in the saved script, and gives the same numbers.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local draft = require "softworld.view.draft"
@@ -35,8 +35,8 @@ local function a_draft()
   return d
 end
 
-describe("a function that is typed in a form", function()
-  it("is a force, a way, a condition, an observer of the script, which gives the same bits", function()
+describe("a function typed in a form", function()
+  it("becomes a force, path, condition or observer of the script, which gives the same bits", function()
     local d = a_draft()
     add(d, "force", "function", { on = "cord",
       func = "for i = 3, #f, 3 do\n  f[i] = f[i] + 0.01 * math.sin(20 * t)\nend" })
@@ -52,18 +52,18 @@ describe("a function that is typed in a form", function()
     assert.is_true(run.ok)
     assert.equal("late", run.reason)
     assert.near(0.26, run.time, 0.0101)
-    -- 10 mm by the function until 0.1 s, and from 0.15 s on a part of 0.1 m in 1 s
+    -- 10 mm by the function until 0.1 s, and from 0.15 s on part of the 0.1 m in 1 s
     local went = scene:find("hand"):position()[3] - 0.11
     assert.is_true(went > 0 and went < 0.05, tostring(went))
     local text = d:script()
     assert.truthy(text:find("wait_until(function()\nreturn scene:find", 1, true), text)
-    local again = assert(load(text .. "return scene"))() -- with all that a script has
+    local again = assert(load(text .. "return scene"))() -- with everything that a script has
     again:run{ dt = 0.002 }
     assert.is_nil(saving.difference(saving.all(scene), saving.all(again)))
   end)
 
-  -- sum of the nodes' forces = 13 * 0.01 N sin(20 t): the centre of mass gains 13 * 0.01 (1 - cos 2) / 20 / m
-  -- in 0.1 s, m = density pi r^2 L; a node at an end has half the mass of one between.
+  -- The nodes' forces add up to 13 * 0.01 N sin(20 t): the centre of mass gains 13 * 0.01 (1 - cos 2) / 20 /
+  -- m in 0.1 s, m = density pi r^2 L. An end node has half the mass of an inner one.
   it("adds its forces to each node", function()
     local function speed(func)
       local d = a_draft()
@@ -79,10 +79,10 @@ describe("a function that is typed in a form", function()
     assert.near(13 * 0.01 * (1 - math.cos(2)) / 20 / mass, gained, 1e-3 * gained)
   end)
 
-  it("is a check, by which the view and the saved script judge the run alike", function()
+  it("becomes a check, by which the view and the saved script judge the run alike", function()
     local page = visitor.open(viewing.nothing{ open = false, functions = true })
     page:add("wire", "rod", WIRE)
-    -- it falls freely for 0.1 s: v = 0.981 m/s at its end
+    -- the wire falls freely for 0.1 s: v = 0.981 m/s at its end
     local speed = "local v = scene:find('cord'):velocity(0.1)\nreturn -v[3]"
     page:add("check", "check", { name = "slow", unit = "m/s", of = speed, max = 0.5 })
     page:add("check", "check", { name = "fast", unit = "m/s", of = speed, min = 0.5 })
@@ -103,7 +103,7 @@ describe("a function that is typed in a form", function()
     page:close()
   end)
 
-  it("is refused with the line of its body, and nothing is changed", function()
+  it("is refused with the line of its body, and nothing changes", function()
     local d = a_draft()
     local before = d:script()
     local function typed(body, words, class, kind, name)
@@ -115,7 +115,7 @@ describe("a function that is typed in a form", function()
     typed("", "the body of the function is missing")
     typed("-- only\n--[[ words", "line 2: unfinished long comment")
     typed("f[3] = ...", "line 1: cannot use '...' outside a vararg function")
-    -- what would end the function and go on outside of it
+    -- text that would end the function and continue outside it
     typed("end, on = scene:find('cord'), x = (function()", "line 1: ")
     typed("return end } os.exit(3) scene:force { kind = function()", "line 1: ")
     typed(("x"):rep(20001), "20000 bytes at most")
@@ -125,7 +125,7 @@ describe("a function that is typed in a form", function()
     refused("which gripper", add, d, "step", "move_by_function", { func = "return {}", duration = 1 })
   end)
 
-  it("tells of an error while it runs with its line, and that of the script", function()
+  it("reports an error at run time with its own line and the line of the script", function()
     local d = a_draft()
     add(d, "step", "wait_until", { condition = "local x\n\nreturn x.y" })
     local scene = d:build()
@@ -141,7 +141,7 @@ describe("a function that is typed in a form", function()
     end
   end)
 
-  it("has what scripts have for numbers, and not the library's own tables", function()
+  it("has the functions that scripts use for numbers, and not the library's own tables", function()
     local d = a_draft()
     add(d, "observer", "observe", { call = "math.sin, string.format = nil, nil\n"
       .. "for _, x in ipairs { 1 } do\n"
@@ -153,15 +153,15 @@ describe("a function that is typed in a form", function()
   end)
 end)
 
-describe("an object that has the name of what functions speak of", function()
-  it("does not stand in its place, nor in that of what the script calls", function()
+describe("an object with the same name as a library function", function()
+  it("replaces neither that function nor anything the script calls", function()
     for _, name in ipairs{ "_ENV", "print", "assert", "math", "string", "run" } do
       local d = draft.new(true)
       local values = {}
       for key, value in pairs(WIRE) do values[key] = value end
       values.name = name
       add(d, "wire", "rod", values)
-      add(d, "hold", "clamp", { _on = name, s = 0 }) -- speaks of it
+      add(d, "hold", "clamp", { _on = name, s = 0 }) -- refers to it
       add(d, "observer", "observe", { call = "assert(math.pi > 3 and string.rep and print)" })
       add(d, "check", "check", { unit = "m", of = "return math.pi" })
       assert.is_true(d:build():run{ duration = 0.01, dt = 0.005 }.ok)
@@ -174,12 +174,12 @@ describe("an object that has the name of what functions speak of", function()
   end)
 end)
 
-describe("a view that was not told to take functions", function()
+describe("a view that was not allowed to take functions", function()
   local LUA = {}
   for _, kind in ipairs(functions.kinds) do LUA[#LUA + 1] = kind end
 
   it("has no forms for them", function()
-    local function count_of(fields) -- in tables too
+    local function count_of(fields) -- also in tables
       local count = 0
       for _, field in ipairs(fields) do
         count = count + (field.type == "function" and 1 or 0) + count_of(field.rows or {})
@@ -192,7 +192,7 @@ describe("a view that was not told to take functions", function()
     assert.equal(#LUA, count)
   end)
 
-  it("refuses each of them, before and in a run, and what is put into one", function()
+  it("refuses each of them, before and during a run, and any code put into one", function()
     for _, kind in ipairs(LUA) do
       local values = { on = "cord", func = "os.exit(3)", condition = "os.exit(3)", call = "os.exit(3)" }
       refused("takes no Lua functions from pages", add, draft.new(), kind.class, kind.kind, values)
@@ -208,8 +208,8 @@ describe("a view that was not told to take functions", function()
       { what = "change", id = 1, class = "observer", kind = "observe", values = { call = "os.exit(3)" } })
   end)
 
-  -- A page that says it may is still a page.
-  it("refuses a page over its line, and one that was told to takes it", function()
+  -- The page claims to be allowed; only the program's option counts.
+  it("refuses a page over its socket, while an allowed view accepts it", function()
     for _, may in ipairs{ false, true } do
       local view = viewing.nothing{ open = false, functions = may or nil }
       local page = visitor.open(view)
@@ -222,14 +222,14 @@ describe("a view that was not told to take functions", function()
       assert.equal(may and 2 or 1, #page.got.draft.items)
       if not may then assert.equal(functions.REFUSED, answer.text) end
       local port, path = view.address:match "^http://127%.0%.0%.1:(%d+)(/%x+/)$"
-      -- nobody else's: without the secret, or from another site, there is no line at all
+      -- no other client has a socket at all: without the token, or from another site
       assert.is_nil(websocket.open(math.tointeger(port), path .. "s", { Origin = "http://evil.example" }))
       assert.is_nil(websocket.open(math.tointeger(port), "/0123456789abcdef0123456789abcdef/s"))
       page:close()
     end
   end)
 
-  it("is told by a word of the program only, which goes with --view", function()
+  it("is allowed only by an option of the program, together with --view", function()
     local _, err, code = program.run{ "--functions" }
     assert.equal(2, code)
     assert.truthy(err:find "%-%-view is missing beside '%-%-functions'")

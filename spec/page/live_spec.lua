@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The live view in a real browser: a run in a process of its own is watched, held, pulled by hand and
--- changed; what was done is saved as a script that gives the same numbers.
+-- The live view in a real browser: a run in its own process is watched, paused, pulled by hand and changed.
+-- The saved script gives the same numbers.
 package.path = "./?.lua;" .. package.path
 local browser = require "spec.page.browser"
 local program = dofile "spec/host/program.lua"
@@ -23,7 +23,7 @@ for _, x in ipairs((scene:find("wire"):positions())) do io.write(("%a "):format(
 print()
 ]]
 
--- A run under way, held at its beginning; what it prints is read by finish().
+-- Starts a run, paused at its beginning; finish() reads its output.
 local function begin(script)
   local self = { out = folder .. "/out" }
   program.write(folder .. "/run.lua", script)
@@ -55,7 +55,7 @@ local function order(name, more)
   page:run("player.link.order(arguments[0], arguments[1] || {})", name, more)
 end
 
--- Frames come 30 times a second at most; a state is told within a tenth.
+-- Frames come at most 30 times a second; a state is reported within a tenth of a second.
 local function time() return page:run "return player.state.get('time')" end
 local function place(s)
   return page:run([=[
@@ -103,7 +103,7 @@ teardown(function()
 end)
 
 describe("the live view", function()
-  it("draws the scene of a run that is held, without a word on the console", function()
+  it("draws the scene of a paused run, with a silent console", function()
     local colours = page:run [=[
       const view = player.view, from = view.stage.canvas, to = document.createElement("canvas");
       to.width = from.width; to.height = from.height;
@@ -120,8 +120,8 @@ describe("the live view", function()
     end
   end)
 
-  -- dt = 0.004 s: each step is one of these, as long as nothing is touched.
-  it("takes one step, and no other, when it is asked to", function()
+  -- dt = 0.004 s: each step is one dt, as long as nothing is touched.
+  it("takes exactly one step on request", function()
     page:keys "ArrowRight"
     page:wait "return player.state.get('time') > 0"
     socket.sleep(0.3)
@@ -131,14 +131,14 @@ describe("the live view", function()
     assert.near(0.008, time(), 1e-9)
   end)
 
-  it("goes on, slowly, and is held again", function()
+  it("continues slowly, and pauses again", function()
     order("speed", { value = 0.05 })
     page:keys " "
     page:wait "return player.state.get('time') > 0.02"
     assert.equal("running", text "#status")
     local begun, from = socket.gettime(), time()
     socket.sleep(1)
-    -- 0.05 times as fast as the clock; a frame more or less
+    -- 0.05 times as fast as the clock, within one frame
     assert.is_true(time() - from <= 0.05 * (socket.gettime() - begun) + 0.02)
     page:keys " "
     page:wait "return player.state.get('run').holds"
@@ -148,13 +148,13 @@ describe("the live view", function()
     assert.equal("held", text "#status")
   end)
 
-  it("moves what is dragged in the picture, to where the pointer goes", function()
+  it("moves a dragged point of the wire to the pointer", function()
     local s, before = 0.65, place(0.65)
     local at = on_screen(s)
     local way = { at }
     for _, up in ipairs { 20, 60, 110 } do way[#way + 1] = { at[1], at[2] - up } end
     for _ = 1, 30 do way[#way + 1] = way[#way] end
-    -- the wire is where it was seen when it is taken hold of, however slow this machine is
+    -- the run continues only now, so the wire is still where it was seen, even on a slow machine
     page:run "setTimeout(() => player.link.order('go'), 150)"
     page:pointer(way, true)
     page:wait "return player.panel.lines.script && /hand:release/.test(player.panel.lines.script)"
@@ -169,7 +169,7 @@ describe("the live view", function()
     assert.is_true(page:run "return document.querySelectorAll('.mark').length" > 0)
   end)
 
-  it("changes a row of an object, refuses what is out of range, and undoes it", function()
+  it("changes a value of an object, refuses one out of range, and undoes the change", function()
     page:run [[
       const what = document.getElementById("what");
       what.value = "wall";
@@ -188,7 +188,7 @@ describe("the live view", function()
     page:wait [[return document.getElementById("row-friction").value === "0.5"]]
   end)
 
-  it("shows the past and comes back to the present", function()
+  it("shows the past and returns to the present", function()
     local present = time()
     page:run "player.transport.go(0.004)"
     assert.near(0.004, time(), 1e-9)
@@ -199,7 +199,7 @@ describe("the live view", function()
     page:wait(("return player.state.get('time') > %.9f"):format(present))
   end)
 
-  it("goes back to a state that was kept, and forgets what came later", function()
+  it("goes back to a kept state, and drops what came later", function()
     local before = time()
     order "keep"
     page:wait "return player.state.get('run').snapshots.length === 2"
@@ -216,7 +216,7 @@ describe("the live view", function()
     assert.is_nil(page:run("return player.panel.lines.script"):find("0.9", 1, true))
   end)
 
-  it("is the same after the page was loaded again", function()
+  it("is the same after the page is reloaded", function()
     local before = time()
     page:go(run.address)
     assert.near(before, time(), 1e-9)
@@ -224,7 +224,7 @@ describe("the live view", function()
     assert.truthy(text ".lines":find("hand:release()", 1, true))
   end)
 
-  it("saves what was done as a script that gives the same numbers, to the last bit", function()
+  it("saves everything done as a script that gives the same numbers, to the last bit", function()
     local script = page:run "return player.panel.lines.script"
     order("speed", {})
     order "go"
@@ -235,7 +235,7 @@ describe("the live view", function()
     assert.equal(numbers:match "[^\n]*\n$", out:match "[^\n]*\n$")
   end)
 
-  it("says so when the program has gone", function()
+  it("says when the program has ended", function()
     page:wait [[return document.getElementById("status").innerText === "not connected"]]
   end)
 end)

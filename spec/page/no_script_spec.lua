@@ -21,7 +21,7 @@ local function choose(kind)
 end
 
 describe("softworld --view without a script", function()
-  it("opens a page to begin with nothing, until Ctrl-C, a run or not", function()
+  it("opens a page with an empty scene until Ctrl-C, during a run or not", function()
     stop()
     page:go(begin "--view")
     assert.equal("at the start", text "#status")
@@ -38,7 +38,7 @@ describe("softworld --view without a script", function()
     page:wait [[return document.getElementById("status").innerText === "not connected"]]
   end)
 
-  it("joins wires, makes a net, and waits for what a gripper bears", function()
+  it("joins wires, makes a net, and waits for a gripper's load", function()
     page:go(begin "--view")
     for _, name in ipairs { "cord", "branch" } do
       add "wire"
@@ -91,7 +91,7 @@ describe("softworld --view without a script", function()
     stop()
   end)
 
-  it("takes functions where it was told to, shows the line that is wrong, and saves them", function()
+  it("accepts functions when allowed to, shows the faulty line, and saves them", function()
     local function has_function()
       add "force"
       return page:run [[return [...document.querySelector(".form-box .choose select").options]
@@ -137,7 +137,7 @@ describe("softworld --view without a script", function()
     stop()
   end)
 
-  it("is no option beside -e and -i alone", function()
+  it("is refused beside -e or -i without a script", function()
     for _, words in ipairs { { "--view", "-e", "x = 1" }, { "--view", "-i" }, { "--view", "-v" } } do
       local _, err, code = program.run(words)
       assert.equal(2, code)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The player in the narrow window of a phone: nothing lies on anything else.
+-- The player in the narrow window of a phone: nothing covers anything else.
 local browser = require "spec.page.browser"
 local files = require "spec.output.files"
 local runs = require "spec.page.runs"

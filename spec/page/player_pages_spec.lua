@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pages of the player: of several runs, of none, of what failed.
+-- Pages of the player: of several runs, of a mesh, of a failed run, of a run without frames.
 local runs = require "spec.page.runs"
 local stage = require "spec.page.stage"
 local sw = require "softworld"
@@ -13,7 +13,7 @@ local address, assert_calm, colour_count, fingerprint, time, text = stage.addres
   stage.colour_count, stage.fingerprint, stage.time, stage.text
 
 describe("a page of", function()
-  it("several runs has all of them, in one time", function()
+  it("several runs has all of them on one time axis", function()
     local a, b = runs.laying(), runs.laying { name = "farther", far = 1.4 }
     sw.report { a, b, path = folder .. "/both.html", title = "two ways" }
     page:go(address "both.html")
@@ -23,7 +23,7 @@ describe("a page of", function()
     local apart = page:run [[
       const [a, b] = player.view.actors.filter((w) => w.kind === "wire");
       return a.place(0).point.distanceTo(b.place(0).point);]]
-    assert.is_true(apart > 0.01) -- the first hand is there, the second one still on its way
+    assert.is_true(apart > 0.01) -- the first hand has arrived, the second one is still on its way
     local labels = page:run "return player.charts.list[0].group.curves.map((c) => c.label)"
     assert.truthy(table.concat(labels, " "):find("1: hand.force", 1, true))
     assert.truthy(table.concat(labels, " "):find("2: hand.force", 1, true))
@@ -33,7 +33,7 @@ describe("a page of", function()
     assert_calm()
   end)
 
-  it("a mesh has its surface", function()
+  it("a mesh shows its surface", function()
     local run = runs.mesh()
     run:report(folder .. "/mesh.html")
     page:go(address "mesh.html")
@@ -52,7 +52,7 @@ describe("a page of", function()
     assert_calm()
   end)
 
-  it("a run that failed tells why, shows how far it came, and has no numbers", function()
+  it("a failed run gives the reason, shows the motion up to the failure, and has no numbers", function()
     local run = runs.failed()
     run:report(folder .. "/torn.html")
     page:go(address "torn.html")
@@ -75,7 +75,7 @@ describe("a page of", function()
     assert_calm()
   end)
 
-  it("a run without frames has charts only, and says so", function()
+  it("a run without frames has only charts, and says so", function()
     local run = runs.laying { frames = false }
     run:report(folder .. "/plain.html")
     page:go(address "plain.html")
@@ -89,7 +89,7 @@ describe("a page of", function()
     assert_calm()
   end)
 
-  it("names with quotes, tags and the end of a script is harmless", function()
+  it("names with quotes, tags and the end of a script element is harmless", function()
     local nasty = [["</script><script>window.hit=1</script>]]
       .. [[<img src=x onerror=window.hit=1>'\ <!-- &amp; @data@ %1]]
     local name = nasty:sub(1, 60)

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The player in a real browser: it is opened from disk, shows, moves, tells, and is used by keys and pointer.
+-- The player in a real browser: opened from disk, it shows and moves the scene, gives numbers, and is used
+-- by keys and pointer.
 local runs = require "spec.page.runs"
 local stage = require "spec.page.stage"
 local sw = require "softworld"
@@ -12,7 +13,7 @@ teardown(stage.close)
 local address, assert_calm, colour_count, fingerprint, time, text = stage.address, stage.assert_calm,
   stage.colour_count, stage.fingerprint, stage.time, stage.text
 
--- Choose from the menu for exports.
+-- Chooses an item from the export menu.
 local function export(words)
   return ([[
     [...document.querySelectorAll("#menu [role=menuitem]")].find((b) => /%s/.test(b.textContent)).click();]])
@@ -33,7 +34,7 @@ describe("the player", function()
       player.state.set({ time: 0, playing: false, tab: "charts", probe: null, selected: null, tool: null });]]
   end)
 
-  it("draws the scene, without a word on the console and without network", function()
+  it("draws the scene, with a silent console and without network", function()
     assert.is_true(colour_count() > 200)
     assert.equal("laying", text "h1")
     assert.equal("ok", text "#status")
@@ -47,7 +48,7 @@ describe("the player", function()
     assert_calm()
   end)
 
-  it("has the wire where the run had it, at every frame", function()
+  it("has the wire in the run's positions, at every frame", function()
     local frames = run:frames()
     for _, f in ipairs { 1, #frames // 2, #frames } do
       local x = page:run([[
@@ -55,12 +56,12 @@ describe("the player", function()
         const w = player.view.actors.find((a) => a.kind === "wire");
         return [...w.nodes.slice(0, 3 * w.count)];]], frames[f].t)
       assert.equal(#frames[f].wires[1], #x)
-      -- half a thousandth of the radius, and 32 bits
+      -- half a thousandth of the radius, and 32-bit rounding
       for i, given in ipairs(frames[f].wires[1]) do assert.near(given, x[i], 0.5e-3 * 0.003 + 1e-7) end
     end
   end)
 
-  it("moves the wire and the cursor of the charts by its slider", function()
+  it("moves the wire and the charts' cursor with its slider", function()
     local before = fingerprint()
     local where = page:run [[
       const b = document.querySelector("#time").getBoundingClientRect();
@@ -78,7 +79,7 @@ describe("the player", function()
     assert.is_true(shown[3] > 50)
   end)
 
-  it("takes its time from a click on a chart, and numbers follow", function()
+  it("takes its time from a click on a chart, and the numbers follow", function()
     local spot = page:run [[
       const c = player.charts.list[0], a = c.graph.getArea(), b = c.plot.getBoundingClientRect();
       return [b.left + a.x + 0.25 * a.w, b.top + a.y + a.h / 2, c.graph.toDataXCoord(a.x + 0.25 * a.w)];]]
@@ -114,7 +115,7 @@ describe("the player", function()
     page:run "player.charts.list[0].graph.resetZoom()"
   end)
 
-  it("is played, stepped and turned by keys", function()
+  it("is played, stepped and rotated by keys", function()
     page:run "document.activeElement.blur()"
     local frames = run:frames()
     page:keys "ArrowRight"
@@ -140,7 +141,7 @@ describe("the player", function()
     assert_calm()
   end)
 
-  it("plays to the end and stops, or begins again", function()
+  it("plays to the end and stops, or starts again", function()
     page:run "player.state.set({ time: player.transport.span[1] - 0.05, playing: true })"
     page:wait "return !player.state.get('playing')"
     assert.near(run.time, time(), 1e-6)
@@ -149,7 +150,7 @@ describe("the player", function()
     page:run "player.state.set({ playing: false, loop: false })"
   end)
 
-  it("goes round by the tab key, with a visible focus and a name for everything", function()
+  it("is walked through by the tab key, with a visible focus and a name for each control", function()
     page:run "document.activeElement.blur()"
     local seen = {}
     for _ = 1, 14 do
@@ -169,7 +170,7 @@ describe("the player", function()
     assert.same({}, nameless)
   end)
 
-  it("marks events on the slider, and goes there", function()
+  it("marks events on the slider, and goes to them", function()
     assert.equal(1, page:run "return document.querySelectorAll('.mark').length")
     local words = page:run "return document.querySelector('.mark').title"
     assert.truthy(words:find("the hand is up", 1, true))
@@ -189,7 +190,7 @@ describe("the player", function()
     assert.truthy(text "#panel-script":find("SoftWorld " .. sw.version, 1, true))
   end)
 
-  it("reads a wire where it is clicked on", function()
+  it("reads the values of a wire at a clicked point", function()
     local spot = page:run [[
       player.state.set({ time: 1.0 });
       player.view.stage.look("front");
@@ -213,7 +214,7 @@ describe("the player", function()
     assert.is_true(told > low - 0.01 * (high - low) and told < high + 0.01 * (high - low))
   end)
 
-  it("measures between two points, along with what they are on", function()
+  it("measures between two points on moving objects", function()
     local length = page:run [[
       const w = player.view.actors.find((a) => a.kind === "wire");
       player.state.set({ time: 0, tool: "measure" });
@@ -225,7 +226,7 @@ describe("the player", function()
     assert.is_true(page:run "return parseFloat(player.view.label.textContent)" < 300)
   end)
 
-  it("hides what is not wanted, cuts, and colours by other quantities", function()
+  it("hides objects, cuts, and colours by other quantities", function()
     local before = fingerprint()
     page:run "document.querySelector('input[aria-label=\"Show wall\"]').click()"
     local without = fingerprint()
@@ -244,7 +245,7 @@ describe("the player", function()
     page:run "player.state.set({ quantity: 'curvature' })"
   end)
 
-  it("gives pictures, tables and links", function()
+  it("exports pictures, tables and links", function()
     local png = page:call([[
       const old = URL.createObjectURL;
       URL.createObjectURL = (blob) => {
@@ -284,7 +285,7 @@ describe("the player", function()
     assert_calm()
   end)
 
-  it("is dark or light", function()
+  it("has a dark and a light theme", function()
     page:run "player.state.set({ theme: 'dark' })"
     local dark = page:run "return getComputedStyle(document.body).backgroundColor"
     page:run "player.state.set({ theme: 'light' })"

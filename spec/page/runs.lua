@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Runs for the specs of the player, each a small scene.
+-- Runs for the specs of the player, each of a small scene.
 local sw = require "softworld"
 
 local runs = {}
 
---- A wire is lifted over a wall by a gripper; an event at 0.4 s.
+--- A gripper lifts a wire over a wall; an event at 0.4 s.
 function runs.laying(options)
   options = options or {}
   local scene = sw.scene { name = options.name or "laying" }
@@ -27,7 +27,7 @@ function runs.laying(options)
   return run
 end
 
---- A run that fails, with frames up to there: something pulls beyond all measure.
+--- A run that fails, with frames up to the failure: a far too large force pulls on the wire.
 function runs.failed()
   local scene = sw.scene { name = "torn" }
   local wire = scene:wire { name = "wire", E = 1e8, density = 1500, radius = 1e-3, from = { 0, 0, 0 },
@@ -41,7 +41,7 @@ function runs.failed()
   return run
 end
 
---- The same with a wire that is a mesh.
+--- The laying, with a wire that is a mesh.
 function runs.mesh()
   local scene = sw.scene { name = "mesh" }
   scene:obstacle { name = "table", shape = "plane" }

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The server of the live view: who may come, what pages may say, and that nothing they do changes a run.
+-- The server of the live view: who is let in, which messages are accepted; pages never change the results of
+-- a run.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local jsonread = require "softworld.output.jsonread"
@@ -17,7 +18,7 @@ local function scene_of()
   return scene
 end
 
--- A scene with its view; port and path of its page.
+-- A scene with its view; returns port and path of its page too.
 local function viewed(more)
   local args = { open = false }
   for key, value in pairs(more or {}) do args[key] = value end
@@ -34,7 +35,7 @@ local function bits_of(scene)
   return saving.all(scene)
 end
 
--- Wait until the server has noticed.
+-- Waits until the server has noticed.
 local function until_pages(view, count)
   local due = core.clock() + 5
   while view.pages ~= count and core.clock() < due do core.sleep(0.02) end
@@ -47,7 +48,7 @@ describe("the server of a view", function()
   setup(function() scene, view, port, path = viewed() end)
   teardown(function() view:close() end)
 
-  it("gives its page to who knows the token, with a policy that lets nothing else in", function()
+  it("gives its page to clients with the token, under a policy that lets nothing else in", function()
     local status, text = websocket.get(port, path)
     assert.equal(200, status)
     local token = path:match "%x+"
@@ -72,7 +73,7 @@ describe("the server of a view", function()
       "Content-Length: 0" })))
   end)
 
-  it("opens sockets to its own page only", function()
+  it("opens sockets only to its own page", function()
     local fine = websocket.open(port, path .. "s")
     assert.truthy(fine)
     fine:close()
@@ -85,7 +86,7 @@ describe("the server of a view", function()
     until_pages(view, 0)
   end)
 
-  it("has room for eight pages", function()
+  it("accepts eight pages", function()
     local pages = {}
     for k = 1, 8 do
       pages[k] = assert(websocket.open(port, path .. "s"))
@@ -99,7 +100,7 @@ describe("the server of a view", function()
     until_pages(view, 0)
   end)
 
-  it("sends a frame, and the next one once that was drawn", function()
+  it("sends a frame, and the next one once the page has drawn it", function()
     local page = assert(websocket.open(port, path .. "s"))
     local frames, kinds = 0, {}
     view:wait(0.3)
@@ -131,7 +132,7 @@ describe("the server of a view", function()
     until_pages(view, 0)
   end)
 
-  it("closes pages that say too much at once, in pieces, or in no text", function()
+  it("closes pages that send too much at once, fragments, or binary frames", function()
     for _, say in ipairs {
       function(page) page:send(("x"):rep(65536)) end,
       function(page) page:send("{}", { last = false }) end,
@@ -160,12 +161,12 @@ describe("a run that pages watch", function()
     return scene
   end
 
-  it("has the bits of one without a view", function()
+  it("has the bits of a run without a view", function()
     same(function() end)
     same(function(open) return { open(), open() } end)
   end)
 
-  it("has them when pages say what nobody understands", function()
+  it("has these bits when pages send garbage", function()
     math.randomseed(7)
     same(function(open)
       local page = open()
@@ -185,7 +186,7 @@ describe("a run that pages watch", function()
     end)
   end)
 
-  it("is held by a page, and ends in good order when it says so", function()
+  it("is paused by a page, and ends in good order on its request", function()
     local scene, view, port, path = viewed()
     local page = assert(websocket.open(port, path .. "s"))
     page:send '{"do":"stop"}'
@@ -197,7 +198,7 @@ describe("a run that pages watch", function()
     view:close()
   end)
 
-  it("goes on when pages stop reading, and stops within two seconds", function()
+  it("continues when pages stop reading, and closes within two seconds", function()
     local scene, view, port, path = viewed()
     local pages = {}
     for k = 1, 8 do pages[k] = assert(websocket.open(port, path .. "s")) end
@@ -209,7 +210,7 @@ describe("a run that pages watch", function()
     for _, page in ipairs(pages) do page:close() end
   end)
 
-  it("outlives orders to remove what was never there", function()
+  it("survives orders to remove objects that never existed", function()
     local scene, view = viewed()
     local page = visitor.open(view)
     for k, what in ipairs { '"made":7', '"made":7,"object":"nothing"', '"made":7,"force":"x"', '"made":"x"',
@@ -224,7 +225,7 @@ describe("a run that pages watch", function()
     page:close()
   end)
 
-  it("never turns words of a page into Lua", function()
+  it("never turns the texts of a page into Lua", function()
     local scene, view, port, path = viewed()
     local page = assert(websocket.open(port, path .. "s"))
     for _, text in ipairs {
@@ -242,7 +243,7 @@ describe("a run that pages watch", function()
 end)
 
 describe("scene:view", function()
-  it("tells when its port is taken, or its arguments are wrong", function()
+  it("reports a port that is taken, and wrong arguments", function()
     local _, view, port = viewed()
     local other = scene_of()
     local fine, message = pcall(function() other:view { port = port, open = false } end)

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
---- A player's page in a real browser, and what specs read off it.
+--- A player's page in a real browser, and helpers that read it.
 local browser = require "spec.page.browser"
 local files = require "spec.output.files"
 
 local stage = {} -- page, and folder for files, from open to close
 
---- The page, and the folder.
+--- Opens the page and makes the folder.
 function stage.open()
   stage.folder = files.folder()
   stage.page = browser.open(1280, 720)
@@ -19,14 +19,14 @@ end
 
 function stage.address(name) return "file://" .. stage.folder .. "/" .. name end
 
--- Nothing was complained of since the last look.
+-- The console has had no warning or error since the last call.
 function stage.assert_calm()
   for _, line in ipairs(stage.page:console()) do
     assert.is_true(line.level ~= "SEVERE" and line.level ~= "WARNING", line.level .. ": " .. line.message)
   end
 end
 
--- How many different colours the stage has, read off a picture of it; more than count only.
+-- JavaScript that reads the pixels of a picture of the stage into data.
 local colours = [[
   const view = player.view, from = view.stage.canvas, to = document.createElement("canvas");
   to.width = from.width; to.height = from.height;
@@ -38,7 +38,7 @@ local colours = [[
 
 function stage.colour_count() return stage.page:run(colours .. "return new Set(data).size;") end
 
--- A sum of the picture, to tell whether it has changed.
+-- A checksum of the picture, which shows whether it has changed.
 function stage.fingerprint()
   return stage.page:run(colours
     .. "let h = 0; for (const x of data) h = (Math.imul(h, 31) + x) | 0; return h;")

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The live view in a real browser: what is in a run under way is taken away, comes back by undo, and a
--- gripper is led by the pointer; the saved script gives the same numbers.
+-- The live view in a real browser: objects of a run under way are removed and come back by undo, and the
+-- pointer leads a gripper. The saved script gives the same numbers.
 package.path = "./?.lua;" .. package.path
 local browser = require "spec.page.browser"
 local program = dofile "spec/host/program.lua"
@@ -69,7 +69,8 @@ local function there(name)
   page:wait(("return player.view.actors.find((a) => a.name === %q).there"):format(name))
 end
 
--- What was removed is seen in the past; undo brings it back, and the time when it was there.
+-- A removed object is still visible in the past; undo brings it back and returns to the time before the
+-- removal.
 local function comes_back(name, time_before)
   page:run "player.transport.go(0)"
   there(name)
@@ -103,8 +104,8 @@ teardown(function()
   os.execute("rm -rf " .. program.quote(folder))
 end)
 
-describe("a run that is touched", function()
-  it("loses a wire with its clamp, in the picture too, and has it again by undo", function()
+describe("a run changed by hand", function()
+  it("loses a wire with its clamp, also in the picture, and gets it back by undo", function()
     steps(5)
     assert.is_true(is_there("wire", "b") and is_there("hold", "fixed"))
     local before = time()
@@ -129,7 +130,7 @@ describe("a run that is touched", function()
     steps(2)
   end)
 
-  it("loses its last wire, goes on without, and has it again by undo", function()
+  it("loses its last wire, continues without it, and gets it back by undo", function()
     click "[aria-label='Remove b']"
     gone "b"
     steps(1)
@@ -144,11 +145,11 @@ describe("a run that is touched", function()
     steps(1)
   end)
 
-  it("has its gripper led by the pointer, not faster than told, in events and energy", function()
+  it("has its gripper led by the pointer, within the speed limit, in events and energy", function()
     page:run [[player.state.set({ lead: 0.1 })]]
     order("speed", { value = 0.25 })
     local from
-    for _ = 1, 100 do -- a loaded machine draws late
+    for _ = 1, 100 do -- a busy machine draws late
       from = page:run [=[
       const view = player.view, p = view.actors.find((a) => a.kind === "gripper").group.position;
       const b = view.stage.canvas.getBoundingClientRect();
@@ -186,7 +187,7 @@ describe("a run that is touched", function()
     assert.near(to[3], still, 1e-4)
   end)
 
-  it("loses the gripper: its wire falls", function()
+  it("loses the gripper, and its wire falls", function()
     click "[aria-label='Remove hand']"
     page:wait [[return !/hand/.test(document.querySelector("ul.things").innerText)]]
     steps(3)
@@ -206,7 +207,7 @@ describe("a run that is touched", function()
     assert.is_true(tonumber(numbers:match "(%S+)\n$") > 0) -- the gripper has lifted the wire's end
   end)
 
-  it("has told nothing to the console", function()
+  it("leaves the console without warnings", function()
     for _, line in ipairs(page:console()) do
       assert.is_true(line.level ~= "SEVERE" and line.level ~= "WARNING", line.level .. ": " .. line.message)
     end

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Undoing what was taken away in a run while a process goes on, without a browser. Where the process has not
--- gone on since, the state before comes back; else a scene of forms is run again up to there. Both give the
--- bits of a run in which nothing was taken away, and so does the script that is saved.
+-- Undo of a removal during a run with processes, without a browser. If the process has not advanced since,
+-- the state before the removal comes back; otherwise a scene of forms is run again up to that time. Both
+-- give the bits of a run without the removal, and so does the saved script.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = sw.core
@@ -12,7 +12,7 @@ local viewing = require "softworld.view.view"
 local visitor = require "spec.page.visitor"
 
 local talk -- called between two steps of every run, after the view's own look
-local now -- the page that is open; at_begin(): what it does before a run begins
+local now -- the open page; at_begin(): called before each run begins
 
 table.insert(observe.followers, 1, {
   begin = function() if now and now.at_begin then now.at_begin() end end,
@@ -30,7 +30,7 @@ local function open(view)
   return now
 end
 
--- Run so long [s of the scene]; nil: to the end of its steps. The view waits so long.
+-- Runs for a duration [s of the scene], nil: to the end of its steps. The view waits for seconds [s].
 local function start(p, seconds, duration)
   p:ask({ ["do"] = "start", values = { dt = 0.004, duration = duration } }, "start")
   p:hear(seconds)
@@ -43,9 +43,10 @@ end
 
 local function after(time) return function(scene) return scene.time >= time end end
 
--- f(reach, answered, set, keep) goes on between the steps of the runs: reach(condition, slowly) until that
--- holds, slowly where the page is waited for, and gives the scene; answered(mark) until an order is; set(g)
--- until gravity is that; keep(count) gives the state that is kept. Returns a function: has f ended?
+-- f(reach, answered, set, keep) runs between the steps of the runs. reach(condition, slowly) waits until the
+-- condition holds, slowly if it depends on the page, and returns the scene; answered(mark) waits for the
+-- answer to an order; set(g) waits until gravity is g; keep(count) returns the kept state. The result is a
+-- function: has f ended?
 local function between_steps(p, f)
   local ended, scene = false, nil
   local function reach(condition, slowly)
@@ -79,7 +80,7 @@ local function between_steps(p, f)
   return function() return ended end
 end
 
--- The script that is saved gives the same bits.
+-- The saved script gives the same bits.
 local function same_by_script(p)
   assert.is_nil(saving.difference(saving.all(p.view.scene), saving.all(p:by_script())))
 end
@@ -109,9 +110,9 @@ local ITEMS = {
   { "step", "wait", { seconds = 0.01 } },
   { "step", "move", { _by = "hand", by = { 0, 0, 0.05 }, duration = 0.2 } },
 }
-local WAITS = 12 -- of a second process, between which it goes on
+local WAITS = 12 -- number of waits of a second process, which advances at each of them
 
--- The form's scene; busy: a process that goes on all the time; idle: there are no steps.
+-- The scene of the forms; busy: with a process that advances all the time; idle: without steps.
 local function put_together(p, busy, idle)
   local function add(class, kind, values, process)
     if class ~= "step" or not idle then p:add(class, kind, values, process) end
@@ -121,7 +122,7 @@ local function put_together(p, busy, idle)
   for _ = 1, 3 do p:hear(0.1) end
 end
 
--- What gravity was set to, by the lines that are not undone.
+-- The values of gravity set by the lines that are not undone.
 local function shown(p)
   local held = {}
   for _, line in ipairs(p.got.lines.lines) do
@@ -130,7 +131,7 @@ local function shown(p)
   return held
 end
 
-describe("what was taken away while a process goes on", function()
+describe("an object removed while a process runs", function()
   for _, busy in ipairs{ false, true } do
     local how = busy and "by running again" or "by the state before"
     for _, what in ipairs{ "cord", "floor", "fixed", "drag", "hand" } do
@@ -167,7 +168,7 @@ describe("what was taken away while a process goes on", function()
     end
   end
 
-  it("and a state that was kept comes back too, by running again, changes by hand included", function()
+  it("comes back by running again together with a kept state, also with changes by hand", function()
     local p = open(viewing.nothing{ open = false })
     put_together(p, true)
     local kept
@@ -184,14 +185,14 @@ describe("what was taken away while a process goes on", function()
     local text = p.answers.back.text
     assert(text:find "^back to t = [%d.]+ s, by running again", text)
     assert.is_true(p.got.state.done and p.got.state.ok)
-    assert.equal(2, #p.got.state.snapshots) -- it can be gone back to again
+    assert.equal(2, #p.got.state.snapshots) -- it can be restored again
     assert.is_true(p.got.state.snapshots[1].back and p.got.state.snapshots[2].back)
     assert.truthy(p.got.lines.script:find("gravity = { 0, 0, -2 }", 1, true), p.got.lines.script)
     same_by_script(p)
     close(p)
   end)
 
-  it("stays away where going back is stopped, and the run is as far as it came", function()
+  it("stays removed when going back is stopped, and the run stays where it was stopped", function()
     local p = open(viewing.nothing{ open = false })
     put_together(p, true)
     local stopped
@@ -221,11 +222,11 @@ describe("what was taken away while a process goes on", function()
   end)
 end)
 
--- Two states are kept, the later one with gravity changed once more; the first one is gone back to, gravity
--- is changed to something else, and the second one is gone back to.
-describe("a state of a way that was left", function()
+-- Two states are kept, the later one after one more change of gravity. The run goes back to the first state,
+-- gravity is changed to another value, and the run goes to the second state.
+describe("a kept state of an abandoned branch of the run", function()
   for _, busy in ipairs{ false, true } do
-    it("has its own changes again, and can be saved" .. (busy and ", by running again" or ""), function()
+    it("restores its own changes and can be saved" .. (busy and ", by running again" or ""), function()
       local p = open(viewing.nothing{ open = false })
       put_together(p, busy, not busy)
       local ended = between_steps(p, function(reach, answered, set, keep)
@@ -253,7 +254,7 @@ describe("a state of a way that was left", function()
     end)
   end
 
-  it("has its own runs again", function()
+  it("restores its own runs", function()
     local p = open(viewing.nothing{ open = false })
     put_together(p, false, true)
     start(p, 0.6, 0.1)
@@ -277,7 +278,7 @@ describe("a state of a way that was left", function()
   end)
 end)
 
--- A scene of forms that has run once, and is to wait at the beginning of the next run.
+-- A scene of forms that has run once and pauses at the beginning of the next run.
 local function paused_after_a_run()
   local p = open(viewing.nothing{ open = false })
   put_together(p, true)
@@ -287,11 +288,11 @@ local function paused_after_a_run()
   return p
 end
 
-describe("what was taken away at the start of a second run", function()
+describe("an object removed at the start of a second run", function()
   it("comes back by undo in that run, not at the end of the first one", function()
     local p = paused_after_a_run()
     local first, begun = p.view.scene.time, 0
-    function p.at_begin() -- of the second run, of the first one again, of the second one again: that is held
+    function p.at_begin() -- of the second run, the first again, the second again (paused)
       begun = begun + 1
       if begun == 1 then p:ask({ ["do"] = "remove", object = "floor" }, "remove") end
       if begun == 3 then p:ask({ ["do"] = "keep" }) end
@@ -317,8 +318,8 @@ describe("what was taken away at the start of a second run", function()
   end)
 end)
 
-describe("a run that is held at its beginning", function()
-  it("is left for a state of an earlier one, without a word to go on", function()
+describe("a run paused at its beginning", function()
+  it("can be left for a state of an earlier run, without an order to continue", function()
     local p = paused_after_a_run()
     local first = p.got.state.snapshots[1]
     assert.equal(0, first.time)
@@ -332,8 +333,8 @@ describe("a run that is held at its beginning", function()
   end)
 end)
 
-describe("in the scene of a script", function()
-  -- A process that waits: 0.1 s once, or 4 ms again and again.
+describe("undo of a removal in the scene of a script", function()
+  -- A process that waits: 0.1 s once, or 4 ms repeatedly.
   local function scripted(busy, what, work)
     local scene = sw.scene{ name = "scripted" }
     scene:obstacle{ name = "floor", shape = "plane", friction = 0.3 }
@@ -363,7 +364,7 @@ describe("in the scene of a script", function()
     close(p)
   end
 
-  it("undo goes back where the process has only waited, and it goes on", function()
+  it("goes back where the process has only waited, and the process continues", function()
     for _, what in ipairs{ "cord", "floor", "fixed" } do
       scripted(false, what, function(scene, p, ended)
         assert.is_true(p.answers.undo.ok, p.answers.undo.text)
@@ -375,7 +376,8 @@ describe("in the scene of a script", function()
     end
   end)
 
-  it("what has a line is made anew where it has gone on, and a wire is not, which is told", function()
+  it("makes an object with a line anew where the process has advanced, and reports that a wire stays "
+    .. "removed", function()
     scripted(true, "floor", function(scene, p, ended)
       assert.is_true(p.answers.undo.ok, p.answers.undo.text)
       assert(p.answers.undo.text:find("'floor' is made anew, as it was, and the run goes on", 1, true))

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a browser says to the server of a live view, said by hand: requests and websockets (RFC 6455), so that
--- specs can also say what no browser would.
+-- Speaks to the server of a live view as a browser does: requests and websockets (RFC 6455). Specs can also
+-- send what no browser would send.
 local socket = require "socket"
 
 local websocket = {}
@@ -13,7 +13,7 @@ local function connect(port)
   return c
 end
 
---- What the server answers to a request of these lines: its status and all of its text.
+--- Sends a request of these lines; returns the status and the full text of the answer.
 function websocket.request(port, lines)
   local c = connect(port)
   c:send(table.concat(lines, "\r\n") .. "\r\n\r\n")
@@ -23,7 +23,7 @@ function websocket.request(port, lines)
   return tonumber(text:match "^HTTP/1%.1 (%d+)"), text
 end
 
---- The lines of a request for the page; more replaces headers, false leaves them out.
+--- The lines of a request for the page; more replaces headers, a value of false leaves one out.
 function websocket.get(port, path, more)
   local headers = { Host = "127.0.0.1:" .. port }
   for key, value in pairs(more or {}) do headers[key] = value or nil end
@@ -32,7 +32,7 @@ function websocket.get(port, path, more)
   return websocket.request(port, lines)
 end
 
---- A websocket, or nil and the status that refused it.
+--- Opens a websocket; returns nil and the status if it is refused.
 function websocket.open(port, path, more)
   local headers = { Host = "127.0.0.1:" .. port, Origin = "http://127.0.0.1:" .. port, Upgrade = "websocket",
     Connection = "Upgrade", ["Sec-WebSocket-Key"] = "c29mdHdvcmxkIHNwZWNz", ["Sec-WebSocket-Version"] = "13" }
@@ -51,7 +51,7 @@ function websocket.open(port, path, more)
   return setmetatable({ socket = c }, websocket)
 end
 
---- Send a frame; options: opcode (text), size that it claims to have, last = false.
+--- Sends a frame; options: opcode (text), size that the frame claims to have, last = false.
 function websocket:send(text, options)
   options = options or {}
   local size, first = options.size or #text, (options.last == false and 0 or 128) + (options.opcode or 1)
@@ -61,10 +61,11 @@ function websocket:send(text, options)
   return self.socket:send(head .. "\0\0\0\0" .. text) -- a mask of zeros
 end
 
---- Bytes as they are.
+--- Sends bytes unchanged.
 function websocket:raw(bytes) return self.socket:send(bytes) end
 
---- The next message and its opcode; nil after so long [s], or once it is closed (then "closed").
+--- Returns the next message and its opcode; nil after a time [s], or nil and "closed" once the socket is
+-- closed.
 function websocket:receive(seconds)
   self.socket:settimeout(seconds or 5)
   local head, why = self.socket:receive(2)
@@ -84,7 +85,7 @@ function websocket:receive(seconds)
   return body, first & 15
 end
 
---- Has the server closed it, within so long [s]?
+--- Returns whether the server has closed the socket within a time [s].
 function websocket:closed(seconds)
   local due = socket.gettime() + (seconds or 5)
   while socket.gettime() < due do

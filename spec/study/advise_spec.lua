@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Which method is advised: by what has been evaluated so far.
+-- The advised method, given the evaluations so far.
 local sw = require "softworld"
 
 local TWO = { a = { -2, 2 }, b = { -1, 3 } }
@@ -12,8 +12,8 @@ local function advice(parameters, evaluate, constraints, count)
 end
 
 describe("study:advise", function()
-  -- A quadratic polynomial goes through (a - 1)^2 + a b exactly.
-  it("takes a model where a polynomial goes through, and it finds the minimum", function()
+  -- A quadratic polynomial reproduces (a - 1)^2 + a b + b^2 exactly.
+  it("advises a model method where a polynomial fits, and this finds the minimum", function()
     local told, s = advice(TWO, function(p) return { y = (p.a - 1) ^ 2 + p.a * p.b + p.b ^ 2 } end)
     assert.equal("bobyqa", told.method)
     assert.truthy(told.why:find "it is smooth")
@@ -22,14 +22,14 @@ describe("study:advise", function()
     assert.is_true(math.abs(found.best.a - 4 / 3) < 0.01 and math.abs(found.best.b + 2 / 3) < 0.01)
   end)
 
-  it("gives smooth constraints to COBYLA", function()
+  it("advises COBYLA for smooth constraints", function()
     local told = advice(TWO, function(p)
       return { y = p.a ^ 2 + p.b ^ 2, sum = p.a + p.b }
     end, { sum = { min = 0.5 } })
     assert.equal("cobyla", told.method)
   end)
 
-  it("takes CMA-ES where constraints have steps, much fails, or a polynomial does not go through", function()
+  it("advises CMA-ES where constraints have steps, many evaluations fail, or no polynomial fits", function()
     local told = advice(TWO, function(p) return { y = p.a, held = p.a + p.b > 0 } end, { held = { min = 1 } })
     assert.same({ "cma-es", "'held' has steps, which it bears" }, { told.method, told.why })
     assert.truthy(tostring(told):find "such as a margin")
@@ -43,7 +43,7 @@ describe("study:advise", function()
     assert.truthy(told.why:find "a quadratic polynomial leaves %d+ %% of the variance unexplained")
   end)
 
-  it("sees noise where the same place gave different values", function()
+  it("detects noise where the same place gave different values", function()
     local told, s = advice({ n = { 1, 5, integer = true } }, function(p) return { y = p.n + p.random() } end)
     assert.same({ "cma-es", "values are noisy" }, { told.method, told.why })
     assert.truthy(tostring(told):find("noise = true", 1, true))
@@ -51,7 +51,7 @@ describe("study:advise", function()
     s:minimise("y", { method = told.method, noise = true, evaluations = 60 })
   end)
 
-  it("tells ranges that want a logarithm, and that nothing passes", function()
+  it("points out ranges that should be logarithmic, and that no evaluation passes", function()
     local told = advice({ a = { 0.01, 10 }, b = { 0, 1 } }, function(p)
       return { y = p.a + p.b }
     end, { y = { max = -1 } })

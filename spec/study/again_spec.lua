@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- An evaluation computed again has the same bits, whoever computed it first, and gives its run to be looked
--- at.
+-- An evaluation computed again has the same bits, whoever computed it first, and returns its run for
+-- inspection.
 local sw = require "softworld"
 local program = require "host.program"
 
@@ -36,7 +36,7 @@ end
 describe("study:again", function()
   teardown(program.clean)
 
-  it("gives the same bits as a worker, what evaluate returns, and the run", function()
+  it("gives the same bits as a worker, the results of evaluate, and the run", function()
     local s = study()
     local rows = s:sweep { kind = "latin", count = 12 }
     for _, row in ipairs(rows) do
@@ -50,7 +50,7 @@ describe("study:again", function()
     local path = program.folder() .. "/again.html"
     run:report(path)
     assert.truthy(program.read(path):find("<html", 1, true))
-    -- and the script's own random numbers do not depend on which one it was
+    -- and the script's own random numbers do not depend on the chosen evaluation
     math.randomseed(5)
     s:again(12)
     local expected = math.random()
@@ -59,7 +59,7 @@ describe("study:again", function()
     assert.equal(expected, math.random())
   end)
 
-  it("knows parts that only the journal has", function()
+  it("finds parts that only the journal has", function()
     local path = program.folder() .. "/s.study"
     local s = study { file = path }
     s:sweep { count = 4 }
@@ -74,7 +74,7 @@ describe("study:again", function()
       "study 'lift': evaluation 2 is in the parts 1 2; say which, study:again%(2, 1%)")
   end)
 
-  it("of one that failed says why", function()
+  it("gives the reason of a failed evaluation", function()
     local s = study()
     local failed
     for _, row in ipairs(s:sweep { count = 16 }) do failed = failed or row.failed and row end
@@ -87,7 +87,7 @@ describe("study:again", function()
     assert.equal(("study 'lift': evaluation 1.%d failed: too low\n"):format(failed.number), said)
   end)
 
-  it("says when it comes out otherwise", function()
+  it("says when the result differs", function()
     local count = 0
     local s = study { workers = 0, setup = nil, evaluate = function(p)
       count = count + 1
@@ -98,7 +98,7 @@ describe("study:again", function()
       .. "was 2; evaluate depends on more than its parameters and the seed")
   end)
 
-  it("tells what is wrong", function()
+  it("reports wrong arguments", function()
     local s = study()
     assert.error_matches(function() s:again(1) end, "study 'lift': there is no evaluation 1")
     s:sweep { count = 3 }

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The same table, bit by bit, whoever computes it, in whatever order, however often it was broken off.
+-- The same table, bit by bit, whoever computes it, in any order, however often it was interrupted.
 local sw = require "softworld"
 local program = require "host.program"
 
 -- A script that sweeps, searches and spreads a small scene, and writes the table. Its arguments: the
--- journal, the table, the number of workers, and how long an evaluation waits [s].
+-- journal, the table, the number of workers, and the waiting time of an evaluation [s].
 local SCRIPT = [[
 local sw = require "softworld"
 local wire, hand
@@ -53,7 +53,7 @@ study:csv(arg[2])
 print(study.computed)
 ]]
 
--- The table that a script writes, and how many evaluations it has computed.
+-- The table that a script writes, and the number of evaluations that it has computed.
 local function table_of(text, journal, workers, wait)
   local csv = program.folder() .. "/table.csv"
   local out, err, code = program.script(text, { journal, csv, tostring(workers), wait })
@@ -78,12 +78,12 @@ describe("the table", function()
     end)
   end
 
-  it("is the same out of a journal in another order", function()
+  it("is the same from a journal in another order", function()
     local journal = program.folder() .. "/a.study"
     local expected, computed = table_of(SCRIPT, journal, 2)
     assert.equal(100, computed)
     local first, lines = {}, {}
-    for line in program.read(journal):gmatch "[^\n]+\n" do -- those that tell what follows stay
+    for line in program.read(journal):gmatch "[^\n]+\n" do -- other lines keep their place
       local list = line:find "^e " and lines or first
       list[#list + 1] = line
     end
@@ -96,7 +96,7 @@ describe("the table", function()
     again, computed = table_of(SCRIPT, journal, 2)
     assert.is_true(expected == again)
     assert.equal(0, computed)
-    -- with every second line missing, the others are computed in another order than before
+    -- with every second line missing, the missing ones are computed in another order than before
     for i = #lines, 1, -2 do table.remove(lines, i) end
     program.write(journal, table.concat(first) .. table.concat(lines))
     again, computed = table_of(SCRIPT, journal, 4)
@@ -104,8 +104,8 @@ describe("the table", function()
     assert.equal(50, computed)
   end)
 
-  -- Killed at moments that depend on nothing but chance, which the journal records by its length; never
-  -- before there is one, however slow the machine.
+  -- The process is killed at arbitrary times, but not before the journal exists, however slow the machine
+  -- is.
   local function broken_off(text, workers, times, who)
     local folder = program.folder()
     local journal, csv = folder .. "/a.study", folder .. "/a.csv"
@@ -144,14 +144,14 @@ describe("the table", function()
   end)
 end)
 
-describe("a part that was broken off", function()
-  it("goes on when it is asked for again, also without a journal", function()
+describe("a part that was interrupted", function()
+  it("continues when it is called again, also without a journal", function()
     local calls = {}
     local s = sw.study { name = "r", parameters = { x = { 0, 1 } }, workers = 0, evaluate = function(p)
       calls[p.number] = (calls[p.number] or 0) + 1
       return { y = p.random(), z = p.x }
     end }
-    -- an error in the middle of it, as a full disk or Ctrl-C makes
+    -- an error in the middle of it, as from a full disk or Ctrl-C
     local real, before = sw.core.checksum, nil
     sw.core.checksum = function(...)
       if calls[6] and not before then
@@ -166,7 +166,7 @@ describe("a part that was broken off", function()
     local rows = s:sweep { count = 10 }
     assert.equal(10, #rows)
     assert.equal(1, rows[10].part)
-    for k = 1, 10 do assert.equal(1, calls[k]) end -- nothing twice
+    for k = 1, 10 do assert.equal(1, calls[k]) end -- nothing is computed twice
   end)
 end)
 
@@ -178,7 +178,7 @@ describe("random numbers of an evaluation", function()
       end }
   end
 
-  it("are its own, of the seed and the number", function()
+  it("depend on the seed and the number of the evaluation only", function()
     local first, other = study(1):sweep { count = 50 }, study(2):sweep { count = 50 }
     local again = study(1):sweep { count = 20, workers = 0 }
     local seen = {}
@@ -190,12 +190,12 @@ describe("random numbers of an evaluation", function()
       seen[row.a] = true
       if again[i] then assert.is_true(row.a == again[i].a and row.b == again[i].b and row.c == again[i].c) end
     end
-    -- another part has others
+    -- another part has other numbers
     local s = study(1)
     assert.is_true(s:sweep { count = 1 }[1].a ~= s:sweep { count = 1 }[1].a)
   end)
 
-  it("leave those of the script as they would be", function()
+  it("leave the script's own random numbers unchanged", function()
     local function after(work)
       math.randomseed(5)
       if work then study(1):sweep { count = 3, workers = 2 } end

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What specs of searches share: a bowl in two parameters, and how they ask for its minimum.
+-- Shared by the specs of searches: a bowl in two parameters, and a helper that minimises it.
 local sw = require "softworld"
 
 local bowls = {}
@@ -11,7 +11,7 @@ function bowls.study(parameters, evaluate, constraints, workers)
     workers = workers or 0 }
 end
 
--- Smallest at (0.5, -0.25), and its axes cross those of the parameters.
+-- Smallest at (0.5, -0.25); its axes are not parallel to those of the parameters.
 function bowls.bowl(p)
   local u, v = p.a - 0.5, p.b + 0.25
   return { y = 2 + u ^ 2 + v ^ 2 + u * v }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- study:change: sensitivities are derivatives, what is said to mend a row does, what does not help is said
--- not to. Rows are checks of the script's own, of known functions of the parameters.
+-- study:change: sensitivities are derivatives; a proposed change makes its row pass; parameters without
+-- effect are named. The rows are the script's own checks, known functions of the parameters.
 local sw = require "softworld"
 local here = debug.getinfo(1, "S").source:match "^@(.*)/[^/]*$" or "spec/study"
 local program = dofile(here .. "/../host/program.lua")
@@ -15,7 +15,7 @@ local function own(name, value, limits)
   return one
 end
 
--- A study whose rows f(p) gives, of parameters a and b from 0 to 10.
+-- A study with the rows of f(p), for parameters a and b from 0 to 10.
 local function study_of(f, more)
   local options = { name = "rows", workers = 0,
     parameters = { a = { 0, 10, start = 4, unit = "m" }, b = { 0, 10, start = 5 } },
@@ -43,8 +43,8 @@ end
 describe("study:change", function()
   teardown(program.clean)
 
-  -- v = a^2 <= 9 fails at a = 4 by 7. The margin's slope is -2 a = -8, and 5 % of 9 in reserve want a <=
-  -- sqrt(8.55) = 2.924. It is hunted to 1 % of the range, 0.1, on the side that passes.
+  -- v = a^2 <= 9 fails at a = 4 by 7. The slope of the margin is -2 a = -8. With 5 % of 9 in reserve a has
+  -- to be <= sqrt(8.55) = 2.924; this value is found to 1 % of the range, 0.1, on the side that passes.
   it("gives the slope of the margin, and the least change that passes with the reserve", function()
     local study = study_of(function(p) return { own("v", p.a ^ 2, { max = 9 }) } end)
     local change = study:change()
@@ -62,7 +62,7 @@ describe("study:change", function()
     assert.truthy(tostring(change):find("lower a from 4.000 m to 2.9%d0 m.*all rows pass"), tostring(change))
   end)
 
-  it("says what does not help, and what helps but not enough", function()
+  it("says which parameters do not help, and which help but not enough", function()
     local change = study_of(function(p)
       return { own("v", 20 - p.a + 1e-6 * p.b, { max = 9 }) }
     end):change()
@@ -77,8 +77,8 @@ describe("study:change", function()
     assert.is_nil(change.parameters)
   end)
 
-  -- Each row can be mended, a by going down and up; a change of a breaks the other row, b mends nothing.
-  it("says which rows a change breaks, and looks for one that mends all", function()
+  -- Lowering a mends one row, raising a the other; each of these breaks the other row, and b mends nothing.
+  it("says which rows a change breaks, and looks for a change that mends all", function()
     local change = study_of(function(p)
       return { own("low", p.a, { max = 3 }), own("high", p.a, { min = 5 }) }
     end):change()
@@ -93,7 +93,7 @@ describe("study:change", function()
     assert.is_true(other.rows[#other.rows].all)
   end)
 
-  it("runs the changes that mend one row each together, and says it when all rows pass then", function()
+  it("tries changes that each mend one row together, and says when all rows pass then", function()
     local change = study_of(function(p)
       return { own("low", p.a, { max = 3 }), own("high", p.b, { min = 6 }) }
     end):change()
@@ -101,7 +101,7 @@ describe("study:change", function()
       { change.ok, change.reason })
     assert.same({ a = 2.8, b = 6.4 }, change.parameters)
     assert.truthy(tostring(change):find("together: " .. change.reason .. "; all rows pass", 1, true))
-    -- b raises the first row by 0.14: 1.25 times as far both pass with the reserve
+    -- b raises the first row by 0.14; with changes 1.25 times as large both rows pass with the reserve
     local farther = study_of(function(p)
       return { own("low", p.a + 0.1 * (p.b - 5), { max = 3 }), own("high", p.b, { min = 6 }) }
     end):change()
@@ -114,8 +114,8 @@ describe("study:change", function()
     assert.is_nil(apart.parameters)
   end)
 
-  -- A row that passes between 6 and 7 only: seen by looking over the range, not by a slope.
-  it("looks over the whole range, up and down", function()
+  -- A row that passes only between 6 and 7: found by scanning the range, not by a slope.
+  it("scans the whole range, up and down", function()
     local change = study_of(function(p)
       return { own("hole", math.abs(p.a - 6.5), { max = 0.5 }) }
     end, { parameters = { a = { 0, 10, start = 9.5 } } }):change{ values = 21 }
@@ -123,7 +123,7 @@ describe("study:change", function()
     assert.is_true(found.status == "mends" and found.to > 6.8 and found.to <= 7, found.to)
   end)
 
-  it("takes nearly failing rows by the reserve, and no others", function()
+  it("includes rows that fail only for the reserve, and no others", function()
     local study = study_of(function(p)
       return { own("v", p.a, { max = 4.1 }), own("w", p.b, { max = 9 }) }
     end)
@@ -136,8 +136,10 @@ describe("study:change", function()
     assert.is_near(-1, found_of(asked, "w", "b").slope, 1e-9)
   end)
 
-  -- d(-ln x)/dx at 5 is -0.2, by a parabola in ln x, which is exact; -ln 1 is the limit, and none is left.
-  it("takes a logarithmic range as one, and tells what passes with less than the reserve", function()
+  -- d(-ln x)/dx at 5 is -0.2, exact for a parabola in ln x. The limit is reached at x = 1, with nothing in
+  -- reserve.
+  it("treats a logarithmic range as such, and reports a change that passes with less than the "
+    .. "reserve", function()
     local change = study_of(function(p) return { own("v", 1 + math.log(p.x), { max = 1 }) } end,
       { parameters = { x = { 1, 1000, start = 5, log = true } } }):change()
     local found = found_of(change, "v", "x")
@@ -146,12 +148,12 @@ describe("study:change", function()
     assert.truthy(tostring(change):find("x makes it pass, with less in reserve than wanted", 1, true))
   end)
 
-  it("tells two limits of a row apart", function()
+  it("distinguishes the two limits of a row", function()
     local change = study_of(function(p) return { own("v", p.a, { max = 3, min = 2.9 }) } end):change()
     assert.same({ "v min" }, found_of(change, "v", "a").breaks)
   end)
 
-  it("takes integers and choices as they are", function()
+  it("keeps integers whole and takes choices", function()
     local change = study_of(function(p)
       return { own("v", p.n + ({ rod = 0, tube = -3 })[p.kind], { max = 4.5 }) }
     end, { parameters = { n = { 0, 20, start = 7, integer = true },
@@ -163,8 +165,8 @@ describe("study:change", function()
     assert.truthy(tostring(change):find("take kind = tube instead of rod", 1, true))
   end)
 
-  -- Noise of 1 about a slope of 0: neither a slope nor a change is told. About a slope of 10 both are.
-  it("does not take noise for an effect", function()
+  -- Noise of 1 with a slope of 0: neither a slope nor a change is reported. With a slope of 10 both are.
+  it("does not mistake noise for an effect", function()
     local function study(slope)
       return study_of(function(p)
         return { own("v", 12 + slope * (p.a - 4) + p.random(), { max = 9 }) }
@@ -182,7 +184,7 @@ describe("study:change", function()
     assert.is_true(math.abs(found.slope + 10) <= found.slope_error)
   end)
 
-  it("takes evaluations that fail for what does not pass", function()
+  it("treats failed evaluations as not passing", function()
     local change = study_of(function(p)
       if p.a < 3.5 then p.give_up "too low" end
       return { own("v", p.a, { max = 3 }) }
@@ -204,13 +206,13 @@ describe("study:change", function()
     assert.equal(0, second.computed)
   end)
 
-  it("leaves rows alone that no limit is known of, and says so when asked", function()
+  it("leaves out rows without a limit, and says so when asked for one", function()
     local study = study_of(function(p) return { own("v", p.a, {}) } end)
     assert.truthy(study:change().reason:find("for want of a limit", 1, true))
     fails("study:change: row 'v' has no limit", study.change, study, "v")
   end)
 
-  it("refuses what it cannot do by name", function()
+  it("refuses wrong arguments by name", function()
     local study = study_of(function(p) return { own("value", p.a, { max = 3 }) } end)
     fails("there is no row 'valu'; did you mean 'value'?", study.change, study, "valu")
     fails("there is no parameter 'reserv'; did you mean 'reserve'?", study.change, study, { reserv = 1 })
@@ -238,11 +240,11 @@ describe("an evaluation that returns a check", function()
     end)
     local row = study:sweep{ grid = { a = 2, b = 2 } }[4]
     assert.same({ 10, -7, -1, 1 }, { row.a_b_c, row.a_b_c_margin, row.a_b_c_verdict, row.kinks_verdict })
-    assert.is_nil(row.a_b_c_error) -- nobody knows it
+    assert.is_nil(row.a_b_c_error) -- the error is unknown
     assert.same({ 1 }, { row.far_verdict, row.far, row.far_margin }) -- results are finite
   end)
 
-  it("gives rows of the same words and of a parameter's name other ones", function()
+  it("renames rows that have the same name or a parameter's name", function()
     local study = study_of(function(p)
       return { own("a", p.a, { max = 3 }), own("x.y", 1, { max = 3 }), own("x y", 2, { max = 3, min = 0 }),
         own(("long "):rep(30), 3, { max = 4 }), own("1st", 4, { max = 5 }) }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Which parameter matters, and the charts of a study.
+-- Which parameter matters most, and the charts of a study.
 local sw = require "softworld"
 local program = require "host.program"
 local chart = require "softworld.study.chart"
@@ -22,11 +22,11 @@ end
 
 local function anything() return { any = 1 } end
 
-describe("which parameter matters", function()
+describe("the influence of parameters", function()
   local ANY = { y = { max = 1e9 } }
 
-  -- Of 4 a + 2 b - c, evenly over equal ranges, the variances are 16 : 4 : 1.
-  it("is told of a sum", function()
+  -- 4 a + 2 b - c, uniform over equal ranges: the variances are 16 : 4 : 1.
+  it("is found for a sum", function()
     local s = study({ a = { 0, 1 }, b = { 0, 1 }, c = { 0, 1 } }, function(p)
       return { y = 4 * p.a + 2 * p.b - p.c }
     end, ANY)
@@ -39,15 +39,15 @@ describe("which parameter matters", function()
     near(1 / 21, by.c)
     assert.is_true(by.a.rank > 0.8 and by.c.rank < -0.1)
     assert.is_true(by.a.error < 0.05)
-    -- fifths at the ends of a have means 4 * 0.1 and 4 * 0.9, the others stay in the middle: 0.5
+    -- the fifths at the ends of a have means of 4 * 0.1 and 4 * 0.9; b and c are 0.5 on average and add 0.5
     assert.is_true(math.abs(by.a.low - 0.9) < 0.12 and math.abs(by.a.high - 4.1) < 0.12)
     assert.truthy(tostring(found):find("y goes with a %(7%d %+%- %d %%, rising%)"), tostring(found))
-    assert.is_nil(found.matters.pass) -- which does not vary
+    assert.is_nil(found.matters.pass) -- it does not vary
   end)
 
   -- T. Ishigami, T. Homma 1990: sin x + 7 sin^2 y + 0.1 z^4 sin x in +- pi: shares 0.3139, 0.4424 and 0 (z
-  -- matters with x only).
-  it("is told of what rises and falls", function()
+  -- matters only together with x).
+  it("is found for functions that rise and fall", function()
     local pi = math.pi
     local s = study({ x = { -pi, pi }, y = { -pi, pi }, z = { -pi, pi } }, function(p)
       return { f = math.sin(p.x) + 7 * math.sin(p.y) ^ 2 + 0.1 * p.z ^ 4 * math.sin(p.x) }
@@ -58,8 +58,8 @@ describe("which parameter matters", function()
     near(0, by.z)
   end)
 
-  -- A choice that shifts by 2 beside a uniform of width sqrt(12): variances 1 and 1.
-  it("is told of choices, and of what passes", function()
+  -- A choice that shifts by 2 and a uniform variable of width sqrt(12): variances 1 and 1.
+  it("is found for choices, and for the share that passes", function()
     local s = study({ c = { choices = { "x", "y" } }, u = { 0, math.sqrt(12) } }, function(p)
       return { y = p.u + (p.c == "x" and 2 or 0), any = p.random() }
     end, { y = { max = 2.5 } })
@@ -72,8 +72,9 @@ describe("which parameter matters", function()
     assert.truthy(tostring(found):find("any goes with no parameter alone", 1, true))
   end)
 
-  -- A single parameter has all of it, also of few evaluations, and of values near the ends of numbers.
-  it("is told in full of one parameter", function()
+  -- A single parameter has the whole influence, also with few evaluations and with values near the limits of
+  -- floating point.
+  it("is complete for a single parameter", function()
     for _, size in ipairs { 1, 1e300, 1e-310 } do
       local limit = { y = { max = 1e308 } }
       local s = study({ a = { 0, 4 } }, function(p) return { y = size * p.a ^ 2 } end, limit)
@@ -82,7 +83,7 @@ describe("which parameter matters", function()
     end
   end)
 
-  it("is not told of a few, or of what does not vary", function()
+  it("is not given for few evaluations, or for a result that does not vary", function()
     local s = study({ a = { 0, 1 } }, function(p) return { y = p.a, still = 3 } end, ANY)
     assert.same({}, s:spread { count = 10 }.matters)
     assert.is_nil(s:spread { count = 30 }.matters.still)
@@ -129,7 +130,7 @@ describe("study:chart", function()
     end)
   end
 
-  -- Freedman and Diaconis: of 1000 values evenly over (0, 1) the width is 2 * 0.5 / 10 = 0.1.
+  -- Freedman and Diaconis: for 1000 values uniform over (0, 1) the width is 2 * 0.5 / 10 = 0.1.
   it("counts each value once in a histogram", function()
     local histogram, values, sum = chart.of "histogram", {}, 0
     for k = 1, 1000 do values[k] = (k * 617 % 1000 + 0.5) / 1000 end
@@ -143,7 +144,7 @@ describe("study:chart", function()
     assert.same({ 3 }, histogram.counts({ 7, 7, 7 }, histogram.bins { 7, 7, 7 }))
   end)
 
-  it("says what is wrong", function()
+  it("reports wrong arguments", function()
     local s = made()
     for words, args in pairs {
       ["did you mean 'tornado'?"] = { kind = "tornato", y = "peak" },

@@ -1,10 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A study's tasks on a real Slurm of this machine: whatever becomes of them, the table is the one that is
--- computed here.
+-- A study's tasks on a real Slurm of this machine: whatever happens to them, the table equals the one
+-- computed locally.
 local one_cluster = require "study.one_cluster"
 local program = require "host.program"
 
--- Arguments: the journal, how long an evaluation takes [s], its tasks, detach, what is done to some.
+-- Arguments: the journal, the duration of an evaluation [s], the number of tasks, detach, and what happens
+-- to some tasks.
 local SCRIPT = [[
 local sw = require "softworld"
 local study = sw.study { name = "lot", file = arg[1], seed = 7, on = "ON", workers = 2,
@@ -42,7 +43,7 @@ local function script_in(folder, on, options)
   return program.write(folder .. "/script.lua", text)
 end
 
--- A script with its journal in a folder of its own: how to run it, and the journal.
+-- A script with its journal in its own folder: returns the command to run it, and the journal.
 local function case(options, on)
   local folder = program.folder()
   local script = script_in(folder, on or '"slurm"', options)
@@ -58,14 +59,14 @@ local function same(c)
   assert.is_nil(io.open(c.journal .. ".tasks/1/list"), "what was sent is still there")
 end
 
--- How often each evaluation was begun.
+-- How often each evaluation was started.
 local function noted(c)
   local counts = {}
   for line in io.lines(c.journal .. ".noted") do counts[line] = (counts[line] or 0) + 1 end
   return counts
 end
 
--- Run in the background; meanwhile(number of the first job) is done to it once it is sent.
+-- Runs a command in the background; calls meanwhile(number of the first job, process) once the job is sent.
 local function during(c, command, meanwhile, word)
   local out = c.folder .. "/out"
   program.shell((": >%s.err; %s >%s 2>%s.err & echo $! >%s.pid"):format(out, command, out, out, out))
@@ -107,7 +108,7 @@ describe("a study on a cluster", function()
     program.clean()
   end)
 
-  it("gives the same table as here, also in more tasks than an array may have", function()
+  it("gives the same table as a local study, also with more tasks than an array may have", function()
     local c = case()
     local out, err, code = program.shell(c.command("0", 4))
     assert.equal(0, code, err)
@@ -115,18 +116,18 @@ describe("a study on a cluster", function()
     assert.truthy(err:find("study 'lot': 4 tasks sent to Slurm, job %d+\n"), err)
     same(c)
     assert.equal(select(2, expected:gsub("lost by chance", "")), 6)
-    -- a second time nothing is sent
+    -- the second time nothing is sent
     out, err, code = program.shell(c.command("0", 4))
     assert.equal("0\n0", out .. code)
     assert.equal("", err)
     c = case "{ cpus_per_task = 2, time = '1' }"
-    out, err, code = program.shell(c.command("0", 13)) -- arrays are of 11 at most here
+    out, err, code = program.shell(c.command("0", 13)) -- arrays have at most 11 tasks here
     assert.equal("52\n0", out .. code, err)
     assert.truthy(err:find("13 tasks sent to Slurm, jobs %d+ %d+\n"), err)
     same(c)
   end)
 
-  it("does again what was in a task that is cancelled, and one that is requeued", function()
+  it("recomputes the evaluations of a cancelled task and of a requeued one", function()
     local c = case()
     local _, err = during(c, c.command("0.1", 4), function(id)
       for _ = 1, 100 do
@@ -140,7 +141,7 @@ describe("a study on a cluster", function()
     same(c)
   end)
 
-  it("does again what was in a task that is killed; three times, and it has failed", function()
+  it("recomputes the evaluations of a killed task; after three times they have failed", function()
     local c = case()
     local out, err = program.shell(c.command("0.01", 4, nil, "once"))
     assert.equal("52\n", out, err)
@@ -150,7 +151,7 @@ describe("a study on a cluster", function()
     out, err = program.shell(c.command("0.01", 4, nil, "always"))
     assert.equal("52\n", out, err)
     assert.truthy(err:find("given up: 1 evaluation\n", 1, true), err)
-    program.read(assert(err:match "logs of tasks are in (%S+)") .. "/log.0") -- it is there
+    program.read(assert(err:match "logs of tasks are in (%S+)") .. "/log.0") -- the log exists
     local before, now = {}, {}
     for line in expected:gmatch "[^\n]+" do before[#before + 1] = line end
     for line in program.read(c.journal .. ".csv"):gmatch "[^\n]+" do now[#now + 1] = line end
@@ -162,13 +163,14 @@ describe("a study on a cluster", function()
         assert.equal(before[i], line)
       end
     end
-    -- what the machine did is no value of the model: the next time it is tried again
+    -- a failure of the machine is not a result of the model: it is tried again the next time
     out = program.shell(c.command("0", 4))
     assert.equal("1\n", out)
     assert.is_true(expected == program.read(c.journal .. ".csv"))
   end)
 
-  it("leaves its tasks to the cluster, and collects in another shell, also when results are lost", function()
+  it("leaves its tasks to the cluster, and collects them in another shell, also when results are "
+    .. "lost", function()
     local c = case()
     local _, err, code = program.shell(c.command("0.02", 4, "detach"))
     assert.equal(1, code)
@@ -186,19 +188,19 @@ describe("a study on a cluster", function()
     same(c)
   end)
 
-  it("goes on where its parent was killed, and computes nothing twice", function()
+  it("continues after its parent was killed, and computes nothing twice", function()
     local c = case()
     during(c, c.command("0.1", 4), function(_, pid) program.shell("kill -KILL $(pgrep -P " .. pid .. ")") end)
     local out, err, code = program.shell(c.command("0.1", 4))
     assert.equal(0, code, err)
-    assert.equal("51\n", out) -- the first was computed before
+    assert.equal("51\n", out) -- the first part was computed before
     same(c)
     for number, count in pairs(noted(c)) do
       assert.equal(tonumber(number) <= 12 and 2 or 1, count, number) -- once in the sweep, once in the spread
     end
   end)
 
-  it("tells of tasks on the cluster where it is computed here, and takes them away in the end", function()
+  it("reports its jobs on the cluster when it is computed locally, and gives the same table", function()
     local c = case(nil, "os.getenv 'WHERE'")
     local command = c.command("0", 4, "detach"):gsub("^env", "env WHERE=slurm")
     program.shell(command)
@@ -209,7 +211,7 @@ describe("a study on a cluster", function()
     same(c)
   end)
 
-  it("waits for a node that is drained, and says so", function()
+  it("waits for a drained node, and says so", function()
     local host = slurm:ask("sinfo -h -N -o %N"):match "%S+"
     slurm:ask(("scontrol update nodename=%s state=drain reason=spec"):format(host))
     local c = case()
@@ -220,7 +222,7 @@ describe("a study on a cluster", function()
     same(c)
   end)
 
-  it("is cancelled from another process", function()
+  it("can be cancelled from another process", function()
     local c = case()
     local canceller = program.write(c.folder .. "/cancel.lua", [[
 local sw = require "softworld"
@@ -239,7 +241,7 @@ print(study:cancel(), study:cancel())
     same(c)
   end)
 
-  it("ends its tasks with Ctrl-C where nobody can be asked", function()
+  it("ends its tasks with Ctrl-C when there is no terminal to ask", function()
     local c = case()
     local _, err = during(c, "env --default-signal=INT " .. c.command("3", 4), function(_, pid)
       program.shell("kill -INT $(pgrep -P " .. pid .. ")")
@@ -249,7 +251,7 @@ print(study:cancel(), study:cancel())
     until_empty()
   end)
 
-  it("is of one process at a time", function()
+  it("belongs to one process at a time", function()
     local c = case()
     local second
     local out, err = during(c, c.command("0.1", 4), function()
@@ -261,7 +263,7 @@ print(study:cancel(), study:cancel())
     same(c)
   end)
 
-  it("sends rounds of a search when they are worth it, else computes them here", function()
+  it("sends rounds of a search when that is worth it, and computes the others locally", function()
     local folder = program.folder()
     local script = program.write(folder .. "/search.lua", [[
 local sw = require "softworld"
@@ -288,7 +290,7 @@ study:csv(arg[1] .. ".csv")
     assert.is_true(count >= 2 and count <= 4)
   end)
 
-  it("computes the example, with the same words", function()
+  it("computes the example, with the same output", function()
     local folder = program.folder()
     local path = program.quote(program.path) .. " examples/23_cluster.lua"
     local here = program.shell(path)
@@ -300,7 +302,7 @@ study:csv(arg[1] .. ".csv")
     assert.truthy(err:find("4 tasks sent to Slurm", 1, true), err)
   end)
 
-  it("tells what is wrong with the script before anything is sent", function()
+  it("reports mistakes in the script before it sends anything", function()
     local _, err, code = program.script([[
 local sw = require "softworld"
 local study = sw.study { name = "s", file = arg[1], parameters = { x = { 0, 1 } }, on = "slurm",
@@ -312,7 +314,7 @@ study:sweep { count = 5 }
     assert.is_nil(err:find "sent")
   end)
 
-  it("is for scripts in a file, which come to the same part on the nodes", function()
+  it("needs a script in a file that reaches the same part on the nodes", function()
     local journal = program.folder() .. "/s.study"
     local text = ([[
 local sw = require "softworld"
@@ -334,7 +336,7 @@ print(study:sweep { count = 2 }[2].failed)
     assert.equal("I stop\n", program.read(folder .. "/log.0"))
   end)
 
-  it("tells what is wrong with the partition, and which there are", function()
+  it("reports a wrong partition, and lists the existing ones", function()
     local c = case "{ partition = 'mian' }"
     local _, err, code = program.shell(c.command())
     assert.equal(1, code)
@@ -344,7 +346,7 @@ print(study:sweep { count = 2 }[2].failed)
     assert.is_nil(io.open(c.journal .. ".tasks/1/list"))
   end)
 
-  it("tells what to do without Slurm", function()
+  it("says what to do without Slurm", function()
     local bin = program.folder()
     program.shell(("for f in sh cat ls rm mkdir; do ln -s $(command -v $f) %s/$f; done"):format(bin))
     local c = case()
@@ -378,7 +380,7 @@ print(study:sweep { count = 2 }[2].failed)
     same(c)
   end)
 
-  it("does not believe a task of another script", function()
+  it("does not accept a task of another script", function()
     local c = case()
     program.shell(c.command("0", 4, "detach") .. "; true")
     until_empty()

@@ -1,13 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Fits: known least squares with known errors, bounds, failures, what data cannot tell, the same bits.
+-- Fits: least squares with known results and errors, bounds, failures, parameters that the data do not
+-- determine, identical bits.
 local straight = require "spec.study.lines"
 local fitlinear = require "softworld.study.fitlinear"
 
 local study, near, X, Y, line, RANGES, data = straight.study, straight.near, straight.X, straight.Y,
   straight.line, straight.RANGES, straight.data
 
--- Means and sums of the line: b = Sxy / Sxx, a = mean y - b mean x, var b = s^2 / Sxx,
--- var a = s^2 (1 / n + mean x^2 / Sxx).
+-- Formulas of linear regression: b = Sxy / Sxx, a = mean y - b mean x, var b = s^2 / Sxx, var a = s^2 (1 / n
+-- + mean x^2 / Sxx).
 local function regression()
   local n, mx, my, sxx, sxy = #X, 0, 0, 0, 0
   for k = 1, n do mx, my = mx + X[k] / n, my + Y[k] / n end
@@ -22,7 +23,7 @@ end
 describe("study:fit of a line", function()
   local r = regression()
 
-  -- Student's t of 8 degrees of freedom, 97.5 %: 2.306004135 (tables).
+  -- Student's t with 8 degrees of freedom, 97.5 %: 2.306004135 (tables).
   it("estimates sigma from the residuals, with Student's t", function()
     local fit = study(RANGES, line):fit { data = { y = Y } }
     assert.is_true(fit.ok, fit.reason)
@@ -43,7 +44,7 @@ describe("study:fit of a line", function()
   end)
 
   -- The normal distribution's 97.5 %: 1.959963985. chi^2 is the sum of squares over sigma^2.
-  it("takes a sigma that is given for what it is", function()
+  it("uses a given sigma as it is", function()
     local fit = study(RANGES, line):fit { data = { y = data(Y, 0.1) } }
     near(0.1 * math.sqrt(r.vb), fit.parameters.b.error, 1e-6)
     near(fit.parameters.b.value + 1.959963985 * 0.1 * math.sqrt(r.vb), fit.parameters.b.high, 1e-6)
@@ -52,8 +53,8 @@ describe("study:fit of a line", function()
     assert.is_true(fit.chance > 0.01 and fit.chance < 0.99)
   end)
 
-  -- A datum with half of the sigma counts as four.
-  it("weighs each datum by its sigma, or by a weight", function()
+  -- A datum with half the sigma counts as four.
+  it("weights each datum by its sigma, or by a weight", function()
     local sigma, weight = {}, {}
     for k = 1, #Y do sigma[k], weight[k] = k <= 3 and 0.05 or 0.1, k <= 3 and 4 or 1 end
     local one = study(RANGES, line):fit { data = { y = data(Y, sigma) } }
@@ -65,7 +66,7 @@ describe("study:fit of a line", function()
     assert.equal("estimated", two.sigma)
   end)
 
-  it("of as many data as parameters has no error without sigma, and says so", function()
+  it("with as many data as parameters has no error without sigma, and says so", function()
     local three = study({ a = { 0, 1 } }, function(p) return { y = 2 * p.a } end)
     local fit = three:fit { data = { y = 0.6 } }
     near(0.3, fit.parameters.a.value, 1e-9)
@@ -95,13 +96,13 @@ it("study:fit agrees with certified results of a nonlinear model", function()
   near(7.2668688436e-06, fit.parameters.b2.error, 1e-5)
   near(1.0187876330e-01, fit.scatter, 1e-7)
   assert.is_true(fit.parameters.b1.value - fit.parameters.b1.low
-    < fit.parameters.b1.high - fit.parameters.b1.value) -- of a log range by a factor, so never below 0
+    < fit.parameters.b1.high - fit.parameters.b1.value) -- a factor on a log range, so never below 0
 end)
 
 describe("study:fit within ranges", function()
   -- The sum of squares (a + b - 3)^2 + (a - b + 1)^2 is smallest at 1, 2. With b <= 1.5:
   -- d/da [(a - 1.5)^2 + (a - 0.5)^2] = 0 at a = 1.
-  it("holds a parameter at its end, says so, and fits the others", function()
+  it("keeps a parameter at the end of its range, says so, and fits the others", function()
     local fit = study({ a = { 0, 5 }, b = { 0, 1.5 } },
       function(p) return { u = p.a + p.b, v = p.a - p.b } end)
       :fit { data = { u = { 3, sigma = 1 }, v = { -1, sigma = 1 } } }
@@ -114,8 +115,8 @@ describe("study:fit within ranges", function()
     assert.truthy(table.concat(fit.remarks, "\n"):find("b is at the end of its range", 1, true))
   end)
 
-  -- It begins at an end beyond which the sum falls at first, but not where a has gone on.
-  it("lets go of an end again", function()
+  -- It starts at an end beyond which the sum falls at first, but no longer once a has moved.
+  it("leaves an end of a range again", function()
     local fit = study({ a = { 0, 5, start = 5 }, b = { 0, 4, start = 0 } },
       function(p) return { u = p.a + p.b, v = p.a - p.b } end)
       :fit { data = { u = { 3, sigma = 1 }, v = { -1, sigma = 1 } } }
@@ -132,7 +133,7 @@ describe("study:fit within ranges", function()
     assert.equal("all parameters are at the ends of their ranges", fit.reason)
   end)
 
-  it("cuts an interval at the range", function()
+  it("cuts an interval at the end of the range", function()
     local fit = study({ a = { 0, 1 } }, function(p) return { y = p.a } end)
       :fit { data = { y = { 0.9, sigma = 0.1 } } }
     assert.equal(1.0, fit.parameters.a.high)
@@ -142,13 +143,13 @@ describe("study:fit within ranges", function()
 end)
 
 describe("study:fit with evaluations that fail", function()
-  -- exp(3 x) from x = 1.9 on fails, the answer is 1.85: steps over the border come back.
+  -- exp(3 x) fails from x = 1.9 on; the solution is 1.85. Steps across the border are taken back.
   local function model(p)
     if p.x > 1.9 then error("too much", 0) end
     return { y = { math.exp(3 * p.x), p.x } }
   end
 
-  it("goes back, and tells how many", function()
+  it("takes failed steps back, and counts them", function()
     local fit = study({ x = { 0, 3, start = 0.2 } }, model):fit {
       data = { y = { math.exp(3 * 1.85), 1.85, sigma = { 1, 0.01 } } } }
     assert.is_true(fit.ok, fit.reason)
@@ -163,7 +164,7 @@ describe("study:fit with evaluations that fail", function()
     assert.equal(1, fit.failed) -- of the first differences
   end)
 
-  it("says when it cannot go on, with the best so far", function()
+  it("says when it cannot continue, with the best result so far", function()
     local only
     local fit = study({ x = { 0, 3, start = 1 } }, function(p)
       if p.x ~= 1 then error("no", 0) end
@@ -176,13 +177,13 @@ describe("study:fit with evaluations that fail", function()
     assert.is_nil(only.low)
   end)
 
-  it("is an error with the first reason where none succeeds", function()
+  it("is an error with the first reason when every evaluation fails", function()
     assert.error_matches(function()
       study({ x = { 0, 1 } }, function() error("no luck", 0) end):fit { data = { y = 1 } }
     end, "none of 1 evaluations succeeded; the first: no luck")
   end)
 
-  it("begins at another start where the first fails", function()
+  it("uses another start when the first one fails", function()
     local fit = study({ x = { 0, 3, start = 2.5 } }, model):fit { starts = 3,
       data = { y = { math.exp(3 * 1.85), 1.85, sigma = { 1, 0.01 } } } }
     near(1.85, fit.parameters.x.value, 1e-6)
@@ -190,7 +191,7 @@ describe("study:fit with evaluations that fail", function()
   end)
 end)
 
-describe("what data cannot tell", function()
+describe("parameters that the data do not determine", function()
   local function found(parameters, model, count)
     local y = { sigma = 0.01 }
     for k = 1, count or 6 do y[k] = 1 + 0.1 * k end
@@ -203,7 +204,7 @@ describe("what data cannot tell", function()
   local EI, weight = { 0.1, 10, log = true }, { 0.5, 5 }
 
   -- The line 1 + 0.1 k: EI / weight is the slope, known to sigma / sqrt(Sxx) = 0.01 / sqrt(17.5).
-  it("is named as a combination that they do tell, with its interval", function()
+  it("are named with the combination that the data determine, and its interval", function()
     local fit = found({ EI = EI, weight = weight, c = { 0, 2 } },
       function(p, k) return p.c + p.EI / p.weight * k end)
     assert.is_true(fit.ok, fit.reason)
@@ -221,7 +222,7 @@ describe("what data cannot tell", function()
     assert.truthy(tostring(fit):find("EI: not told by the data", 1, true))
   end)
 
-  it("may be a product, a power, or a difference", function()
+  it("enter as a product, a power ratio or a difference", function()
     local a, b = { 0.2, 5 }, { 0.5, 2, log = true }
     for text, model in pairs {
       ["a and b enter as a * b only"] = function(p, k) return p.a * p.b * k end,
@@ -235,7 +236,7 @@ describe("what data cannot tell", function()
     near(fit.parameters.a.value - 2 * fit.parameters.b.value, fit.unresolved[1].value, 1e-6)
   end)
 
-  it("may be a parameter that does nothing, or several pairs", function()
+  it("include a parameter without effect, and several pairs", function()
     local fit = found({ a = { 0, 2 }, idle = { 1, 2 } }, function(p, k) return p.a * k end)
     assert.equal("the data do not depend on idle", fit.unresolved[1].text)
     assert.equal(1, #fit.unresolved)
@@ -249,7 +250,7 @@ describe("what data cannot tell", function()
     assert.same({ "a and b enter as a / b only", "c and d enter as c * d only" }, texts)
   end)
 
-  it("of three together says how they change", function()
+  it("may be three together, with the way they change", function()
     local fit = found({ a = EI, b = weight, c = { 0.5, 2 } },
       function(p, k) return p.a / (p.b * p.c) * k end)
     assert.equal(2, #fit.unresolved)
@@ -262,15 +263,15 @@ describe("what data cannot tell", function()
       .. "together", (text:gsub("[+-]", sign)))
   end)
 
-  it("is not said of what is known badly", function()
+  it("do not include those that are only poorly known", function()
     local fit = found({ a = { -20, 20 }, b = { 0, 20 } },
       function(p, k) return p.a + p.b * (1 + 0.01 * k) end)
     assert.same({}, fit.unresolved)
     assert.truthy(table.concat(fit.remarks, "\n"):find("a and b can hardly be told apart", 1, true))
   end)
 
-  -- Columns (1, 1, 0) and (1, 1, 1e-3), of scaled length: one minus their cosine is 2.5e-7.
-  it("is told from the singular values: covariance is that of the inverse", function()
+  -- Columns (1, 1, 0) and (1, 1, 1e-2), scaled to unit length: one minus their cosine is 2.5e-5.
+  it("are found from the singular values: the covariance is that of the inverse", function()
     local C, lost = fitlinear.covariance { { 1, 1, 0 }, { 1, 1, 1e-2 } }
     assert.same({}, lost)
     near((2 + 1e-4) / 2e-4, C[1][1], 1e-8) -- det of J'J = 2 * 1e-4
@@ -281,7 +282,7 @@ describe("what data cannot tell", function()
   end)
 end)
 
--- Two data off by 50 sigma: squares follow them, the soft loss does not.
+-- Two data are off by 50 sigma: least squares follow them, the soft loss does not.
 it("study:fit with a soft loss leaves outliers alone", function()
   local y = { sigma = 0.05 }
   for k, x in ipairs(X) do y[k] = 1 + 1.5 * x + 0.05 * ((k % 3) - 1) end
@@ -295,9 +296,9 @@ it("study:fit with a soft loss leaves outliers alone", function()
   assert.truthy(table.concat(soft.remarks, "\n"):find "2 of 10 data are further off than 3 sigma")
 end)
 
--- One datum in ten is off by eight times the sigma. Intervals with the soft loss hold the slope in 190 +- 3.1
--- of 200; fewer than 178 have a chance of 3e-4.
-it("intervals with a soft loss hold the truth among outliers", function()
+-- One datum in ten is off by eight times the sigma. The intervals of the soft loss should contain the slope
+-- in 190 +- 3.1 of 200 cases; fewer than 178 have a chance of 3e-4.
+it("intervals with a soft loss contain the true value despite outliers", function()
   math.randomseed(9)
   local held = 0
   for _ = 1, 200 do
@@ -316,8 +317,8 @@ it("intervals with a soft loss hold the truth among outliers", function()
   assert.is_true(held >= 178, held)
 end)
 
--- sin(w t) has many valleys along w: only a start beside the right one finds it.
-it("study:fit from several starts finds the lowest valley", function()
+-- sin(w t) has many local minima along w; only a start near the right one finds it.
+it("study:fit from several starts finds the lowest minimum", function()
   local y = { sigma = 0.01 }
   for k = 1, 30 do y[k] = math.sin(7.3 * k / 10) end
   local waves = study({ w = { 0.5, 15, start = 1 } }, function(p)
@@ -331,9 +332,9 @@ it("study:fit from several starts finds the lowest valley", function()
   assert.equal(12, #many.starts)
 end)
 
--- 300 lines with noise: 95 % intervals of each parameter hold the truth in 285 +- 3.8 of them. Fewer than
--- 270 or more than 298 have a chance of 2e-4 (binomial).
-it("95 % intervals hold the truth in 95 % of cases", function()
+-- 300 noisy lines: the 95 % interval of each parameter should contain the true value in 285 +- 3.8 of them.
+-- Fewer than 270 or more than 298 have a chance of 2e-4 (binomial).
+it("95 % intervals contain the true value in 95 % of cases", function()
   math.randomseed(5)
   local function normal()
     return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random())

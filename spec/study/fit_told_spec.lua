@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- study:fit: residuals that are no noise, its evaluations, what it refuses.
+-- study:fit: residuals that are not noise, its evaluations, refused arguments.
 local straight = require "spec.study.lines"
 local program = require "host.program"
 local fitnoise = require "softworld.study.fitnoise"
@@ -7,8 +7,8 @@ local fitnoise = require "softworld.study.fitnoise"
 local study, near, Y, line, RANGES, data = straight.study, straight.near, straight.Y, straight.line,
   straight.RANGES, straight.data
 
-describe("residuals that are no noise", function()
-  it("are told by their sum where sigma is given", function()
+describe("residuals that are not noise", function()
+  it("are reported from their sum when sigma is given", function()
     local few = study(RANGES, line):fit { data = { y = data(Y, 0.01) } }
     assert.truthy(few.remarks[1]:find("times what sigma says", 1, true), few.remarks[1])
     assert.is_true(few.chance < 1e-6)
@@ -16,8 +16,8 @@ describe("residuals that are no noise", function()
     assert.truthy(many.remarks[1]:find("sigma is too large", 1, true), many.remarks[1])
   end)
 
-  -- A parabola taken for a line: signs + - +, two changes in 20.
-  it("are told by their signs", function()
+  -- A parabola fitted by a line: signs + - +, two changes in 20.
+  it("are reported from their signs", function()
     local y = {}
     for k = 1, 20 do y[k] = k + 0.01 * (k - 10) ^ 2 end
     local fit = study(RANGES, function(p)
@@ -29,7 +29,7 @@ describe("residuals that are no noise", function()
   end)
 
   -- All orders of 3 and 4 signs, counted.
-  it("by a chance that is the share of all orders", function()
+  it("have a chance that equals the share of all orders of signs", function()
     local counts, all = {}, 0
     for bits = 0, 127 do
       local ones, runs, last = 0, 0, nil
@@ -69,7 +69,7 @@ describe("a fit's evaluations", function()
     return study({ a = { 0.1, 5, start = 3 }, k = { 0.01, 3, start = 0.5 } }, decay, more)
   end
 
-  it("are the same bits for any number of workers", function()
+  it("give the same bits for any number of workers", function()
     local first
     for _, workers in ipairs { 0, 1, 2, 7 } do
       local s = make { workers = workers }
@@ -80,7 +80,7 @@ describe("a fit's evaluations", function()
     end
   end)
 
-  it("are taken from the journal, whole or cut off", function()
+  it("are taken from the journal, complete or cut off", function()
     local path = program.folder() .. "/fit.study"
     local s = make { file = path, workers = 2 }
     local whole = text(s, s:fit { data = DATA, starts = 2 })
@@ -101,8 +101,8 @@ describe("a fit's evaluations", function()
     end
   end)
 
-  -- Without workers Ctrl-C comes within an evaluation: that is no failure of the model, but the end.
-  it("end with Ctrl-C, in this process too", function()
+  -- Without workers Ctrl-C interrupts an evaluation: this ends the fit and is not a failure of the model.
+  it("end with Ctrl-C, also in this process", function()
     local _, err, code = program.script([[
 local sw = require "softworld"
 sw.study { name = "slow", workers = 0, parameters = { a = { 0, 1 } }, evaluate = function(p)
@@ -115,7 +115,7 @@ end }:fit { data = { y = { 0.3, 0.2 } }, starts = 1000 }]], {},
     assert.truthy(err:find("study 'slow' was interrupted; so far:", 1, true), err)
   end)
 
-  it("are no more than allowed, and that is told", function()
+  it("are at most as many as allowed, and the fit says so", function()
     local s = make()
     local fit = s:fit { data = DATA, evaluations = 9 }
     assert.is_false(fit.ok)
@@ -173,7 +173,7 @@ describe("study:fit refuses", function()
     end
   end)
 
-  it("results that are no list of numbers", function()
+  it("results that are not lists of numbers", function()
     for _, case in ipairs { { {}, "an empty table" }, { { a = 1 }, "a table that is no list" },
       { { 1, "x" }, "returned y_2 = 'x'" }, { { 1, { 2 } }, "returned y_2 = a table" } } do
       local fine, why = pcall(function()

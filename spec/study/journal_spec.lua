@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The journal: what stands in it is not computed again, what is torn or strange is told and never believed.
+-- The journal: its results are not computed again; torn or strange lines are reported and never used.
 local sw = require "softworld"
 local program = require "host.program"
 local bytecode = require "softworld.study.bytecode"
@@ -13,7 +13,7 @@ local function study(path, changes)
   return sw.study(args)
 end
 
--- What is written to stderr meanwhile.
+-- Returns what f writes to stderr.
 local function told(f)
   local real, lines = io.stderr, {}
   io.stderr = { write = function(_, ...) lines[#lines + 1] = table.concat { ... } end } -- luacheck: ignore
@@ -42,12 +42,12 @@ describe("a journal", function()
     assert.equal(0, second.computed)
     assert.same(rows, again)
     local more = study(path)
-    more:sweep { count = 30 } -- of a sequence whose beginning is the same
+    more:sweep { count = 30 } -- of a sequence with the same beginning
     assert.equal(10, more.computed)
-    assert.same(more:table(), study(path):table()) -- without asking for anything
+    assert.same(more:table(), study(path):table()) -- without asking for any evaluation
   end)
 
-  it("is shown with parts that this script does not ask for", function()
+  it("is shown with parts that the script does not ask for", function()
     local path = new_path()
     local s = study(path)
     s:minimise "y"
@@ -60,7 +60,7 @@ describe("a journal", function()
     assert.equal(28, #s:table())
   end)
 
-  it("goes on after a line that was torn anywhere", function()
+  it("continues after a line that was torn anywhere", function()
     local path = new_path()
     local _, rows = swept(path)
     local text = program.read(path)
@@ -76,7 +76,7 @@ describe("a journal", function()
     end
   end)
 
-  it("goes on after its first lines were torn", function()
+  it("continues after its first lines were torn", function()
     local path = new_path()
     local _, rows = swept(path)
     local text = program.read(path)
@@ -90,7 +90,7 @@ describe("a journal", function()
     end
   end)
 
-  it("with a damaged line tells of it and computes it again", function()
+  it("with a damaged line reports it, and the evaluation is repeated", function()
     local path = new_path()
     local _, rows = swept(path)
     local text = program.read(path)
@@ -108,7 +108,7 @@ describe("a journal", function()
     end
   end)
 
-  it("of whatever bytes is refused and left alone, or read without harm", function()
+  it("of arbitrary bytes is refused and left alone, or read without harm", function()
     local path = new_path()
     swept(path)
     local first = program.read(path):match "^[^\n]*\n"
@@ -129,7 +129,7 @@ describe("a journal", function()
     assert.error_matches(function() study(path) end, "s.study:2 is no line of a journal")
   end)
 
-  it("with evaluations of nonsense behind right sums does not believe them", function()
+  it("with nonsense behind correct checksums is not used", function()
     local path = new_path()
     local _, rows = swept(path)
     local text = program.read(path)
@@ -152,7 +152,7 @@ describe("a journal", function()
       "file = '.*s.study' is the journal of another study, 's'; give this one a file of its own")
   end)
 
-  it("of another definition is told what differs, and its lines are kept apart", function()
+  it("of another definition is reported with the difference, and its lines are kept apart", function()
     local path = new_path()
     local _, rows = swept(path)
     local cases = {
@@ -170,7 +170,7 @@ describe("a journal", function()
       assert.truthy(said:find(case[3] or "now:", 1, true), said)
       assert.equal(20, s.computed)
     end
-    local s, again -- the first one is still there
+    local s, again -- the first definition's results are still there
     told(function() s, again = swept(path) end)
     assert.equal(0, s.computed)
     assert.same(rows, again)
@@ -191,8 +191,8 @@ describe("a journal", function()
     end
   end)
 
-  -- A limit on the size of files stands for a full disk: both let a write end short or fail.
-  it("on a full disk says so, and goes on when there is room", function()
+  -- A limit on the file size stands for a full disk: with both, a write ends short or fails.
+  it("on a full disk says so, and continues when there is room", function()
     local folder = program.folder()
     local script = program.write(folder .. "/full.lua", [[
 local sw = require "softworld"
@@ -211,7 +211,7 @@ print(study.computed)
     assert.equal("0\n", (program.shell(command)))
   end)
 
-  it("is of one process at a time", function()
+  it("belongs to one process at a time", function()
     local path = new_path()
     local held = study(path, { evaluate = function(p)
       if p.number == 1 then
@@ -225,18 +225,18 @@ print(study.computed)
     local rows = held:sweep { count = 2, workers = 0 }
     assert.truthy(rows[1].failed:find("another process, or another study of this one, works with", 1, true),
       rows[1].failed)
-    told(function() swept(path) end) -- and free afterwards
+    told(function() swept(path) end) -- and it is free afterwards
   end)
 
-  it("does not need a file", function()
+  it("is optional", function()
     local s = swept(nil)
     assert.is_nil(s.file)
     assert.equal(20, #s:table())
   end)
 end)
 
-describe("what a function computes", function()
-  it("is the same wherever it stands, and another with another number", function()
+describe("the code of a function", function()
+  it("is the same anywhere in a file, and differs with another number", function()
     local function made(text) return assert(load(text, "=x"))() end
     local text = "return function(x) local t = { 1, 2.5, 'abc', nil, true } return function()"
       .. " return t[x] end end"
@@ -251,7 +251,7 @@ describe("what a function computes", function()
     end
   end)
 
-  it("is read of every function of the library", function()
+  it("can be read of every function of the journal module", function()
     local count = 0
     for _, f in pairs(journal) do
       if type(f) == "function" then
@@ -262,7 +262,7 @@ describe("what a function computes", function()
     assert.is_true(count > 5)
   end)
 
-  it("has the numbers that a script's function takes from outside", function()
+  it("includes the numbers that a function takes from outside", function()
     local path, friction = new_path(), 0.3
     local function of() return function(p) return { y = p.x * friction } end end
     assert.equal(20, swept(path, { evaluate = of() }).computed)

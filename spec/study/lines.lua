@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What specs of fits share: a straight line, its data, and how they ask.
+-- Shared by the specs of fits: a straight line, its data, and helpers.
 local assert = require "luassert"
 local sw = require "softworld"
 

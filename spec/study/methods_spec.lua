@@ -21,17 +21,17 @@ end
 local function nothing() return { y = 1 } end
 
 describe("study:sweep", function()
-  it("goes over a grid, ends included, the last parameter first", function()
+  it("covers a grid with both ends, the last parameter first", function()
     local s = study({ a = { 1, 100, log = true }, b = { 0, 1 } }, nothing)
     local rows = s:sweep { grid = { a = 3, b = 2 } }
     assert.same({ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 }, column(rows, "b"))
     for i, a in ipairs { 1, 1, 10, 10, 100, 100 } do assert.is_true(math.abs(rows[i].a / a - 1) < 1e-14) end
-    assert.equal(100.0, rows[6].a) -- the end itself, not what exp and log make of it
+    assert.equal(100.0, rows[6].a) -- exactly the end, without the rounding of exp and log
     assert.equal(25, #s:sweep { kind = "grid", count = 30 })
     assert.equal(0.5, s:sweep { grid = { a = 1, b = 1 } }[1].b)
   end)
 
-  it("takes all choices and integers on a grid, none twice", function()
+  it("takes all choices and integers on a grid, each once", function()
     local s = study({ n = { 2, 5, integer = true }, c = { choices = { "x", true, 3 } } }, nothing)
     local rows = s:sweep { grid = 10 }
     assert.equal(12, #rows)
@@ -41,7 +41,7 @@ describe("study:sweep", function()
     assert.same({ 2, 4, 5 }, column(s:sweep { grid = { n = 3, c = 1 } }, "n")) -- 2, 3.5 rounded up, 5
   end)
 
-  it("gives evaluate what the parameter is", function()
+  it("gives evaluate values of the parameter's type", function()
     local ranges = { n = { 2, 5, integer = true }, c = { choices = { "x", true, 3 } }, a = { 1, 2 } }
     local s = study(ranges, function(p)
       return { whole = math.type(p.n) == "integer", float = math.type(p.a) == "float",
@@ -52,8 +52,8 @@ describe("study:sweep", function()
     end
   end)
 
-  -- Each of count equal stretches of each range holds one point.
-  it("fills by a Latin hypercube", function()
+  -- If each range is cut into count equal parts, each part has one point.
+  it("fills the ranges by a Latin hypercube", function()
     local rows = study({ a = { 0, 1 }, b = { 5, 10 } }, nothing):sweep { kind = "latin", count = 40 }
     for name, range in pairs { a = { 0, 1 }, b = { 5, 5 } } do
       local met = {}
@@ -65,9 +65,9 @@ describe("study:sweep", function()
     end
   end)
 
-  -- Halton: the digits of the number in bases 2 and 3, mirrored at the point. Sobol: any 2^k points that
-  -- follow one another have as many in each of 2^k equal stretches (but for the first, which GSL leaves out).
-  it("fills by the sequences of Halton and Sobol", function()
+  -- Halton: the digits of the number in bases 2 and 3, mirrored at the point. Sobol: any 2^k consecutive
+  -- points put one into each of 2^k equal parts (except the first point, which GSL leaves out).
+  it("fills the ranges by the sequences of Halton and Sobol", function()
     local s = study({ a = { 0, 1 }, b = { 0, 1 } }, nothing)
     local rows = s:sweep { kind = "halton", count = 6 }
     for i, a in ipairs { 1 / 2, 1 / 4, 3 / 4, 1 / 8, 5 / 8, 3 / 8 } do
@@ -87,7 +87,7 @@ describe("study:sweep", function()
     end
   end)
 
-  it("says of how many parameters a sequence is", function()
+  it("says how many parameters a sequence can have", function()
     local many = {}
     for i = 1, 41 do many["p" .. i] = { 0, 1 } end
     local s = study(many, nothing)
@@ -110,7 +110,7 @@ describe("study:minimise", function()
     assert.same({}, found.at_bound)
   end)
 
-  -- (a - 1)^2 on the constraint a <= 0.8, with b = a^2: 0.04.
+  -- (a - 1)^2 with the constraint a <= 0.8 and b = a^2: 0.04.
   it("finds the minimum on a constraint", function()
     local s = study(RANGES, rosenbrock, { a2 = { max = 0.8 } })
     local found = s:minimise("y", { tolerance = 1e-6, evaluations = 4000 })
@@ -127,8 +127,8 @@ describe("study:minimise", function()
     assert.same({ "x" }, found.at_bound)
   end)
 
-  -- One of 10 evaluations fails, and all of a corner: a search that took them for numbers would be lost.
-  it("is not led astray by evaluations that fail", function()
+  -- One of 10 evaluations fails, and all in one corner. A search that took them for numbers would get lost.
+  it("finds the minimum although evaluations fail", function()
     local s = study({ a = { -2, 2 }, b = { -2, 2 } }, function(p)
       if p.random() < 0.1 then return { y = 0 / 0 } end
       if p.a < 0 and p.b < 0 then error "corner" end
@@ -140,22 +140,22 @@ describe("study:minimise", function()
       tostring(found))
   end)
 
-  it("finds the lower of two valleys by its starts", function()
+  it("finds the lower of two valleys by several starts", function()
     local s = study({ x = { -3, 3, start = 1.2 } },
       function(p) return { y = (p.x ^ 2 - 1) ^ 2 + p.x / 5 } end)
     assert.is_true(s:minimise("y", { starts = 1 }).best.x > 0)
     assert.is_true(s:minimise("y", { starts = 4 }).best.x < 0)
   end)
 
-  it("takes a parameter as what is to be smallest", function()
+  it("can minimise a parameter", function()
     local s = study({ x = { 0, 1 } }, function(p) return { held = p.x > 0.25 } end, { held = { min = 1 } })
     local found = s:minimise("x", { tolerance = 1e-4 })
-    -- the last simplex is as small as that, and its other end may be a few times as far
+    -- the last simplex is as small as the tolerance; its other end may be a few times as far
     assert.is_true(found.value > 0.25 and found.value < 0.251, found.value)
     assert.equal(found.best.x, found.value)
   end)
 
-  it("takes integers as they are, and ends when its evaluations are used up", function()
+  it("keeps integers whole, and ends when its evaluations are used up", function()
     local s = study({ n = { 1, 50, integer = true } }, function(p) return { y = (p.n - 17) ^ 2 } end)
     assert.equal(17, s:minimise "y".best.n)
     local found = s:minimise("y", { evaluations = 8 })
@@ -166,8 +166,8 @@ describe("study:minimise", function()
 end)
 
 describe("study:spread", function()
-  -- Of x in (0, 1) evenly, 30 % are below 0.3.
-  it("tells a known probability, with an interval that holds it", function()
+  -- x is uniform in (0, 1): 30 % are below 0.3.
+  it("gives a known probability, with an interval that contains it", function()
     local s = study({ x = { 0, 1 } }, function(p) return { y = p.x } end, { y = { max = 0.3 } })
     local found = s:spread { count = 2000 }
     assert.is_true(found.low < 0.3 and 0.3 < found.high, tostring(found))
@@ -178,8 +178,9 @@ describe("study:spread", function()
     assert.is_false(found.worst[1].pass)
   end)
 
-  -- Normal about 2 with sigma 0.5: 84.13 % are below 2.5. Cut at 4 sigma.
-  it("draws normally about start where sigma is given, and evenly over a logarithm", function()
+  -- Normal about 2 with sigma 0.5, cut at 4 sigma: 84.13 % are below 2.5.
+  it("draws from a normal distribution where sigma is given, and uniformly in the logarithm of a log "
+    .. "range", function()
     local s = study({ x = { 0, 4, start = 2, sigma = 0.5 }, z = { 1, 100, log = true } },
       function(p) return { x1 = p.x, z1 = p.z } end, { x1 = { max = 2.5 } })
     local found = s:spread { count = 2000 }
@@ -190,8 +191,8 @@ describe("study:spread", function()
     assert.is_true(low < 0.5 and 0.5 < high)
   end)
 
-  -- Wilson 1927, values from the formula computed by hand: 8 of 10 passes.
-  it("has Wilson's interval", function()
+  -- Wilson 1927, the formula evaluated by hand: 8 of 10 pass.
+  it("gives Wilson's interval", function()
     local low, high = spread.wilson(8, 10)
     assert.is_true(math.abs(low - 0.490162) < 1e-6 and math.abs(high - 0.943318) < 1e-6)
     low, high = spread.wilson(0, 10)
@@ -200,9 +201,11 @@ describe("study:spread", function()
     assert.is_true(high == 1 and math.abs(low - 0.7224672) < 1e-6)
   end)
 
-  -- Normal about 2 with sigma 0.5, cut at 4 sigma, plus an even one: P(x + y <= 3) = P((x - 2) + y <= 1), the
-  -- mean of Phi((1 - y) / 0.5) over y: the integral of Phi(2 t) from 0 to 1 = Phi(2) - (phi(0) - phi(2)) / 2.
-  it("fills the ranges by Sobol's sequence, with a narrower interval that holds it", function()
+  -- Normal about 2 with sigma 0.5, cut at 4 sigma, plus a uniform variable: P(x + y <= 3) = P((x - 2) + y <=
+  -- 1), the mean of Phi((1 - y) / 0.5) over y: the integral of Phi(2 t) from 0 to 1 = Phi(2) - (phi(0) -
+  -- phi(2)) / 2.
+  it("fills the ranges by Sobol's sequence, with a narrower interval that contains the "
+    .. "probability", function()
     local phi = function(t) return math.exp(-t * t / 2) / math.sqrt(2 * math.pi) end
     local expected, held, width = core.normal_below(2) - (phi(0) - phi(2)) / 2, 0, { random = 0, sobol = 0 }
     for seed = 1, 20 do
@@ -215,11 +218,11 @@ describe("study:spread", function()
         if kind == "sobol" and found.low <= expected and expected <= found.high then held = held + 1 end
       end
     end
-    assert.is_true(held >= 16, held) -- of 20 at 95 %: fewer than 16 come once in 3000 times
+    assert.is_true(held >= 16, held) -- of 20 at 95 %: fewer than 16 have a chance of 1 in 3000
     assert.is_true(width.sobol < 0.75 * width.random, width.sobol / width.random)
   end)
 
-  it("has Sobol's points again when there are to be more, and Wilson's interval where all pass", function()
+  it("repeats Sobol's points when more are wanted, and gives Wilson's interval where all pass", function()
     local function rows(count)
       local s = study({ x = { 0, 1 }, n = { 1, 3, integer = true } }, nothing, { y = { max = 2 } })
       return s:spread { count = count, kind = "sobol" }, s:table()
@@ -234,14 +237,14 @@ describe("study:spread", function()
     end, "did you mean 'sobol'?")
   end)
 
-  -- Tables: 97.5 % of all lie below 1.959963984540054.
-  it("has the normal distribution", function()
+  -- Tables: 97.5 % lie below 1.959963984540054.
+  it("uses the normal distribution", function()
     assert.is_true(math.abs(core.normal_below(1.959963984540054) - 0.975) < 1e-14)
     assert.is_true(math.abs(core.normal_at(0.025) + 1.959963984540054) < 1e-13)
     assert.error_matches(function() core.normal_at(1) end, "between 0 and 1")
   end)
 
-  it("counts what failed as not passed", function()
+  it("counts failed evaluations as not passed", function()
     local s = study({ x = { 0, 1 } }, function(p)
       if p.number % 4 == 0 then error "lost" end
       return { y = p.x }
@@ -251,7 +254,7 @@ describe("study:spread", function()
   end)
 end)
 
-describe("what a study shows", function()
+describe("the output of a study", function()
   teardown(program.clean)
 
   local function made()
@@ -291,7 +294,7 @@ describe("what a study shows", function()
     assert.equal('lost, "again"', read.rows[3].failed)
   end)
 
-  it("is printed: parameters, evaluations, failures", function()
+  it("is printed with parameters, evaluations and failures", function()
     local text = tostring(made())
     for _, words in ipairs { "study 'shown': 12 evaluations", "force: 1 to 10 N, log", 'model: "a" | "b, c"',
       "1. sweep: 12 evaluations, 1 failed", '1 failed (first 1.3): lost, "again"' } do
@@ -299,7 +302,7 @@ describe("what a study shows", function()
     end
   end)
 
-  it("is drawn, with what meets the constraints apart", function()
+  it("is drawn with different marks for rows that meet the constraints", function()
     local s, folder = made(), program.folder()
     assert.equal(folder .. "/c.svg", s:chart { x = "force", y = "time", path = folder .. "/c.svg" })
     local svg = program.read(folder .. "/c.svg")
@@ -310,7 +313,7 @@ describe("what a study shows", function()
     assert.error_matches(function() s:chart { x = "model", y = "time" } end, "x = 'model' has choices")
   end)
 
-  it("takes a value of the catalogue with its bounds", function()
+  it("accepts a value of the catalogue with its bounds", function()
     local friction = { value = 0.4, low = 0.15, high = 0.8, flag = "guessed" }
     local s = study({ friction = friction }, nothing)
     assert.truthy(tostring(s):find("friction: 0.15 to 0.8, start 0.4", 1, true))

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What is wrong in a study is told with the script's line, the name, the value and what is allowed, and
--- nothing that was computed is lost.
+-- Mistakes in a study are reported with the script's line, the name, the value and the allowed values; no
+-- result is lost.
 local sw = require "softworld"
 local program = require "host.program"
 
@@ -65,7 +65,7 @@ describe("a parameter of a study", function()
     ["not there at all"] = { function() study { parameters = {} } end, "parameters is empty" },
   }
 
-  it("has range and unit of the row that it names", function()
+  it("takes range and unit from the row that it names", function()
     local text = tostring(study { parameters = { mu = { of = "obstacle.restitution" },
       EI = { 1e-3, 1e-2, log = true, of = "wire.EI" }, n = { 5, 9, of = "wire.segments" } } })
     assert.truthy(text:find("mu: 0 to 1\n", 1, true), text)
@@ -138,18 +138,19 @@ describe("a study", function()
     end
   end)
 
-  it("whose constraints nothing meets says which, and what came nearest", function()
+  it("whose constraints no evaluation meets says which, and what came nearest", function()
     local s = study { constraints = { y = { min = 2 }, z = { max = 5 } } }
     local fine, why = pcall(s.minimise, s, "z")
     assert.is_false(fine)
     assert.truthy(why:find("meets the constraints (y is 1 at best, allowed is at least 2)", 1, true), why)
     assert.truthy(why:find("the nearest is evaluation %d+ with x = 1"), why)
-    assert.is_true(#s:table() > 10) -- and nothing is lost
+    assert.is_true(#s:table() > 10) -- and no result is lost
   end)
 end)
 
 describe("an evaluation", function()
-  -- what evaluate does, what is said: of the first evaluation it ends the study, of others it is a failure
+  -- the body of evaluate and the message: the study ends when the first evaluation does this; later ones
+  -- fail
   local cases = {
     ["returns nothing"] = { function() end, "returned nothing; a table of results is wanted" },
     ["returns a number"] = { function() return 5 end, "returned 5; a table of results is wanted" },
@@ -181,7 +182,7 @@ describe("an evaluation", function()
     end)
   end
 
-  it("that raises, gives up or is not finite has failed, and its reason is kept", function()
+  it("that raises an error, gives up or is not finite has failed, and its reason is kept", function()
     local s = study { evaluate = function(p)
       if p.number == 2 then error "lost the wire" end
       if p.number == 3 then p.give_up "margin broken" end
@@ -202,7 +203,7 @@ describe("an evaluation", function()
     assert.truthy(tostring(s):find("8 evaluations, 6 failed", 1, true))
   end)
 
-  it("that closes the scene of all of them says so", function()
+  it("that closes the shared scene says so", function()
     for workers = 0, 1 do
       local s = study { setup = function() return sw.scene {} end, evaluate = function(_, scene)
         scene:close()
@@ -219,7 +220,7 @@ describe("an evaluation", function()
       "none of 4 evaluations succeeded; the first: no luck")
   end)
 
-  it("cannot ask its study for more of them", function()
+  it("cannot ask its study for more evaluations", function()
     local s
     s = study { evaluate = function() return { y = #s:sweep { count = 2 } } end }
     assert.error_matches(function() s:sweep { count = 2 } end, "its evaluations cannot ask for more")
@@ -227,7 +228,7 @@ describe("an evaluation", function()
 end)
 
 describe("a study while a live view is open", function()
-  it("forks no worker, and says what to do", function()
+  it("starts no worker process, and says what to do", function()
     local scene = sw.scene {}
     local view = scene:view { open = false }
     local s = study()

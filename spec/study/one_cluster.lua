@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A Slurm of one machine in a temporary folder, for specs: munged with a key of its own, slurmctld and slurmd
--- on ports that are free, as whoever runs the specs. It needs no root, no cgroups and nothing of /etc.
+-- A Slurm of one machine in a temporary folder, for specs: munged with its own key, slurmctld and slurmd on
+-- free ports, run by the user who runs the specs. It needs no root, no cgroups and nothing of /etc.
 local program = require "host.program"
 local socket = require "socket"
 
 local cluster = {}
 
-local DAEMONS = { "slurmd", "slurmctld", "munged" } -- in the order in which they are ended
+local DAEMONS = { "slurmd", "slurmctld", "munged" } -- in the order in which they are stopped
 
 local CONF = [[
 ClusterName=softworld
@@ -50,7 +50,7 @@ local function free_port()
   return math.tointeger(port)
 end
 
--- What the daemons say, for the message of a spec that could not start them.
+-- The output of the daemons, for the message when they could not be started.
 local function words(folder)
   local texts = {}
   for _, name in ipairs(DAEMONS) do
@@ -60,7 +60,7 @@ local function words(folder)
   return table.concat(texts)
 end
 
--- Ends what is begun here when this process is gone without having done it.
+-- Stops the daemons when this process has ended without stopping them.
 local GUARD = [[
 (while kill -0 PID 2>/dev/null && [ -d DIR ]; do sleep 1; done
  [ -d DIR ] && SLURM_CONF=DIR/slurm.conf timeout 10 scancel --me && sleep 2
@@ -94,7 +94,8 @@ local function start(self)
   error("Slurm does not come up:\n" .. words(folder), 0)
 end
 
---- Start one, or raise with what its daemons say. Gives { env = to be put before a command, folder = }.
+--- Starts a cluster, or raises an error with the daemons' output. Returns { env = prefix of a command, folder
+-- = }.
 function cluster.start()
   local folder = line_of "mktemp -d /tmp/softworld-slurm.XXXXXX"
   local self = setmetatable({ folder = folder }, { __index = cluster })
@@ -106,13 +107,13 @@ function cluster.start()
     .. tostring(why), 0)
 end
 
---- A command of Slurm: what it prints.
+--- Runs a command of Slurm; returns its output.
 function cluster:ask(command)
   local out, err = program.shell(self.env .. " " .. command)
   return out .. err
 end
 
---- End all of it.
+--- Stops all daemons.
 function cluster:stop()
   program.shell(self.env .. " timeout 10 scancel --me")
   for _ = 1, 50 do

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- One process at a time works on a study whose tasks are on a cluster, from whatever machine.
+-- Only one process at a time works on a study whose tasks are on a cluster, on whatever machine it runs.
 local core = require("softworld").core
 local owner = require "softworld.study.owner"
 local program = require "host.program"
 local sends = require "softworld.study.sends"
 
--- What is written to stderr meanwhile, and what f gives.
+-- Returns what f writes to stderr, and its results.
 local function told(f)
   local real, lines = io.stderr, {}
   io.stderr = { write = function(_, ...) lines[#lines + 1] = table.concat { ... } end } -- luacheck: ignore
@@ -21,7 +21,7 @@ describe("the owner of a study", function()
     program.clean()
   end)
 
-  it("is one, until it lets go", function()
+  it("is one process, until it releases the study", function()
     local folder = program.folder()
     local first = owner.claim("s", folder)
     assert.error_matches(function() owner.claim("s", folder) end, "works with its journal already")
@@ -30,7 +30,8 @@ describe("the owner of a study", function()
     owner.claim("s", folder):release()
   end)
 
-  it("is taken over from a process of this machine that is gone, or whose number another one has", function()
+  it("is replaced when its process on this machine is gone, or its process id belongs to another "
+    .. "process", function()
     local folder = program.folder()
     local host = sends.who():match "^(.*)%.%d+$"
     for _, text in ipairs { host .. ".999999999 12345 3\n", host .. ".1 999999999999 3\n" } do
@@ -42,7 +43,7 @@ describe("the owner of a study", function()
     end
   end)
 
-  it("of another machine is waited for: taken over when it says nothing, left when it does", function()
+  it("on another machine is waited for: replaced when it is silent, kept when it gives a sign", function()
     local folder = program.folder()
     owner.PATIENCE = 1
     program.write(folder .. "/owner", "elsewhere.77 12345 3\n")
@@ -58,7 +59,7 @@ describe("the owner of a study", function()
     assert.truthy(why:find("process elsewhere.77 works with its journal already", 1, true), why)
   end)
 
-  it("stops when it finds that another one has taken over", function()
+  it("stops when it finds that another process has taken over", function()
     local folder = program.folder()
     local held = owner.claim("s", folder)
     held.at = held.at - 100
@@ -68,10 +69,10 @@ describe("the owner of a study", function()
     held.at = held.at - 100
     assert.error_matches(function() held:beat() end, "another process has taken over its journal")
     held:release()
-    assert.equal("elsewhere.77 12345 3\n", program.read(folder .. "/owner")) -- not ours to take away
+    assert.equal("elsewhere.77 12345 3\n", program.read(folder .. "/owner")) -- not ours to remove
   end)
 
-  it("cannot be where nothing can be written", function()
+  it("needs a folder that can be written", function()
     assert.error_matches(function() owner.claim("s", "/nowhere") end,
       "study 's': cannot write /nowhere/owner: No such file or directory")
   end)

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Fronts of several results: those known in closed form, and any table's by looking at each pair.
+-- Fronts of several results: those known in closed form, and the front of any table by comparing each pair.
 local sw = require "softworld"
 
 local study = require "spec.study.bowls".study
 
--- E. Zitzler, K. Deb, L. Thiele 2000: x2 to xn = 0 is the front, g over f as below.
+-- E. Zitzler, K. Deb, L. Thiele 2000: the front is x2 to xn = 0, with g over f as below.
 local SHAPES = {}
 function SHAPES.ZDT1(f, g) return 1 - math.sqrt(f / g) end
 function SHAPES.ZDT2(f, g) return 1 - (f / g) ^ 2 end
@@ -21,8 +21,8 @@ end
 
 describe("study:pareto", function()
   for name, shape in pairs(SHAPES) do
-    -- All that is found lies on the curve within 0.03, and so near to one another that none of the curve's 50
-    -- points is farther than 0.03 from one of them. Of ZDT3 the curve's beaten stretches are no front.
+    -- Everything found lies within 0.03 of the curve, and each of 50 points of the curve has a result within
+    -- 0.03. The dominated stretches of ZDT3's curve are not part of the front.
     it("finds the front of " .. name, function()
       local found = zdt(shape):pareto { "f", "g", evaluations = 6000, population = 60 }
       for _, row in ipairs(found.rows) do assert.is_true(row.g - shape(row.f, 1) < 0.03) end
@@ -39,7 +39,7 @@ describe("study:pareto", function()
     end)
   end
 
-  -- Three distances from the corners of a triangle: the front is the triangle itself.
+  -- Three distances to the corners of a triangle: the front is the triangle itself.
   it("finds the front of three results", function()
     local corners = { { 0.2, 0.2 }, { 0.8, 0.2 }, { 0.2, 0.8 } }
     local found = study({ x = { 0, 1 }, y = { 0, 1 } }, function(p)
@@ -48,7 +48,7 @@ describe("study:pareto", function()
       return r
     end):pareto { "d1", "d2", "d3", evaluations = 1800 }
     assert.is_true(#found.rows > 100)
-    local outside = 0 -- by more than 0.02: beaten by places that were not evaluated
+    local outside = 0 -- by more than 0.02: dominated by places that were not evaluated
     for _, row in ipairs(found.rows) do
       if row.x < 0.18 or row.y < 0.18 or row.x + row.y > 1.02 then outside = outside + 1 end
     end
@@ -62,9 +62,10 @@ describe("study:pareto", function()
     end
   end)
 
-  -- x^2 and (x - 2)^2 with x >= 0.5: x from 0.5 to 2, and the knee, where the slopes in shares of the extents
-  -- are equal: of x^2 from 0.25 to 4 and the other from 0 to 2.25: x / 3.75 = (2 - x) / 2.25, x = 1.25.
-  it("meets constraints, bears failures, and names the knee", function()
+  -- x^2 and (x - 2)^2 with x >= 0.5: the front has x from 0.5 to 2. The knee is where the slopes, as shares
+  -- of the extents, are equal. x^2 goes from 0.25 to 4, the other from 0 to 2.25: x / 3.75 = (2 - x) / 2.25,
+  -- x = 1.25.
+  it("meets constraints, survives failures, and names the knee", function()
     local s = study({ x = { -5, 5 } }, function(p)
       if p.random() < 0.1 then return { a = 0 / 0, b = 1, x1 = 1 } end
       return { a = p.x ^ 2, b = (p.x - 2) ^ 2, x1 = p.x }
@@ -79,7 +80,7 @@ describe("study:pareto", function()
     assert.truthy(tostring(found):find("knee: evaluation %d+%.%d+: a = 1%."))
   end)
 
-  it("takes parameters as results, integers and choices", function()
+  it("accepts parameters as results, integers and choices", function()
     local s = study({ n = { 1, 12, integer = true }, c = { choices = { "a", "b" } } }, function(p)
       return { cost = (12 - p.n) * (p.c == "a" and 1 or 2) }
     end)
@@ -91,7 +92,7 @@ describe("study:pareto", function()
     end
   end)
 
-  it("is the same bits for any number of workers, and goes on when it is given more evaluations", function()
+  it("gives the same bits for any number of workers, and continues when given more evaluations", function()
     local path, texts = os.tmpname(), {}
     os.remove(path)
     for i, workers in ipairs { 0, 1, 3 } do
@@ -122,7 +123,7 @@ describe("study:pareto", function()
     assert.equal(texts[1], texts[3])
   end)
 
-  it("says what is wrong", function()
+  it("reports wrong arguments", function()
     local s = study({ x = { 0, 1 } }, function(p) return { time = p.x, peak = 1 - p.x } end)
     for words, args in pairs {
       ["two or three results are wanted, such as study:pareto { 'time', 'peak' }, got 1"] = { "time" },
@@ -142,7 +143,7 @@ describe("study:pareto", function()
     assert.error_matches(function() s:front { "time", "peak", count = 3 } end, "'count'")
   end)
 
-  it("says which constraint nothing meets", function()
+  it("says which constraint no evaluation meets", function()
     local s = study({ x = { 0, 1 } }, function(p) return { a = p.x, b = -p.x } end, { b = { min = 1 } })
     assert.error_matches(function() s:pareto { "a", "b", evaluations = 80 } end,
       "no evaluation meets the constraints %(b is %-%S+ at best, allowed is at least 1%)")
@@ -150,7 +151,8 @@ describe("study:pareto", function()
 end)
 
 describe("study:front", function()
-  -- By definition: a row is in the front where no other row is nowhere worse and somewhere better.
+  -- By definition: a row is in the front if no other row is at least as good in all results and better in
+  -- one.
   for _, names in ipairs { { "a", "b" }, { "a", "b", "c" } } do
     it(("has the rows of %d results that no other one beats"):format(#names), function()
       local s = study({ x = { 0, 1 } }, function(p)
@@ -180,7 +182,7 @@ describe("study:front", function()
     end)
   end
 
-  it("is empty where nothing passes", function()
+  it("is empty where no row passes", function()
     local s = study({ x = { 0, 1 } }, function(p) return { a = p.x, b = 1 } end, { b = { max = 0 } })
     s:sweep { count = 3 }
     local front = s:front { "a", "b" }

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Each call of a method is known by what it is, not by its place in the script: others may come and go.
+-- Each call of a method is known by its arguments, not by its place in the script: calls may be added and
+-- removed.
 local sw = require "softworld"
 local program = require "host.program"
 local parts = require "softworld.study.parts"
@@ -18,7 +19,7 @@ local function luck_of(rows)
   return list
 end
 
--- What a spread of 20 finds, after the calls of before.
+-- The results of a spread of 20, after the calls of before.
 local function spread_after(path, before)
   local s = study(path)
   if before then before(s) end
@@ -31,7 +32,7 @@ end
 describe("a part of a study", function()
   teardown(program.clean)
 
-  it("stays what it is when another method is called before it", function()
+  it("stays the same when another method is called before it", function()
     local path = program.folder() .. "/s.study"
     local expected, computed = spread_after(path)
     assert.equal(20, computed)
@@ -39,20 +40,20 @@ describe("a part of a study", function()
       s:sweep { count = 5 }
       s:minimise("y", { evaluations = 10 })
     end
-    -- by the journal nothing is computed again, and without one come the same random numbers
+    -- with the journal nothing is computed again; without it the random numbers are the same
     local s = study(path)
     before(s)
-    assert.equal(13, s.computed) -- of the search two for each of four starts
+    assert.equal(13, s.computed) -- two evaluations for each of the search's four starts
     s:spread { count = 20 }
     assert.equal(13, s.computed)
-    assert.same(expected, luck_of(table.move(s:table(), 1, 20, 1, {}))) -- it came into the journal first
+    assert.same(expected, luck_of(table.move(s:table(), 1, 20, 1, {}))) -- it came first into the journal
     local other = spread_after(nil, before)
     assert.same(expected, other)
     assert.equal(0, select(2, spread_after(path)))
     assert.equal(0, select(2, spread_after(path, before)))
   end)
 
-  it("stays when one before it is taken away", function()
+  it("stays the same when a part before it is removed", function()
     local path = program.folder() .. "/s.study"
     local s = study(path)
     s:sweep { grid = 3 }
@@ -63,7 +64,7 @@ describe("a part of a study", function()
     assert.equal(0, s.computed)
   end)
 
-  it("is its own when the same call is there twice, and goes on when it is made longer", function()
+  it("is separate when the same call occurs twice, and continues when it is made longer", function()
     local path = program.folder() .. "/s.study"
     local s = study(path)
     local first, second = s:sweep { count = 4 }, s:sweep { count = 4 }
@@ -76,7 +77,7 @@ describe("a part of a study", function()
     assert.equal(2, s.computed)
   end)
 
-  it("keeps its number when the line that names it is damaged: then it is computed again", function()
+  it("keeps its number when the line that names it is damaged, and is computed again", function()
     local path = program.folder() .. "/s.study"
     study(path):sweep { count = 4 }
     local text = program.read(path)
@@ -87,11 +88,11 @@ describe("a part of a study", function()
     local rows = s:sweep { count = 4 }
     io.stderr = real -- luacheck: ignore
     assert.equal(4, s.computed)
-    assert.equal(2, rows[1].part) -- 1 is that of the lines without a name
+    assert.equal(2, rows[1].part) -- 1 is the part of the lines without a name
     assert.equal(8, #s:table())
   end)
 
-  it("has a name of its options, without how many and by whom", function()
+  it("is named by its options, except the count and the workers", function()
     assert.equal("sweep grid={a=2 b=3} kind=grid", parts.text("sweep", { kind = "grid", workers = 3,
       grid = { b = 3, a = 2 }, count = 7 }))
     assert.equal("spread", parts.text("spread", { count = 10 }))

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The line that says how far a study is: on terminals only, and with the best of what meets the constraints.
+-- The progress line of a study: on terminals only, with the best result that meets the constraints.
 local program = require "host.program"
 local progress = require "softworld.study.progress"
 
@@ -23,16 +23,16 @@ end
 describe("progress of a study", function()
   teardown(program.clean)
 
-  it("tells rate, time left, failures and the best that meets the constraints", function()
+  it("gives rate, time left, failures and the best result that meets the constraints", function()
     local bar, at, text = new { result = "y", total = 40, most = true }
     at(0.5)
-    bar:update(record(1, 3, 2)) -- breaks them
+    bar:update(record(1, 3, 2)) -- breaks the constraints
     assert.equal("", text()) -- too early to be shown
     at(2)
     bar:update(record(2))
     assert.truthy(text():find("grip: minimise y  2 of at most 40  none meets the constraints yet, 1 failed, "
       .. "1/s, left 38.0 s\27[K", 1, true), text())
-    bar:update(record(3, 5, 0), true) -- known: it says nothing of the rate
+    bar:update(record(3, 5, 0), true) -- from the journal: it does not count for the rate
     bar:update(record(4, 4, 0.5), true)
     bar:update(record(5, 1, 1.5), true)
     at(4)
@@ -41,7 +41,7 @@ describe("progress of a study", function()
       .. "left 45.3 s\27[K", 1, true), text())
   end)
 
-  it("is drawn ten times a second at most, and taken away", function()
+  it("is drawn at most ten times a second, and cleared at the end", function()
     local bar, at, text = new { method = "sweep", total = 10 }
     at(2)
     bar:update(record(1, 1, 0))
@@ -74,7 +74,7 @@ study:sweep { count = 20 }
 print "done"
 ]]
 
-  it("is on a terminal, and nowhere else", function()
+  it("appears on a terminal, and nowhere else", function()
     local out, err = program.script(SCRIPT)
     assert.equal("done\n", out)
     assert.equal("", err)

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The page of a study in a real browser: what it shows is what the table has, and a click chooses.
+-- The page of a study in a real browser: it shows the table, and a click selects a row.
 local browser = require "spec.page.browser"
 local program = require "host.program"
 local sw = require "softworld"
 
-local NAME = "grip </script><b>&\"" -- nothing of it may become a part of the page
+local NAME = "grip </script><b>&\"" -- no part of this name may become markup of the page
 
 local function study(changes)
   local args = { name = NAME, workers = 2, seed = 2,
@@ -50,7 +50,7 @@ describe("the page of a study", function()
     return n
   end
 
-  it("tells how many there are, and complains of nothing", function()
+  it("gives the number of evaluations, and the console stays silent", function()
     assert.equal(NAME, text "h1")
     assert.equal("240 evaluations", text "#count")
     assert.equal(count "pass" .. " meet the constraints", text "#passed")
@@ -60,7 +60,7 @@ describe("the page of a study", function()
     assert.equal(0, #page:console())
   end)
 
-  it("shows parameters and results of the row that is clicked, and how to compute it again", function()
+  it("shows parameters and results of a clicked row, and how to compute it again", function()
     local row
     for _, one in ipairs(rows) do
       if one.pass == false then row = one end
@@ -74,13 +74,13 @@ describe("the page of a study", function()
     end
     assert.truthy(words:find(row.kind, 1, true))
     assert.truthy(text("#detail dd.over"):find("(at most 0.9)", 1, true))
-    -- the lines are right: the same numbers come out
+    -- the shown line is right: it gives the same numbers
     local number, part = text("#line"):match "study:again%((%d+), (%d+)%)"
     assert.is_true(s:again(tonumber(number) | 0, tonumber(part) | 0).margin == row.margin)
   end)
 
-  it("chooses the point that is clicked", function()
-    -- of the first part, with no other near it
+  it("selects a clicked point", function()
+    -- a point of the first part, with no other one near it
     local found = page:run [[
       const p = document.getElementById("plot").getBoundingClientRect();
       const far = (a, b) => a === b || Math.hypot(a[1] - b[1], a[2] - b[2]) > 6;
@@ -93,14 +93,14 @@ describe("the page of a study", function()
     assert.equal(("Evaluation 1.%d"):format(found[3] + 1), text "#detail h2")
   end)
 
-  it("shows why one has failed", function()
+  it("shows why an evaluation has failed", function()
     local row
     for _, one in ipairs(rows) do row = row or one.failed and one end
     page:run("document.querySelector(`tr[data-at='${arguments[0]}']`).click()", row.part .. "." .. row.number)
     assert.equal("failed: crushed </script>", text "#detail .wrong")
   end)
 
-  it("sorts, and leaves away what breaks constraints and other parts", function()
+  it("sorts, and hides rows that break constraints and other parts", function()
     page:run "document.querySelector('#only').click()"
     assert.equal(count "pass", page:run "return document.querySelectorAll('tbody tr').length")
     page:run "[...document.querySelectorAll('th button')].find((b) => /time/.test(b.textContent)).click()"
@@ -111,7 +111,7 @@ describe("the page of a study", function()
     assert.equal(0, #page:console())
   end)
 
-  it("draws choices, colours and both themes, and has points in its picture", function()
+  it("draws choices, colours and both themes, with points in its picture", function()
     local function colours()
       return page:run [[const c = document.getElementById("plot"), d = c.getContext("2d");
         return new Set(new Uint32Array(d.getImageData(0, 0, c.width, c.height).data.buffer)).size;]]
@@ -122,12 +122,12 @@ describe("the page of a study", function()
     assert.is_true(colours() > 100)
     page:run "document.querySelectorAll('#small button')[2].click()"
     assert.equal("2", page:run "return document.getElementById('x').value")
-    for _, line in ipairs(page:console()) do -- of reading its pixels it warns
+    for _, line in ipairs(page:console()) do -- the browser warns when pixels are read
       assert.is_true(line.level ~= "SEVERE", line.message)
     end
   end)
 
-  it("plays the runs that were asked for, computed again with the same bits", function()
+  it("plays the requested runs, computed again with the same bits", function()
     local lifted = study { name = "a lift", parameters = { EI = { 1e-3, 1e-2, unit = "N m2" } },
       evaluate = function(p)
         local scene = sw.scene {}
@@ -151,7 +151,7 @@ describe("the page of a study", function()
     assert.is_true(page:run "return !document.getElementById('play') && !!document.getElementById('line')")
     page:run "document.querySelector(`tr[data-at='1.2']`).click()"
     page:run "document.getElementById('play').click()"
-    for _ = 1, 100 do -- the player's page comes
+    for _ = 1, 100 do -- until the player's page is loaded
       local there = "return !!document.querySelector('canvas') && !document.getElementById('small')"
       if page:run(there) then break end
       program.shell "sleep 0.1"
@@ -173,7 +173,7 @@ describe("the page of a study", function()
     page:go("file://" .. folder .. "/s.html")
   end)
 
-  it("shows 20000 of more", function()
+  it("shows 20000 rows of a larger table", function()
     local many = study { constraints = {}, evaluate = function(p) return { y = p.force } end }
     many:sweep { count = 30000, workers = 0 }
     many:report(folder .. "/many.html")
@@ -184,7 +184,7 @@ describe("the page of a study", function()
     assert.is_true(page:run "return document.getElementById('passed').hidden")
   end)
 
-  it("tells what is wrong", function()
+  it("reports wrong arguments", function()
     assert.error_matches(function() study():report(folder .. "/x.html") end, "there is no evaluation to be")
     for _, path in ipairs { "x.pdf", 3, "" } do
       assert.error_matches(function() s:report(path) end, "the name of a file that ends in .html is wanted")

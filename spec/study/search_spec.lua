@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Every method of a search: known minima, failures, limits, bounds; the same bits for any number of workers.
+-- Every search method: known minima, failures, limits, bounds, and the same bits for any number of workers.
 local sw = require "softworld"
 local search = require "softworld.study.search"
 local bowls = require "spec.study.bowls"
@@ -12,12 +12,13 @@ for _, name in ipairs(search.names) do
   local method = search.of(name)
 
   describe("method '" .. name .. "'", function()
-    it("has its rows", function()
+    it("has complete settings", function()
       assert.equal("string", type(method.doc))
       assert.is_true(method.each > 0 and method.most > 0 and method.step > 0 and method.step <= 0.5)
     end)
 
-    -- 2 at (0.5, -0.25). What ends by its evaluations only is still as near as 1 % of the range.
+    -- The minimum is 2 at (0.5, -0.25). A method that ends only by its evaluations still comes within 1 % of
+    -- the range.
     it("finds a known minimum", function()
       local found = search_by(name, { study = study(RANGES, bowl) })
       assert.is_true(off(found, 0.5, -0.25) < (name == "direct" and 0.04 or 0.004), tostring(found))
@@ -25,8 +26,8 @@ for _, name in ipairs(search.names) do
       assert.is_true(found.ok or name == "direct", found.reason)
     end)
 
-    -- Where the distance from the middle is least allowed to be 0.5, the nearest is 2 + 0.75 * 0.5^2 at most.
-    it("finds a minimum on a limit", function()
+    -- (a - 1)^2 + (b - 1)^2 with a + b <= 1 is smallest at (0.5, 0.5): 0.5.
+    it("finds a minimum on a constraint", function()
       local s = study(RANGES, function(p)
         return { y = (p.a - 1) ^ 2 + (p.b - 1) ^ 2, sum = p.a + p.b }
       end, { sum = { max = 1 } })
@@ -35,8 +36,8 @@ for _, name in ipairs(search.names) do
       assert.is_true(found.value >= 0.5 and found.value < 0.5 + 0.03, tostring(found))
     end)
 
-    -- NaN in one of 37, measured to lead BOBYQA, CRS2 and DIRECT astray when they were given it.
-    it("is not led astray by NaN in one of 37", function()
+    -- One value in 37 is NaN. Passed on to them, NaN led BOBYQA, CRS2 and DIRECT astray (measured).
+    it("finds the minimum although one value in 37 is NaN", function()
       local s = study(RANGES, function(p)
         if p.number % 37 == 5 then return { y = 0 / 0 } end
         return bowl(p)
@@ -47,8 +48,9 @@ for _, name in ipairs(search.names) do
       assert.equal(5, found.failures[1].first)
     end)
 
-    -- Beyond a border that it does not know all fails; the smallest value left is at a = 0.
-    it("goes up to a border beyond which all fails", function()
+    -- All evaluations fail beyond a border that the method does not know; the smallest value left is at a =
+    -- 0.
+    it("finds the minimum at a border beyond which all evaluations fail", function()
       local s = study(RANGES, function(p)
         if p.a > 0 then error("beyond", 0) end
         return bowl(p)
@@ -58,7 +60,7 @@ for _, name in ipairs(search.names) do
       assert.is_true(found.value >= 2.1875 and found.value < 2.1875 + 0.05, tostring(found))
     end)
 
-    it("begins although its start fails", function()
+    it("starts although the evaluation of its start fails", function()
       local s = study({ a = { -2, 2, start = 1.9 }, b = { -2, 2, start = 1.9 } }, function(p)
         if p.a + p.b > 3 then error("no", 0) end
         return bowl(p)
@@ -74,7 +76,7 @@ for _, name in ipairs(search.names) do
       assert.equal(found.best.a + 2, found.room.a.below)
     end)
 
-    it("is the same bits for any number of workers", function()
+    it("gives the same bits for any number of workers", function()
       local tables = {}
       for i, workers in ipairs { 0, 1, 3 } do
         local s = study(RANGES, function(p)
@@ -95,9 +97,9 @@ for _, name in ipairs(search.names) do
       assert.is_true(lines < 150)
     end)
 
-    -- Broken off after some evaluations it goes on from the journal: nothing is computed twice, and the table
-    -- is that of a search that was never broken off.
-    it("goes on from the journal", function()
+    -- Broken off after some evaluations, it continues from the journal: nothing is computed twice, and the
+    -- table is that of a search without a break.
+    it("continues from the journal", function()
       local path = os.tmpname()
       os.remove(path)
       local function table_of(file, evaluations)
@@ -121,19 +123,19 @@ for _, name in ipairs(search.names) do
       assert.equal(table_of(nil, 120), again)
     end)
 
-    it("takes one parameter", function()
+    it("works with one parameter", function()
       local s = study({ a = { -2, 2 } }, function(p) return { y = (p.a - 0.5) ^ 2 } end)
       local found = s:minimise("y", { method = name, evaluations = 200 })
       assert.is_true(math.abs(found.best.a - 0.5) < 0.04, tostring(found))
     end)
 
-    it("ends when all fails, with the reason", function()
+    it("ends with the first reason when every evaluation fails", function()
       local s = study(RANGES, function() error("never", 0) end)
       assert.error_matches(function() search_by(name, { study = s, evaluations = 60 }) end,
         "none of %d+ evaluations succeeded; the first: never")
     end)
 
-    it("bears values of any size", function()
+    it("accepts values of any size", function()
       for _, size in ipairs { 1e-200, 1e300 } do
         local s = study(RANGES, function(p) return { y = size * (bowl(p).y - 2) } end)
         local found = search_by(name, { study = s, evaluations = 300 })
@@ -154,7 +156,7 @@ describe("method 'auto'", function()
     return found.method, found.why
   end
 
-  it("goes by the parameters and the constraints", function()
+  it("depends on the parameters and the constraints", function()
     assert.equal("simplex", chosen { a = { 0, 1 } })
     assert.equal("bobyqa", chosen { a = { 0, 1 }, b = { 0, 1 } })
     assert.equal("cma-es", chosen({ a = { 0, 1 }, b = { 0, 1 } }, { y = { max = 2 } }))
@@ -165,8 +167,8 @@ describe("method 'auto'", function()
   end)
 end)
 
--- Of integers and choices: the smallest of all 7 x 3 by looking at each.
-it("cma-es finds the best of integers and choices", function()
+-- Integers and choices: the best one is known.
+it("cma-es finds the best integer and choice", function()
   local ranges = { n = { 1, 40, integer = true }, c = { choices = { "x", "y", "z" } }, a = { 0, 1 } }
   local s = study(ranges, function(p)
     return { y = (p.n - 29) ^ 2 + (p.c == "y" and 0 or 3) + (p.a - 0.3) ^ 2 }
@@ -176,8 +178,8 @@ it("cma-es finds the best of integers and choices", function()
   assert.is_true(math.abs(found.best.a - 0.3) < 0.01)
 end)
 
--- Evaluations until a value below 1e-8 of python3-cmaes 0.9.1 (Debian 12): median of seeds 1 to 51, start 3
--- (of Rosenbrock 0) in each of n parameters within -10 and 10, first step 2.
+-- Number of evaluations until a value below 1e-8 with python3-cmaes 0.9.1 (Debian 12): median of seeds 1 to
+-- 51, start 3 (0 for Rosenbrock) in each of n parameters between -10 and 10, first step 2.
 describe("cma-es needs as many evaluations as python3-cmaes, within 20 %, for", function()
   local PEER = { sphere = { [5] = 725, [10] = 1491 }, ellipsoid = { [5] = 1559, [10] = 4261 },
     rosenbrock = { [5] = 1925, [10] = 5360 } }
@@ -235,9 +237,9 @@ describe("cma-es needs as many evaluations as python3-cmaes, within 20 %, for", 
   end
 end)
 
--- A plane that falls to a corner of 10 ranges, and bowls whose middle is beyond it: a distribution that is
--- cut at the bounds stops far from the corner (2.0 and 0.4 above the smallest value when it was).
-it("cma-es finds a corner of many ranges", function()
+-- A plane that falls to a corner of 10 ranges, and bowls with their centre beyond it. A distribution cut off
+-- at the bounds would stop far from the corner (2.0 and 0.4 above the smallest value).
+it("cma-es finds a corner of ten ranges", function()
   local ranges = {}
   for i = 1, 10 do ranges[("x%d"):format(i)] = { 0, 1 } end
   for _, beyond in ipairs { 0, 0.3 } do
@@ -255,8 +257,8 @@ it("cma-es finds a corner of many ranges", function()
   end
 end)
 
--- Two valleys, the wider one 0.2 higher: a start in the wider falls into it; twice the population, from
--- elsewhere, does not always.
+-- Two valleys, the wider one 0.2 higher. A start in the wider one stays there; restarts elsewhere with twice
+-- the population may leave it.
 it("cma-es finds the lower valley by restarts", function()
   local s = study({ a = { 0, 1, start = 0.2 }, b = { 0, 1, start = 0.2 } }, function(p)
     local wide = (p.a - 0.25) ^ 2 + (p.b - 0.25) ^ 2
@@ -268,27 +270,27 @@ it("cma-es finds the lower valley by restarts", function()
   assert.is_true(found.value < -0.199, tostring(found))
 end)
 
--- Noise of a tenth of the size of the whole range of values: its mean is smallest at 0.3.
-it("cma-es takes means where values are noisy", function()
+-- Noise of a tenth of the whole range of values; the mean is smallest at (0.3, 0.6).
+it("cma-es uses means where values are noisy", function()
   local function model(p) return { y = (p.a - 0.3) ^ 2 + (p.b - 0.6) ^ 2 + 0.05 * (p.random() - 0.5) } end
   local s = study({ a = { 0, 1 }, b = { 0, 1 } }, model)
   local found = s:minimise("y", { noise = true, evaluations = 3000 })
   assert.equal("cma-es", found.method)
-  -- the error bar is of a uniform spread, 0.05 / sqrt(12) and 9 repeats, and the mean near the true 0
+  -- uniform noise: 0.05 / sqrt(12) with 9 repeats gives the error bar; the mean is near the true 0
   assert.is_true(found.noise.deviation > 0.006 and found.noise.deviation < 0.025)
   assert.is_true(math.abs(found.noise.error * 3 - found.noise.deviation) < 1e-12)
   assert.is_true(math.abs(found.noise.mean) < 0.03, found.noise.mean)
   assert.is_true(off(found, 0.3, 0.6) < 0.06, tostring(found))
-  -- the place is that of a polynomial through all, so its value is the mean there
+  -- the place comes from a polynomial through all values, so its value is the mean there
   assert.equal(found.noise.mean, found.value)
   assert.equal(found.noise.error, found.error)
   local again = study({ a = { 0, 1 }, b = { 0, 1 } }, model, nil, 3)
   assert.equal(found.value, again:minimise("y", { noise = true, evaluations = 3000 }).value)
 end)
 
--- The deeper valley is at 0.2, where it begins; starts after the first may end in the other one, 0.05 higher,
--- and their polynomial is not to be taken. By these seeds they do.
-it("cma-es takes the place of its best start where values are noisy", function()
+-- The deeper valley is at 0.2, where the search starts. Later starts may end in the other one, 0.05 higher,
+-- and their polynomial must not be used. With these seeds they do end there.
+it("cma-es takes the result of its best start where values are noisy", function()
   for _, seed in ipairs { 2, 7 } do
     local s = sw.study { name = "s", seed = seed, workers = 0,
       parameters = { a = { 0, 1, start = 0.2 }, b = { 0, 1, start = 0.5 } },
@@ -301,9 +303,10 @@ it("cma-es takes the place of its best start where values are noisy", function()
   end
 end)
 
--- 6 places and 2 of them again, whose values change the order: then places would be evaluated twice. But it
--- is near enough at once, and the next start, with 12 places, knows nothing of noise yet.
-it("cma-es evaluates each place once when it starts anew", function()
+-- 6 places, and 2 of them again with values that change the order, which would make it evaluate places
+-- twice. But the start has converged at once, and the next start, with 12 places, knows nothing of noise
+-- yet.
+it("cma-es evaluates each place once when it restarts", function()
   local run = require("softworld.study.search.cma_es").begin { n = 2, start = { 0.5, 0.5 }, starts = 2,
     seed = 1, noise = true, step = 0.3, tolerance = 0.5 }
   local outcomes = {}
@@ -317,8 +320,9 @@ it("cma-es evaluates each place once when it starts anew", function()
   assert.equal(12 + 2, #run:ask())
 end)
 
--- A place that a limit forbids is not taken, whatever the polynomial says: a >= 0.5, the lowest is at 0.3.
-it("cma-es keeps to the limits where values are noisy", function()
+-- A place that breaks a constraint is not taken, even if the polynomial has its minimum there: a >= 0.5, the
+-- minimum is at 0.3.
+it("cma-es keeps to the constraints where values are noisy", function()
   local s = study({ a = { 0, 1 }, b = { 0, 1 } }, function(p)
     return { y = (p.a - 0.3) ^ 2 + (p.b - 0.6) ^ 2 + 0.02 * (p.random() - 0.5), held = p.a }
   end, { held = { min = 0.5 } })

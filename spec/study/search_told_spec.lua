@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Searches: what is told of a minimum, how they end, what they refuse.
+-- Searches: the report on a minimum, how they end, refused arguments.
 local core = require "softworld.core"
 local search = require "softworld.study.search"
 local bowls = require "spec.study.bowls"
 
 local RANGES, study, bowl, search_by = bowls.RANGES, bowls.study, bowls.bowl, bowls.search_by
 
-describe("what is told of a minimum", function()
+describe("the report on a minimum", function()
   it("has the error bar of the result, where evaluate returns one", function()
     local found = study(RANGES, function(p)
       return { y = bowl(p).y, y_error = 0.01 + p.a ^ 2 }
@@ -16,14 +16,14 @@ describe("what is told of a minimum", function()
     assert.is_nil(study(RANGES, bowl):minimise "y".error)
   end)
 
-  it("has no noise where there is none, and no flat direction", function()
+  it("names no noise where there is none, and no flat direction", function()
     local found = study(RANGES, bowl):minimise "y"
     assert.is_nil(found.noise)
     assert.same({}, found.flat)
   end)
 
-  -- y depends on a + b only: flat along (1, -1) / sqrt(2) of equal ranges; c is not used.
-  it("names directions that are flat", function()
+  -- y depends only on a + b: it is flat along (1, -1) / sqrt(2) of equal ranges; c has no effect.
+  it("names flat directions", function()
     local found = study({ a = { 0, 1 }, b = { 0, 1 }, c = { 0, 1 } }, function(p)
       return { y = (p.a + p.b - 0.9) ^ 2 }
     end):minimise("y", { method = "cma-es" })
@@ -36,7 +36,7 @@ describe("what is told of a minimum", function()
     assert.truthy(text:find("flat along [+-]0.71 a [+-]0.71 b"), text)
   end)
 
-  it("names limits that are reached, and tells failures", function()
+  it("names constraints that are reached, and failures", function()
     local found = study(RANGES, function(p)
       if p.b > 1 then error("too far", 0) end
       return { y = -p.a, a2 = p.a }
@@ -47,7 +47,7 @@ describe("what is told of a minimum", function()
     assert.truthy(tostring(found):find("%d+ failed, the first %d+ %(a .* b 1"))
   end)
 
-  it("leaves out what is around it when told to, or where evaluations do not suffice", function()
+  it("leaves out the surroundings on request, or when the evaluations do not suffice", function()
     local s = study(RANGES, bowl)
     local all = s:minimise "y"
     local bare = s:minimise("y", { around = false })
@@ -58,14 +58,14 @@ describe("what is told of a minimum", function()
 end)
 
 describe("a search", function()
-  it("says that evaluations are fewer than a generation", function()
+  it("says when its evaluations are fewer than a generation", function()
     assert.error_matches(function()
       study(RANGES, bowl):minimise("y", { method = "cma-es", evaluations = 5 })
     end, "study:minimise: evaluations = 5 are fewer than one generation of 6")
   end)
 
-  -- The first values are all that a model has to compare with; NLopt moves a start that is near a bound.
-  it("goes on when all but the first evaluations fail", function()
+  -- Only the first values are left for a model to compare with; NLopt moves a start that is near a bound.
+  it("continues when all but the first evaluations fail", function()
     for _, name in ipairs(search.names) do
       local s = study({ a = { -2, 2, start = -1.99 }, b = { -2, 2 } }, function(p)
         if p.number > 5 then return { z = 1 } end
@@ -77,7 +77,7 @@ describe("a search", function()
 end)
 
 describe("core.search", function()
-  it("is freed in any state", function()
+  it("can be freed in any state", function()
     for _, name in ipairs { "simplex", "bobyqa", "cobyla", "direct", "crs2" } do
       for _, told in ipairs { -1, 0, 1, 30 } do
         local s = core.search(name, { 0.3, 0.4 }, 0, 0.2, 1e-9, 1)
@@ -92,14 +92,14 @@ describe("core.search", function()
     end
   end)
 
-  it("has one crs2 at a time, since NLopt has one stream of random numbers", function()
+  it("allows one crs2 at a time, since NLopt has one stream of random numbers", function()
     local one = core.search("crs2", { 0.5, 0.5 }, 0, 0.2, 1e-3, 1)
     assert.error_matches(function() core.search("crs2", { 0.5, 0.5 }, 0, 0.2, 1e-3, 1) end, "under way")
     one:close()
     core.search("crs2", { 0.5, 0.5 }, 0, 0.2, 1e-3, 1):close()
   end)
 
-  it("takes finite numbers only", function()
+  it("accepts only finite numbers", function()
     local s = core.search("bobyqa", { 0.3, 0.4 }, 0, 0.2, 1e-9, 1)
     s:ask()
     assert.error_matches(function() s:tell(0 / 0) end, "a finite number is wanted")

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The limit of an evaluation that is the same on every machine: so many steps of its runs.
+-- The limit of an evaluation that is the same on every machine: the number of steps of its runs.
 local sw = require "softworld"
 
 local function build()
@@ -10,7 +10,7 @@ local function build()
   return scene
 end
 
--- Steps of 1 ms: as many as duration tells.
+-- Steps of 1 ms; their number follows from duration.
 local function study(steps, workers, evaluate, file)
   return sw.study { name = "s", parameters = { duration = { 0.01, 0.1, unit = "s" } }, setup = build,
     workers = workers, steps = steps, file = file,
@@ -22,7 +22,7 @@ end
 
 describe("steps of a study", function()
   -- 10, 40, 70 and 100 steps.
-  it("ends evaluations that try more, with any number of workers", function()
+  it("ends evaluations that take more, with any number of workers", function()
     for _, workers in ipairs { 0, 2 } do
       local rows = study(60, workers):sweep { grid = 4 }
       assert.same({ 1.0, 1.0 }, { rows[1].ok, rows[2].ok })
@@ -35,7 +35,8 @@ describe("steps of a study", function()
     assert.is_nil(study(nil, 0):sweep { grid = 4 }[4].failed)
   end)
 
-  it("counts all runs of an evaluation, slow handling too, and each evaluation anew", function()
+  it("counts all runs of an evaluation, also quasistatic ones, and starts at 0 for each "
+    .. "evaluation", function()
     local rows = study(30, 0, function(p, scene)
       scene:run { dt = 0.001, duration = 0.02 }
       local run = scene:run { dt = 0.001, duration = p.duration, quasistatic = true }
@@ -45,7 +46,7 @@ describe("steps of a study", function()
     for k = 2, 4 do assert.equal("took more than 30 steps", rows[k].failed) end
   end)
 
-  it("tells a run why it ended", function()
+  it("is the reason of the run that it ends", function()
     local why
     study(30, 0, function(p, scene)
       local run = scene:run { dt = 0.001, duration = p.duration }
@@ -55,12 +56,12 @@ describe("steps of a study", function()
     assert.truthy(why:find("at t = 0.03 s: took more than 30 steps", 1, true), why)
   end)
 
-  it("is no limit for what comes after the study", function()
+  it("does not limit runs after the study", function()
     study(15, 0):sweep { grid = 2 }
     assert.is_true(build():run { dt = 0.001, duration = 0.1 }.ok)
   end)
 
-  it("keeps what another limit gave apart", function()
+  it("does not reuse results of another limit", function()
     local path = os.tmpname()
     os.remove(path)
     local s = study(60, 0, nil, path)
@@ -77,7 +78,7 @@ describe("steps of a study", function()
     os.remove(path)
   end)
 
-  it("says what is wrong", function()
+  it("reports wrong values", function()
     assert.error_matches(function() study(0, 0) end, "steps = 0 is not allowed")
     assert.error_matches(function() study(1.5, 0) end, "steps = 1.5 is not allowed")
   end)
@@ -90,7 +91,7 @@ describe("p.broken", function()
     return s:sweep { grid = 3 }
   end
 
-  it("names the first constraint that results break", function()
+  it("names the first constraint that the results break", function()
     local got = {}
     asked(function(p)
       got[#got + 1] = { p.broken { peak = p.x }, p.broken { margin = p.x }, p:broken {} }
@@ -101,8 +102,8 @@ describe("p.broken", function()
     assert.same({ "peak" }, got[3])
   end)
 
-  -- Lifted by 0.3 m at 1 m/s the hand bears more than 0.1 N within the first steps.
-  it("ends a run early, whose results say by how much", function()
+  -- Lifted by 0.3 m at 1 m/s, the hand bears more than 0.1 N within the first steps.
+  it("ends a run early, and the results say by how much a constraint is broken", function()
     local hand, wire
     local s = sw.study { name = "s", parameters = { speed = { 0.01, 1, unit = "m/s" } }, workers = 0,
       setup = function()
@@ -129,7 +130,7 @@ describe("p.broken", function()
     assert.is_true(not rows[2].pass and rows[2].time < 0.2 and rows[2].peak > 0.07, rows[2].peak)
   end)
 
-  it("says what is wrong", function()
+  it("reports wrong arguments", function()
     for words, results in pairs { ["did you mean 'peak'?"] = { peek = 1 }, ["results are wanted"] = 3,
       ["p.broken: peak"] = { peak = "x" } } do
       local fine, why = pcall(asked, function(p)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How much noise changes the order of values.
+-- How far noise changes the order of values.
 local unrest = require "softworld.study.unrest"
 
 describe("unrest", function()
@@ -9,18 +9,19 @@ describe("unrest", function()
     return list
   end
 
-  it("is below 0 where the same values come again", function()
+  it("is below 0 when the same values return", function()
     assert.is_true(unrest(values(10), { 1, 2 }) < 0)
     assert.is_true(unrest(values(10), { 1.1, 1.9 }) < 0)
   end)
 
-  -- The best of 10 becomes the worst of all, 18 ranks away; 10 % of the changes that chance makes are 1 or 2.
-  it("is above 0 where the best becomes the worst", function()
+  -- The best of 10 becomes the worst, 18 ranks away; the change allowed, 10 % of the changes by chance, is 1
+  -- or 2.
+  it("is above 0 when the best becomes the worst", function()
     assert.is_true(unrest(values(10), { 99 }) > 0)
   end)
 
-  -- Of values that are nothing but noise the order changes more than is borne in most draws.
-  it("is above 0 for noise alone, mostly", function()
+  -- When values are only noise, their order changes by more than the allowed amount in most draws.
+  it("is above 0 in most draws of pure noise", function()
     math.randomseed(5)
     local above = 0
     for _ = 1, 200 do

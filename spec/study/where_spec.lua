@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Where a study is computed: what is wrong is told before anything is computed. With a cluster: cluster_spec.
+-- Where a study is computed; mistakes are reported before anything is computed. With a cluster:
+-- cluster_spec.
 local sw = require "softworld"
 local program = require "host.program"
 local sealed = require "softworld.sealed"
@@ -15,13 +16,13 @@ end
 describe("study:run", function()
   teardown(program.clean)
 
-  it("gives the study, and here is where it is computed", function()
+  it("returns the study, and on = 'here' computes it locally", function()
     local s = study()
     assert.equal(s, s:run { on = "here", detach = false })
     assert.equal(3, #s:run():sweep { count = 3 })
   end)
 
-  it("tells what is wrong", function()
+  it("reports wrong arguments", function()
     local s = study()
     local cases = {
       { { on = "slurn" }, "study:run: on = 'slurn' is not one of: here slurm; did you mean 'slurm'?" },
@@ -48,7 +49,7 @@ describe("study:run", function()
       "study 's': on = 'slurm' needs a journal, file = 's.study', in a folder that the nodes see too")
   end)
 
-  it("is told by the environment", function()
+  it("is overridden by the environment", function()
     local text = [[
 local sw = require "softworld"
 local function evaluate() return { y = 1 } end
@@ -67,13 +68,13 @@ print(#study:sweep { count = 2 })]]
   end)
 end)
 
-describe("what is sent to a cluster", function()
+describe("the files sent to a cluster", function()
   local about = { name = "s\n\"", key = "0123456789abcdef", text = "seed 1\nx", part = "sweep",
     job = "softworld-s" }
   local tasks = { { { number = 1, word = "0.5", tries = 1 }, { number = 2, word = "0.25,3", tries = 2 } },
     { { number = 7, word = "1.0", tries = 1 } } }
 
-  it("is read as it was written, or not at all", function()
+  it("are read exactly as written, or not at all", function()
     local folder = program.folder() .. "/1"
     sends.write(folder, about, tasks)
     local read = sends.read(folder)
@@ -88,7 +89,7 @@ describe("what is sent to a cluster", function()
     assert.is_nil(sends.read(folder .. "/nowhere"))
   end)
 
-  it("counts as found only when all of a task is there, with right sums", function()
+  it("give a result only when all of a task is there, with correct checksums", function()
     local folder = program.folder()
     local found = { { number = 1, word = "0.5", status = "ok", rest = "y=1.0" },
       { number = 2, word = "0.25,3", status = "failed", rest = "lost\n\"by\" chance" } }
@@ -111,7 +112,7 @@ end)
 describe("a task of a cluster", function()
   teardown(program.clean)
 
-  -- It has two parts; the second needs what the first one has.
+  -- It has two parts; the second one needs the result of the first.
   local SCRIPT = [[
 local sw = require "softworld"
 local study = sw.study { name = "node", file = FILE, seed = 4, workers = 0, parameters = { x = { 0, 1 } },
@@ -123,7 +124,7 @@ study:csv(FILE .. ".csv")
 print "the end"
 ]]
 
-  -- The study of the script, its file with so many of its parts, and its task: of the second part usually.
+  -- The study of the script, its file with a number of its parts, and its task, usually of the second part.
   local function made(changes, count)
     local file = program.folder() .. "/node.study"
     local text = SCRIPT:gsub("FILE", ("%q"):format(file))
@@ -143,30 +144,30 @@ print "the end"
     return program.script(text, {}, { before = (before or "") .. "SOFTWORLD_TASK=" .. file .. ".tasks/1" })
   end
 
-  it("computes what its list says, with the bits of the study, and ends there", function()
+  it("computes its list with the bits of the study, and ends there", function()
     local file, text = made(nil, 1)
     local before = program.read(file)
     local out, err, code = run(text, file)
     assert.equal(0, code, err)
     assert.equal("", out .. err)
-    assert.equal(before, program.read(file)) -- the journal is read only
+    assert.equal(before, program.read(file)) -- the journal is only read
     local list = sends.read(file .. ".tasks/1").tasks[1]
     local found = sends.result(file .. ".tasks/1", 1, list)
     assert.equal(2, #found)
     local rows = select(3, made(nil, 2)):table()
     for i, r in ipairs(found) do
-      -- the values are the list's, the random numbers those of part and number
+      -- the values come from the list, the random numbers from part and number
       local luck = rows[3 + r.number].luck
       assert.equal(("luck=%.17g y=%.17g"):format(luck, i == 1 and 0.25 or 0.75), r.rest)
     end
     assert.is_nil(io.open(file .. ".csv"))
-    -- run again, as when it is requeued: what it has found stands
+    -- run again, as after a requeue: its earlier results stay
     before = program.read(file .. ".tasks/1/out.0")
     assert.equal(0, select(3, run(text, file)))
     assert.equal(before, program.read(file .. ".tasks/1/out.0"))
   end)
 
-  it("says that the script is another one, and what differs", function()
+  it("says that the script differs, and where", function()
     local file, text = made(nil, 0)
     local _, err, code = run(text:gsub("seed = 4", "seed = 5"), file)
     assert.equal(1, code)
@@ -174,19 +175,19 @@ print "the end"
       .. "from:\n  before: seed 4\n  now:    seed 5", 1, true), err)
   end)
 
-  it("does not compute what is of another part", function()
+  it("does not compute evaluations of another part", function()
     local file, text = made(nil, 0)
     local _, err, code = run(text, file) -- the first part is not in the journal
     assert.equal(1, code)
     assert.truthy(err:find("study 'node': evaluation 1.1 is not in ", 1, true), err)
-    file, text = made({ part = "spread #7" }, 2) -- that is never reached
+    file, text = made({ part = "spread #7" }, 2) -- a part that is never reached
     local out
     out, err, code = run(text, file)
     assert.equal("the end\n0", out .. code, err)
     assert.is_nil(io.open(file .. ".csv"))
   end)
 
-  it("says that there is no list, or not this task in it", function()
+  it("reports a missing list, or a task missing from it", function()
     local file, text = made(nil, 1)
     local _, err = run(text, file, "SLURM_ARRAY_TASK_ID=3 ")
     assert.truthy(err:find("study 'node': there is no task 3 in ", 1, true), err)

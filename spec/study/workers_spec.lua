@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Workers: whatever happens to one is one failed evaluation, and none is left behind.
+-- Workers: whatever happens to a worker costs one evaluation, and no worker is left behind.
 local sw = require "softworld"
 local program = require "host.program"
 local core = sw.core
 
--- A shell has SIGINT ignored in what it starts in the background.
+-- A shell starts background processes with SIGINT ignored.
 local NORMAL = "env --default-signal=INT"
 
 local function study(evaluate, changes)
@@ -13,7 +13,7 @@ local function study(evaluate, changes)
   return sw.study(args)
 end
 
--- A signal to the own process, by the shell.
+-- Sends a signal to this process, through the shell.
 local function die(signal)
   local file = io.open "/proc/self/stat"
   local pid = file:read "n"
@@ -24,7 +24,7 @@ local function die(signal)
   return x
 end
 
--- Evaluation 3 does something else; what is said of it, and that it is the only one.
+-- Evaluation 3 does something else; returns its row, and checks that only this one has failed.
 local function third(does, changes)
   local s = study(function(p)
     if p.number == 3 then does() end
@@ -39,13 +39,13 @@ end
 describe("a worker", function()
   teardown(program.clean)
 
-  it("that is killed is one failed evaluation, after a second try", function()
+  it("that is killed gives one failed evaluation, after a second try", function()
     local row = third(function() die "KILL" end)
     assert.equal("its process ended by signal 9 (killed)", row.failed)
     assert.is_true(row.machine)
   end)
 
-  it("that is killed once by somebody else does it again", function()
+  it("that is killed once from outside repeats the evaluation", function()
     local mark = program.folder() .. "/mark"
     local s = study(function(p)
       if p.number == 3 and not core.kind(mark) then
@@ -57,21 +57,21 @@ describe("a worker", function()
     for _, row in ipairs(s:sweep { count = 8 }) do assert.is_nil(row.failed) end
   end)
 
-  it("that breaks down is one failed evaluation", function()
+  it("that crashes gives one failed evaluation", function()
     local row = third(function() die "SEGV" end)
     assert.equal("its process ended by signal 11 (segmentation fault)", row.failed)
     assert.is_nil(row.machine)
   end)
 
-  it("that leaves is one failed evaluation", function()
+  it("that exits gives one failed evaluation", function()
     assert.equal("evaluate ended its process (exit code 3)", third(function() os.exit(3) end).failed)
   end)
 
-  it("is ended when it computes for too long, and only then", function()
+  it("is ended when an evaluation takes too much computing time, and only then", function()
     local row = third(function() while true do end end, { cpu = 0.3 }) -- luacheck: ignore
     assert.equal("took more than 0.3 s of computing time", row.failed)
     assert.is_true(row.machine)
-    -- the limit is one of each evaluation, not of their sum
+    -- the limit applies to each evaluation, not to their sum
     local s = study(function(p)
       local start = os.clock()
       while os.clock() - start < 0.05 do end -- luacheck: ignore
@@ -80,7 +80,7 @@ describe("a worker", function()
     for _, row_of in ipairs(s:sweep { count = 20 }) do assert.is_nil(row_of.failed) end
   end)
 
-  it("that takes too much memory is one failed evaluation", function()
+  it("that takes too much memory gives one failed evaluation", function()
     local row = third(function()
       local list = {}
       for i = 1, 100 do list[i] = ("x"):rep(10000000) .. i end
@@ -94,7 +94,7 @@ describe("a worker", function()
     assert.is_true(row.machine)
   end)
 
-  it("writes what evaluate prints once", function()
+  it("prints each output of evaluate once", function()
     local out, err, code = program.script [[
 local sw = require "softworld"
 io.write "before "
@@ -110,7 +110,7 @@ print "after"
     assert.truthy(out:find "after\n$")
   end)
 
-  it("reads nothing of the parent's input", function()
+  it("does not read the parent's input", function()
     local out, err, code = program.script([[
 local sw = require "softworld"
 local study = sw.study { name = "s", parameters = { x = { 0, 1 } }, workers = 2,
@@ -134,7 +134,7 @@ print(#study:sweep { count = 4 }, study:table()[1].y, io.read "a")
     assert.equal(before, open())
   end)
 
-  -- Who lives with this name among his arguments.
+  -- The processes that have this name among their arguments.
   local function alive(mark)
     local out = program.shell(("grep -l -a %s /proc/[0-9]*/cmdline 2>/dev/null"):format(mark))
     local list = {}
@@ -157,7 +157,7 @@ local study = sw.study { name = "endless", file = arg[1], parameters = { x = { 0
 study:sweep { count = 100 }
 ]]
 
-  it("does not outlive its parent, however that ends", function()
+  it("does not outlive its parent, however the parent ends", function()
     local folder = program.folder()
     local script = program.write(folder .. "/outlive.lua", ENDLESS)
     for _, signal in ipairs { "KILL", "TERM", "INT" } do
@@ -175,8 +175,8 @@ sleep 0.3
     end
   end)
 
-  -- Also within this process, where Ctrl-C meets an evaluation: it is none that failed.
-  it("ends with Ctrl-C, and what was found is told and kept", function()
+  -- Also within this process, where Ctrl-C interrupts an evaluation; this is not a failed evaluation.
+  it("ends with Ctrl-C, and the results so far are reported and kept", function()
     local folder = program.folder()
     for _, workers in ipairs { 2, 0 } do
       local file = folder .. "/interrupt" .. workers .. ".study"
@@ -190,8 +190,8 @@ sleep 0.3
     end
   end)
 
-  -- A random call ended its program by it.
-  it("have a limit of computing time that no other process can have", function()
+  -- A random call (make fuzz) once ended its program with core.limit_cpu.
+  it("alone may use the limit of computing time", function()
     for _, seconds in ipairs { 0.01, -1, 0 / 0 } do
       local fine, why = pcall(core.limit_cpu, seconds)
       assert.is_false(fine)
