@@ -57,7 +57,8 @@ describe("lists of what is in a scene", function()
   it("refuse a call with a dot, and a closed scene", function()
     local scene = scene_of()
     for _, name in ipairs { "wires", "obstacles", "grippers", "names" } do
-      assert.error_matches(function() scene[name]() end, "scene:" .. name .. " is a method: call it with a colon")
+      assert.error_matches(function() scene[name]() end,
+        "scene:" .. name .. " is a method: call it with a colon")
     end
     scene:close()
     assert.error_matches(function() scene:wires() end, "closed")

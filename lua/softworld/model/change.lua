@@ -70,9 +70,9 @@ function change.between(context, state, levels, left)
   return c
 end
 
---- Returns true if a choice was compared on edges so coarse that the wire was somewhere else there: the rung's
--- values were off those of the finest run by a quarter, and by more than the tolerance. On such edges both
--- rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
+--- Returns true if a choice was compared on edges so coarse that the wire was somewhere else there: the
+-- rung's values were off those of the finest run by a quarter, and by more than the tolerance. On such edges
+-- both rungs may agree on a shape that fine edges do not have. A pushed trunk may buckle to the other side.
 function change.is_elsewhere(context, state, values)
   local there = state.by == "compared" and state.compared
   for _, q in ipairs(there and context.job.quantities or {}) do
