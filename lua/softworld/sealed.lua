@@ -10,11 +10,12 @@
 --       rawset(sealed.fields(self), key, value)
 --     end
 -- @module softworld.sealed
+local place = require "softworld.place"
+
 local sealed = {}
 
 local held = setmetatable({}, { __mode = "k" }) -- object -> its fields
 local classes = setmetatable({}, { __mode = "k" })
-local library = debug.getinfo(1, "S").source:match "^(.*)sealed%.lua$" or "@softworld/"
 
 --- Returns a new object of the class; the table fields becomes its fields.
 function sealed.new(class, fields)
@@ -37,7 +38,7 @@ function sealed.fields(object) return held[object] or object end
 --- True if the assignment that called __newindex is in the library. Call it from __newindex itself.
 function sealed.by_library()
   local info = debug.getinfo(3, "S")
-  return info ~= nil and info.source:sub(1, #library) == library
+  return info ~= nil and place.is_ours(info.source)
 end
 
 return sealed

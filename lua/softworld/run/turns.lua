@@ -3,11 +3,10 @@
 -- place of the script's line.
 -- @module softworld.run.turns
 local build = require "softworld.scene.build"
+local place = require "softworld.place"
 local process = require "softworld.run.process"
 
 local turns = {}
-
-local library = debug.getinfo(1, "S").source:match "^(.*)run/turns%.lua$" or "@softworld/"
 
 -- Returns the line of the user's script at which a process failed inside the library,
 -- "file:line: "; "" if the script's own code failed, whose errors stay as they are.
@@ -17,8 +16,7 @@ local function place_in(thread)
     local info = debug.getinfo(thread, level, "Sl")
     if not info then break end
     if info.currentline > 0 then
-      local ours = info.source:sub(1, #library) == library
-      if not ours then
+      if not place.is_ours(info.source) then
         return inside and ("%s:%d: "):format(info.short_src, info.currentline) or ""
       end
       inside = true

@@ -4,26 +4,13 @@
 -- @module softworld.run.waiting
 local core = require "softworld.core"
 local build = require "softworld.scene.build"
+local place = require "softworld.place"
 
 local waiting = {}
 
 local waits = setmetatable({}, { __mode = "k" }) -- process -> { since =, where =, ... }
 local FIRST = 10 -- simulated time before the first event, then ten times as much [s]
 local PATIENCE = 10 -- real time before a line on the terminal, then twice as much [s]
-
-local library = debug.getinfo(1, "S").source:match "^(.*)run/waiting%.lua$" or "@softworld/"
-
--- Returns the line of the user's script that called the library.
-local function place()
-  for level = 3, 50 do
-    local info = debug.getinfo(level, "Sl")
-    if not info then break end
-    if info.currentline > 0 and info.source:sub(1, #library) ~= library then
-      return (" at %s:%d"):format(info.short_src, info.currentline)
-    end
-  end
-  return ""
-end
 
 local function alive(scene)
   local list = {}
@@ -37,7 +24,8 @@ end
 -- without another process, or nil.
 function waiting.goes_on(p, impossible)
   if not waits[p] then
-    waits[p] = { since = p.scene.time, where = place(), told = FIRST, patience = PATIENCE }
+    local at = place.of_caller()
+    waits[p] = { since = p.scene.time, where = at and " at " .. at or "", told = FIRST, patience = PATIENCE }
   end
   local why = impossible and #alive(p.scene) == 1 and impossible()
   if why then

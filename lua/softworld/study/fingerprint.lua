@@ -4,8 +4,7 @@
 -- @module softworld.study.fingerprint
 local bytecode = require "softworld.study.bytecode"
 local core = require "softworld.core"
-
-local library = debug.getinfo(1, "S").source:match "^(.*)study/fingerprint%.lua$" or "@softworld/"
+local place = require "softworld.place"
 
 -- Names that Lua, its libraries and the host program define.
 local standard = {}
@@ -59,7 +58,7 @@ end
 
 function of_function(f, parts, seen)
   local info = debug.getinfo(f, "Su")
-  if seen[f] or info.what == "C" or info.source:sub(1, #library) == library then return end
+  if seen[f] or info.what == "C" or place.is_ours(info.source) then return end
   seen[f] = true
   local code = bytecode(f)
   add(parts, code)
