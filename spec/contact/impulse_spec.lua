@@ -72,7 +72,7 @@ end
 
 describe("the impulse on obstacles balances the momentum:", function()
   local methods = {}
-  for _, method in ipairs(core.registry().integrators) do -- reports that it is not for contact
+  for _, method in ipairs(core.registry().integrators) do -- generalized-alpha is not for contact
     if method.name ~= "generalized-alpha" then methods[#methods + 1] = method end
   end
   for _, method in ipairs(methods) do

@@ -316,7 +316,7 @@ describe("wire from a spool", function()
       t.fine(scene:run { duration = 1, dt = 0.05, quasistatic = true })
       t.near(0, feed:moment()[2], 1e-12, "moment") -- unloaded
       t.share(1 / radius, wire:curvature(0.02), 1e-4, "curvature")
-      t.share(-EI / radius ^ 2 / 2, feed:drive_force(), 2e-3, "drive") -- it was straight inside
+      t.share(-EI / radius ^ 2 / 2, feed:drive_force(), 2e-3, "drive") -- the guide straightens it
       local a = wire.length / radius
       return t.distance({ radius * math.sin(a), 0, radius * (1 - math.cos(a)) },
         wire:position(wire.length))

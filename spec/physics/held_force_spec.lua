@@ -153,7 +153,7 @@ describe("the force of a guide or a clamp", function()
         end)
         t.fine(scene:run{ dt = dt })
         local stop = feed:over(1.45)
-        t.above(0.8 * wire:max_tension(), stop.peak_force, "force beside tension") -- a third, once
+        t.above(0.8 * wire:max_tension(), stop.peak_force, "force beside tension") -- a third with a fault
         return { force = stop.peak_force, tension = wire:max_tension() }
       end)
     end

@@ -83,7 +83,7 @@ describe("pads that carry a wire fast", function()
         t.below(0.02, m.off, "error of the jaws' force in any step [-]" .. what) -- 1e-3 except for jumps
         t.below(2e-3, m.slip, "slip [m]" .. what)
         t.near(0.15, m.height, 2e-3, "height of what is held [m]" .. what) -- slip included
-        t.share(fine.peak, m.peak, 0.25, "largest force on the tool [N]" .. what) -- steps
+        t.share(fine.peak, m.peak, 0.25, "largest force on the tool [N]" .. what) -- acceleration in steps
       end
     end)
   end

@@ -1,9 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps in which something strikes a wire are taken with implicit Euler and are judged
--- too. Cables that are swept, whipped, lifted and swung against things, or begin taut, have the same
--- results at all steps. Whole steps of 10 and 20 ms were up to 39 % off in tension, 31 % in radius, 24 % in
--- force; steps by tolerance up to 33 % in tension, 52 % in radius, 44 % in force, at 1e-6 too.
--- tolerance up to 33 % in tension, 52 % in radius, 44 % in force, at 1e-6 too.
+-- Steps in which something strikes a wire are taken with implicit Euler and are judged too. Cables that are
+-- swept, whipped, lifted and swung against things, or begin taut, have the same results at all steps. Whole
+-- steps of 10 and 20 ms were up to 39 % off in tension, 31 % in radius, 24 % in force; steps by tolerance
+-- up to 33 % in tension, 52 % in radius, 44 % in force, at 1e-6 too.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
