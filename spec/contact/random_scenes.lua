@@ -138,7 +138,7 @@ function random_scenes.scene(plan, view)
   return scene, wires, obstacles
 end
 
--- --- what comes of it ---------------------------------------------------------------------------
+-- --- outcomes of runs ---------------------------------------------------------------------------
 
 local PLACES = 20 -- places of a wire that are compared, besides its start
 

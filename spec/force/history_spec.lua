@@ -72,7 +72,7 @@ describe("the memory of forces", function()
     end
   end)
 
-  it("goes on after rejected steps as after small ones", function()
+  it("is the same after rejected steps as after small ones", function()
     local function ends(options)
       local scene, wire = swinging()
       options.duration = 0.4

@@ -210,7 +210,7 @@ describe("wire fed in motion", function()
   end)
 
   -- Without weight, all of the wire moves with the guide, which moves across while it feeds.
-  it("leaves a moving guide with the guide's velocity and its own", function()
+  it("leaves a moving guide with the guide's velocity plus the feeding speed", function()
     local scene, wire, feed = sleeve(0.2, 20, { gravity = { 0, 0, 0 }, feed = { speed = 0.2 } })
     wire:set_velocity({ 0.2, 0.5, 0 })
     feed:follow { points = { { 0, 0, 0 }, { 0, 0.5, 0 } }, speed = 0.5, law = "linear" }

@@ -166,7 +166,7 @@ describe("a quarter circle that is let go", function()
   local tip = { { 0.25, 0.6039620852, 0.5746864788, -0.3925761022 },
     { 0.5, 0.146602, 0.146017, -0.829389 }, { 1, 0.565548, 0.461574, -0.554890 } }
 
-  it("swings in space as it should, keeping its energy", function()
+  it("swings in space like the reference and keeps its energy", function()
     local s = core.scene{}
     local w = s:wire{ E = 941760000, nu = 0.3, density = 1500, radius = 0.0025,
       path = arc(1, PI / 2), segments = 50, rest = "path" }

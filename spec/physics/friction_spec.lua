@@ -74,7 +74,7 @@ describe("a light rod in a scene with a stiff and heavy wire", function()
     end)
   end
 
-  it("does so too when the heavy one lies on the same slope", function()
+  it("holds as it does alone when the heavy one lies on the same slope", function()
     local c = cases.incline{ angle = 10, friction = 0.3 }
     local slope = c.frame
     c.scene:wire{ EA = 1e6, EI = 10, mass_per_length = 5, radius = 0.01, from = slope.point(0, 0.3, 0.01),

@@ -132,7 +132,7 @@ describe("friction of pads", function()
     t.share(0.4 * 2 * 5, force, 0.005, "pull against what the pads were told")
   end)
 
-  it("does so too after slip that spreads from one end of the pads", function()
+  it("gives mu times the normal forces after slip that spreads from one end, too", function()
     -- a soft wire: it is drawn thinner and slips first where it leaves the pads
     local force, normal = pull(4, { friction = 0.3 }, { model = "radial", body = "solid", E = 2e7 }, 0.006)
     t.share(0.3 * normal, force, 0.005, "pull against normal forces")

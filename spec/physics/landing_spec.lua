@@ -65,7 +65,7 @@ describe("a tube of particle rings", function()
     end)
   end
 
-  it("does so when it is stiff", function()
+  it("falls on a table and a peg as with fine steps when it is stiff", function()
     for _, name in ipairs{ "table", "peg" } do
       t.same_at({ 0.02, 0.01, 0.005 }, function(dt) return falls(things[name], "tube", 1e8, dt) end, 5e-4,
         { radius = 0.1, force = 0.1 })

@@ -67,7 +67,7 @@ describe("a solid section between plates", function()
     compare(round{ model = "radial", particles = 48, layers = 6 }, solid, 0.001, 0.03)
   end)
 
-  it("has it within 10 % with 12 voxels across and with 16 x 4 particles", function()
+  it("has the exact force within 10 % with 12 voxels across and with 16 x 4 particles", function()
     -- Particles meet the plates one pair after the other: 16 x 4 are up to 12 % too soft with a corner
     -- first, up to 5 % too stiff with a side first. The mean does not depend on how the section lies.
     compare(round{ model = "cubic", across = 12 }, solid, 0.002, 0.1)
@@ -126,7 +126,7 @@ describe("a section of core and shell between plates", function()
     end
   end)
 
-  it("has it within 3 % from 5 % on with 48 particles, with a corner or a flat to the plates", function()
+  it("has the exact force within 3 % from 5 % on with 48 particles, corner or flat first", function()
     -- measured within 1 %; in the first per cents the contact is narrower than two particles: 9 % off
     local rows = { composite[3], composite[4], composite[5] }
     for _, turn in ipairs{ 0, math.pi / 48 } do

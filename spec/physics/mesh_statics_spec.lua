@@ -144,7 +144,7 @@ describe("a cantilever that is a mesh:", function()
     end
   end)
 
-  it("bends alike in every direction in space", function()
+  it("bends the same in every direction in space", function()
     local random = t.random(4)
     for _, model in ipairs(meshes.few) do
       for _ = 1, 3 do

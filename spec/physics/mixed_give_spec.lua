@@ -101,7 +101,7 @@ describe("a frozen grip", function()
         t.share(mesh[3][5], rod[3][5], 0.008, "deflection by a moment, along the pads")
       end)
 
-      it("does so where only the part near the pads was a mesh, " .. name, function()
+      it("gives way the same where only the part near the pads was a mesh, " .. name, function()
         local scene, wire, g = squeezed(material, share, false, 0.12)
         local function moved(k, force, couple)
           local x, before = {}, scene:snapshot()

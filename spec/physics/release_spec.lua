@@ -43,7 +43,7 @@ describe("a released cantilever", function()
     t.below(1e-3, c.error(), "tip error, 20 segments, 5 ms")
   end)
 
-  it("moves alike in a turned and moved scene", function()
+  it("moves the same in a turned and moved scene", function()
     local random = t.random(5)
     local usual = cases.release{ segments = 20 }
     t.fine(usual.run{ dt = 5e-3 })

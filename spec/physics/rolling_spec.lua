@@ -69,7 +69,7 @@ describe("a wire across a slope", function()
       end)
   end
 
-  it("does so at any radius, mesh and inertia", function()
+  it("rolls and slides the same at any radius, mesh and inertia", function()
     for _, radius in ipairs{ 0.0005, 0.01 } do
       share(expected(20, 0.3), (acceleration{ friction = 0.3, angle = 20, radius = radius }), 0.005,
         "radius " .. radius)
@@ -87,7 +87,7 @@ describe("a wire across a slope", function()
     end
   end)
 
-  it("does so with every implicit integrator", function()
+  it("rolls the same with every implicit integrator", function()
     for _, name in ipairs{ "tr-bdf2", "sdirk2", "implicit-euler", "bdf2" } do
       for _, dt in ipairs{ 0.01, 0.0025 } do
         local s, w = across{ friction = 0.3, angle = 20 }
@@ -97,7 +97,7 @@ describe("a wire across a slope", function()
     end
   end)
 
-  it("does so on any slope in space", function()
+  it("rolls and slides the same on any slope in space", function()
     local random = tools.random(5)
     for _ = 1, 4 do
       local q = tools.turn(random)

@@ -42,7 +42,7 @@ describe("the largest mean over a window", function()
     end
   end)
 
-  it("of a blow is its impulse over the window, whatever the steps", function()
+  it("is for a blow its impulse over the window, whatever the steps", function()
     for seed = 1, 20 do
       for _, span in ipairs{ 5e-3, 4e-4, 1e-6 } do
         local list = uneven(seed, 200, 1e-4, 1e-3)

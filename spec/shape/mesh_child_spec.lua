@@ -125,7 +125,7 @@ describe("a mesh file that is cut off", function()
       "items of 'vertex', and 0 are there")
   end)
 
-  it("is told apart from one without the corners it names", function()
+  it("is distinguished from a file without the corners that it names", function()
     refused(lines_of(ply_head("ascii", 8, 12)):gsub("3 %d %d %d\n", "3 0 1 77\n", 1), "ply",
       "a corner that is not there")
   end)
