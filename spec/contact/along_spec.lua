@@ -1,13 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A straight wire lying lengthwise along a cylinder, off the top: it slides down like a point
--- on a circle. Every place of it is as near as every other, so that the nearest ones come and
--- go with the last nanometre.
+-- A straight wire lies lengthwise on a cylinder, off the top, and slides down like a point on a circle. All
+-- its places are equally near, so the nearest ones change with the last nanometre.
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
 
 local R, RADIUS, G = 0.05, 0.0025, 9.81
 
--- The angle from the top of a point that slides from rest at angle a, after time t.
+-- Returns the angle from the top of a point that slides from rest at angle a, after time t.
 local function slid(a, mu, t)
   local n, rho = 2000, R + RADIUS
   local h, w = t / 2000, 0
@@ -40,7 +39,7 @@ describe("a wire lying lengthwise along a cylinder", function()
         local exact = slid(math.asin(0.02 / (R + RADIUS)), 0.3, 0.2)
         for _, at in ipairs{ 0, 0.25, 0.5 } do
           local p = w:position(at)
-          -- first order in dt: the slide begins with the first step
+          -- first order in dt, because the slide begins with the first step
           local angle = math.atan(p[2], p[3])
           assert.is_true(math.abs(angle - exact) < 0.5 * dt, angle .. " for " .. exact)
         end
@@ -50,7 +49,7 @@ describe("a wire lying lengthwise along a cylinder", function()
     end
   end
 
-  it("lands there without steps that find no end", function()
+  it("lands there with few refused steps", function()
     for _, n in ipairs{ 24, 60 } do
       local _, r = run{ friction = 0.3, segments = n, dt = 0.01, duration = 0.2, drop = 0.02 }
       assert.is_true(r.rejected <= 20, r.rejected .. " steps rejected")

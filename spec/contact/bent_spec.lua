@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable that is bent down over a peg of up to four edges touches it by its smooth curve, first in one edge,
--- then in two. Either once came with its whole stiffness where the other one already pressed, so that the
--- cable was thrown back and touched in one again.
+-- A cable is bent down over a peg with a radius of up to four edges. It touches the peg with its smooth
+-- curve, first in one edge, then in two. A touch that appears with its whole stiffness where another one
+-- already presses throws the cable back, until only one edge touches again.
 local core = require "softworld.core"
 
 local UP = { axis = { 1, 0, 0 }, angle = math.pi / 2 } -- a cylinder's axis along y
-local HALF = 0.2 -- of the cable [m]
-local GAP = 0.003 -- to the peg [m]
+local HALF = 0.2 -- half the cable's length [m]
+local GAP = 0.003 -- between cable and peg [m]
 
--- o: wire, segments, radius of the peg, shift of it along the cable, friction, speed of the ends. Returns the
--- run, the cable's places, and the force on the peg in the middle of the time from o.from.
+-- o: wire, segments, radius of the peg, shift of the peg along the cable, friction, duration and way down
+-- of the ends. Returns the run, the cable's positions, the peg and the scene.
 local function bent(o, options, duration)
   local s, n = core.scene{}, o.segments
   local args = { from = { -HALF, 0, 0 }, to = { HALF, 0, 0 }, segments = n }
@@ -33,7 +33,7 @@ local function off(a, b)
   return most
 end
 
--- Steps by their error against fine ones of fixed size.
+-- Compares a run with steps chosen by their error to a run with fine, fixed steps.
 local function check(o, tolerance, duration)
   local r, x, _, s = bent(o, { dt = o.dt or 0.4 / o.segments, tolerance = tolerance }, duration)
   assert.is_true(r.ok, r.reason)
@@ -46,8 +46,8 @@ local function check(o, tolerance, duration)
 end
 
 describe("a cable that is bent over a peg", function()
-  -- Two edges touch where a node is above the peg, or where the cable begins to go round. What is then taken
-  -- without an estimate of its error must not be the size of all steps to come.
+  -- Two edges touch where a node is above the peg, or where the cable begins to wrap round it. A step taken
+  -- there without an error estimate must not set the size of all later steps.
   local softer = { E = 5e6, density = 1500, radius = 0.0025 }
   for _, case in ipairs{ { 40, 2, 0.5, 0.25, 1e-8 }, { 37, 0.5, 0.5, 0, 1e-7 }, { 37, 0.5, 0.5, 0.25, 1e-7 },
     { 40, 1, 0.25, 0, 1e-7 } } do

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Blows: rebounds as high as the restitution says, whatever the step; ends poked at tilted walls, and
--- wires that land: forces through the window of 10 ms that no longer depend on the step.
+-- Blows. Rebounds are as high as the restitution says, whatever the step. Ends that are poked at tilted
+-- walls and wires that land give forces, averaged over the window of 10 ms, that do not depend on the step.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local G = 9.81
 
--- What falls, from a height between its lowest place and the floor: returns a function for both its
--- height and its speed.
+-- Bodies that fall. z: height of the lowest place above the floor [m]. Each returns a function for height
+-- and speed; the cable, whose axis starts at z, also returns its radius.
 local bodies = {
   particle = function(s, z)
     local o = s:particles{ positions = { 0, 0, z + 0.005 }, masses = 0.01, radius = 0.005 }
@@ -31,7 +31,7 @@ local bodies = {
   end,
 }
 
--- The height to which it would rise after the first rebound, over e^2 times what it fell.
+-- Returns the height of the first rebound, over e^2 times the height of the fall.
 local function rebound(make, e, H, run)
   local s = sw.scene{}
   s:obstacle{ shape = "plane", restitution = e }
@@ -55,10 +55,10 @@ describe("a rebound", function()
     it("is as high as the restitution says at every step: " .. name, function()
       for _, e in ipairs{ 0.1, 0.3, 0.5, 0.9 } do
         for _, dt in ipairs(name == "tube" and { 0.01, 0.005 } or { 0.02, 0.01, 0.005, 0.001 }) do
-          -- heights that a step meets anywhere; one whose rebound is shorter than a step has none
+          -- heights that meet the floor at any instant of a step; rebounds shorter than a step are left out
           for _, H in ipairs{ 0.2, 0.163, 0.087 } do
             if 2 * e * (2 * H / G) ^ 0.5 > dt then
-              -- a step that is cut ends 2 % before the surface, and 2 % of height are let pass
+              -- a step that is cut ends 2 % before the surface, so 2 % of the height is allowed
               t.near(1, rebound(make, e, H, { dt = dt }), 0.025, ("e = %g, %g m, dt = %g"):format(e, H, dt))
             end
           end
@@ -67,14 +67,15 @@ describe("a rebound", function()
     end)
   end
 
-  it("is that with a tolerance, and by methods that look back", function()
+  it("is as high with a tolerance, with bdf2 and with sdirk2", function()
     for _, run in ipairs{ { dt = 0.01, tolerance = 1e-4 }, { dt = 0.005, integrator = "bdf2" },
       { dt = 0.005, integrator = "sdirk2" } } do
       t.near(1, rebound(bodies.cable, 0.3, 0.163, run), 0.025, run.integrator or "tolerance")
     end
   end)
 
-  -- Thrown against a wall that is tilted and moves along its normal, without gravity.
+  -- Throws a wire against a tilted wall that moves along its normal, without gravity. Returns the wire's
+  -- speed along the normal.
   local function thrown(tilt, u, e, run)
     local s, n = sw.scene{ gravity = { 0, 0, 0 } }, { math.sin(tilt), 0, math.cos(tilt) }
     local o = s:obstacle{ shape = "box", size = { 2, 2, 0.2 }, at = { -0.1 * n[1], 0, -0.1 * n[3] },
@@ -94,7 +95,7 @@ describe("a rebound", function()
     return v[1] * n[1] + v[3] * n[3]
   end
 
-  it("has the wall's speed, whatever its tilt", function()
+  it("adds the wall's speed, whatever its tilt", function()
     for _, tilt in ipairs{ 0, 0.4, 1.1 } do
       for _, u in ipairs{ 0, 0.5, -0.5 } do
         for _, e in ipairs{ 0, 0.3, 0.9 } do
@@ -107,7 +108,7 @@ describe("a rebound", function()
     end
   end)
 
-  it("is that of explicit methods too", function()
+  it("is as fast as the restitution says with explicit methods", function()
     for _, method in ipairs{ "velocity-verlet", "rk4" } do
       for _, e in ipairs{ 0, 0.5 } do
         t.near(e, thrown(0.4, 0, e, { dt = 4e-6, integrator = method }), 2e-3, method)
@@ -116,7 +117,7 @@ describe("a rebound", function()
   end)
 end)
 
--- A cable's end poked at a tilted wall at 0.1 m/s, held by its other end.
+-- Pokes a cable's end at a tilted wall at 0.1 m/s; a clamp or a gripper holds its other end.
 local function poked(o)
   local s, n, gap, back = sw.scene{}, { -math.cos(o.tilt), 0, math.sin(o.tilt) }, 0.0035, 0.03
   local wall = s:obstacle{ shape = "box", size = { 0.02, 0.4, 0.4 }, friction = o.friction,
@@ -139,9 +140,9 @@ local function poked(o)
 end
 
 describe("a cable's end poked at a wall", function()
-  -- (friction, tilt): ends that slide at once, and ends that stick and buckle. Where the tilt is
-  -- that of friction either may happen, and where it sticks the buckled wire may slip off later. At
-  -- 0.15 rad a wire of 0.1 m buckles up or down (9.7 or 11.7 N), as a shift of 10 um has it.
+  -- Friction and tilt differ: ends that slide at once, and ends that stick and buckle. Where the tilt
+  -- equals the friction angle either may happen, and a buckled wire that sticks may slip off later. At 0.15
+  -- rad a wire of 0.1 m buckles up or down (9.7 or 11.7 N); a shift of 10 um decides.
   for _, case in ipairs{ { "clamp", 0.06, 0.25, 0.3 },
     { "clamp", 0.1, 0.25, 0.3 },
     { "clamp", 0.06, 0.5, 0.3 }, { "gripper", 0.06, 0.25, 0.3 }, { "gripper", 0.1, 0.25, 0.3 },
@@ -162,9 +163,9 @@ describe("a cable's end poked at a wall", function()
 end)
 
 describe("a cable that lands", function()
-  -- As in lifting from a table: it begins 1.8 mm above, held at one end, and is stopped by friction
-  -- as it falls: tension and force of the table, through the window.
-  it("pulls and presses alike at every step", function()
+  -- As in lifting from a table: the cable begins 1.8 mm above it, held at one end, and friction stops it as
+  -- it falls. Tension and force of the table are means over the window.
+  it("has the same tension and force of the table at every step size", function()
     local function landed(dt)
       local s = sw.scene{}
       local o = s:obstacle{ shape = "plane", friction = 0.3 }
@@ -177,8 +178,8 @@ describe("a cable that lands", function()
     local force = landed(3e-4)
     for _, dt in ipairs{ 0.01, 0.005, 0.002, 0.001 } do
       local f, T = landed(dt)
-      t.share(force, f, 0.15, ("force at %g s"):format(dt)) -- 0.11 for 0.19 N when the step was one
-      t.below(0.026, T, ("tension at %g s"):format(dt)) -- 0.007 to 0.021 N by fine steps, 0.038 at 10 ms
+      t.share(force, f, 0.15, ("force at %g s"):format(dt)) -- 0.11 N for 0.19 N with undivided steps
+      t.below(0.026, T, ("tension at %g s"):format(dt)) -- fine steps: 0.007 to 0.021 N; 0.038 N once at 10 ms
     end
   end)
 end)

@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that lie along each other: a bundle that falls on a table comes to rest in a bounded number
--- of solves, whatever its meshes; friction along a groove is Coulomb's until it stops.
+-- Wires that lie along each other. A bundle that falls on a table comes to rest in a bounded number of
+-- solves, whatever its meshes. Friction along a groove is Coulomb's until the wire stops.
 local core = require "softworld.core"
 
 local G = 9.81
 
--- Ten wires of 50 segments, or `count`, four in a row over a table, apart by a millimetre or less.
--- shift: of every third mesh; all: each mesh has a shift of its own; mixed: numbers of segments differ.
+-- Ten wires (or o.count) of 50 segments, four in a row over a table, a millimetre or less apart. o.shift:
+-- offset of wire i along x, times i % 3 [m]; o.all: each wire has its own offset; o.mixed: numbers of
+-- segments differ; o.swap: every second wire runs the other way; o.turn: of everything [rad].
 local function bundle(o)
   local s, c, d = core.scene{}, math.cos(o.turn or 0), math.sin(o.turn or 0)
   s:obstacle{ shape = "plane", friction = 0.3 }
@@ -34,8 +35,8 @@ describe("ten wires that fall on a table in a bundle", function()
       local start = s:energy().total
       local r = s:advance({ dt = 0.01 }, 0.15)
       assert.is_true(r.ok, r.reason)
-      -- impacts and all. Places that were handed from one segment to the next lost what they knew of
-      -- friction: 9,000 solves and 210 refused parts of steps
+      -- impacts included. Touches that lose their friction state when handed from one segment to the next
+      -- take 9,000 solves and 210 refused parts (substeps)
       assert.is_true(r.iterations < 600, r.iterations .. " iterations")
       assert.is_true(r.rejected < 10, r.rejected .. " parts of steps refused")
       local lying = s:advance({ dt = 0.01 }, 0.2)
@@ -49,18 +50,18 @@ describe("ten wires that fall on a table in a bundle", function()
     end)
   end
 
-  it("end alike, whatever their meshes", function()
+  it("end with the same energy, whatever their meshes", function()
     assert.are.equal(#cases, #ends)
-    for k = 2, #ends do -- they lie 5 mm high in the mean: this is 5 micrometres
+    for k = 2, #ends do -- the mean height is 5 mm, so this is 5 um
       assert.is_true(math.abs(ends[k] / ends[1] - 1) < 1e-3, ends[k] .. " and " .. ends[1])
     end
   end)
 end)
 
-describe("a bundle whose meshes do not fit each other falls on a table", function()
-  -- Solves up to here went round in circles, or threw wires about: steps were halved again and again,
-  -- at 2.5 ms some for ever.
-  local cases = { -- with what was needed before
+describe("a bundle of unlike meshes that falls on a table comes to rest in few solves:", function()
+  -- These solves once went round in circles or threw wires about: steps were halved again and again, at 2.5
+  -- ms some without end.
+  local cases = { -- before: solves needed at that time
     { count = 20, dt = 0.01, duration = 0.2, most = 1300, before = 1902 },
     { count = 12, dt = 0.0025, duration = 0.1, friction = 0, most = 1500, before = 2973 },
     { count = 16, dt = 0.0025, duration = 0.1, friction = 0, most = 2000, before = 7062 },
@@ -85,12 +86,12 @@ describe("a bundle whose meshes do not fit each other falls on a table", functio
 end)
 
 describe("a wire thrown along the groove between two others", function()
-  -- Both together press weight/cos(lean): it stops after v^2 cos(lean)/(2 mu g).
+  -- Both rails together press with weight/cos(lean), so the wire stops after v^2 cos(lean)/(2 mu g).
   local function way(o)
     local apart, r, v = 2.2, 0.003, 0.4
     local lean = math.asin(apart / 4)
     local s, z, x = core.scene{}, 2 * r * math.cos(lean), -0.1 + o.shift * 0.025
-    for _, y in ipairs{ -apart * r / 2, apart * r / 2 } do -- as good as rigid, edges of 25 mm
+    for _, y in ipairs{ -apart * r / 2, apart * r / 2 } do -- nearly rigid, edges of 25 mm
       local w = s:wire{ E = 2e12, density = 100, radius = r, from = { -0.5, y, 0 },
         to = { 0.5, y, 0 }, segments = 40 }
       s:clamp(w, { s = 0 })
@@ -116,10 +117,10 @@ describe("a wire thrown along the groove between two others", function()
         for _, shift in ipairs{ 0, 0.3, 0.5 } do
           for _, segments in ipairs(meshes) do
             local ratio, row = way{ dt = dt, mu = mu, shift = shift, segments = segments }
-            -- the rails sag by some micrometres, and the step in which it stops is second order
+            -- the rails sag by some micrometres, and the step in which the wire stops is second order
             assert.is_true(math.abs(ratio - 1) < 2e-3, ratio)
-            -- two stages a step, and a few more where it begins and stops; 4.5 when normal forces
-            -- and places were found by iterations
+            -- two stages a step, and a few more where the wire starts and stops; 4.5 when normal forces and
+            -- places were found by iterations
             assert.is_true(row.iterations < 3 * row.steps, row.iterations / row.steps)
           end
         end
@@ -129,7 +130,7 @@ describe("a wire thrown along the groove between two others", function()
 end)
 
 describe("an overhand knot with friction", function()
-  -- Drawn until its loop is some five radii wide.
+  -- Drawn until the loop is about five radii wide.
   local function drawn(dt)
     local row
     require "bench.twists".add_all(function(item, run, o)
@@ -138,12 +139,12 @@ describe("an overhand knot with friction", function()
     return row
   end
 
-  it("is drawn tight without steps being refused all the way", function()
+  it("is drawn tight with few refused steps", function()
     local row = drawn(0.005)
     assert.are.equal("ok", row.status, row.reason)
-    -- 42 of 840; 342 when friction was found by iterations, each with a solve of its own
+    -- 42 of 840 measured; 342 when friction was found by iterations, each with its own solve
     assert.is_true(row.rejected < 0.15 * row.steps, row.rejected .. " of " .. row.steps)
     local pull = tonumber(row.note:match "pull ([%d.e+-]+) N")
-    assert.is_true(math.abs(pull - 11.1) < 0.3, pull) -- 11.1 also at twice the step
+    assert.is_true(math.abs(pull - 11.1) < 0.3, pull) -- 11.1 N at twice the step too
   end)
 end)

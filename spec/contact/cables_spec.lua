@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Contact of real cables, which are a hundred times stiffer along than the soft wire of the other
--- contact specs: what is true of that wire is true of them, at large steps and at small ones.
+-- Contact of real cables, which are a hundred times stiffer along their length than the soft wire of the
+-- other contact specs. They meet the same bounds, at large and at small steps.
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
 
@@ -41,7 +41,7 @@ for _, name in ipairs(scenes.cables) do
           advance(s, dt, 1.6)
           if share < 1 then
             near(x0, w:position(1)[1], 1e-5, "creep")
-          else -- 1 %, as of the soft wire
+          else -- 1 %, as for the soft wire
             local a = (share - 1) * MU * G
             near(a, w:velocity(0.5)[1] - v0, 0.01 * a, "acceleration")
           end
@@ -71,7 +71,7 @@ for _, name in ipairs(scenes.cables) do
             hit = hit or w:velocity(0.05)[3] > 0
             if hit then highest = math.max(highest, w:position(0.05)[3] - r) end
           end
-          -- the impact is set at the start of the step that meets it: v dt of height
+          -- the impact is placed at the start of the step that meets it: an error of v dt in height
           near(0.2 * e * e, highest, 2 * dt * 2 * (e > 0 and 1 or 0.1), "height")
         end
       end)

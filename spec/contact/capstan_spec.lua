@@ -4,8 +4,8 @@ local core = require "softworld.core"
 
 local R, RADIUS, IN = 0.05, 0.0005, 1 -- cylinder [m], wire [m], pull at the start [N]
 
--- Ratio of the pulls at both ends while the wire slides, and the share by which it swings. edge: nil, or the
--- length of the edges of a rod with EI = 0.02 T R^2 [m].
+-- Returns the ratio of the pulls at both ends while the wire slides, and the share by which it swings.
+-- edge: nil for a string, or the length of the edges of a rod with EI = 0.02 T R^2 [m].
 local function capstan(mu, degrees, edge)
   local angle, path = math.rad(degrees), {}
   local Rw = R + RADIUS
@@ -19,7 +19,7 @@ local function capstan(mu, degrees, edge)
   for i = 1, 10 do path[#path + 1] = { q[1] + 0.01 * i * u[1], 0, q[3] + 0.01 * i * u[3] } end
 
   local s = core.scene{ gravity = { 0, 0, 0 } }
-  -- no stiffness to speak of: EI/(T R^2) = 4e-7
+  -- nearly no stiffness: EI/(T R^2) = 4e-7
   local w = s:wire{ model = edge and "rod" or "string", EA = 1e4, EI = edge and 0.02 * IN * R ^ 2 or 1e-9,
     mass_per_length = 0.1, radius = RADIUS, path = path,
     segments = edge and math.floor((angle * Rw + 0.2) / edge + 0.5) or 120 }
@@ -32,7 +32,7 @@ local function capstan(mu, degrees, edge)
   c:follow{ points = { { 0, 0, 0 }, { 0.02 * u[1], 0, 0.02 * u[3] } }, relative = true, speed = 0.02,
     law = "linear" }
   local sum, n, least, most = 0, 0, math.huge, 0
-  for i = 1, 20 do -- a mean over the slide's last part
+  for i = 1, 20 do -- mean over the last part of the slide
     assert.is_true(s:advance({ dt = 0.002 }, 0.6 + 0.01 * i).ok)
     local f = c:force()
     local pull = (f[1] ^ 2 + f[3] ^ 2) ^ 0.5
@@ -51,9 +51,9 @@ describe("a wire over a cylinder", function()
       end)
   end
 
-  -- The bounds are what is asked of a peg: 1 % with edges of R/2, 5 % with edges of R. Friction of chords
-  -- that turned with their middles would be 4.4 and 11.2 % too small.
-  it("is drawn with the same pull by edges as long as the radius", function()
+  -- Bounds: 1 % with edges of R/2, 5 % with edges of R. Friction of chords that turn with their middles
+  -- would be 4.4 and 11.2 % too small.
+  it("is drawn with exp(mu angle) times the pull by edges up to the radius", function()
     local theory = math.exp(0.3 * math.pi)
     for part, off in pairs{ [4] = 0.01, [2.3] = 0.01, [2] = 0.01, [1] = 0.05 } do
       local ratio = capstan(0.3, 180, R / part) / theory
@@ -72,7 +72,7 @@ describe("a wire over a cylinder", function()
       end)
   end
 
-  it("draws steadily", function()
+  it("is drawn with a steady pull", function()
     local _, swing = capstan(0.3, 90)
     assert.is_true(swing < 0.04, swing) -- 0.02 measured
   end)

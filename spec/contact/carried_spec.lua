@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A flat wall strikes a weightless wire lengthwise and carries it along: from then on nothing presses,
--- and forces of touches are rounding.
+-- A flat wall strikes a weightless wire along its whole length and carries it along. After that nothing
+-- presses, and forces of touches are rounding.
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
 
@@ -25,7 +25,7 @@ end
 
 describe("a weightless wire that a wall carries along", function()
   for _, name in ipairs{ "GXL 1.5", "FLRY-B 10", "identified white" } do
-    it("lies on it and has its speed, seen from anywhere: " .. name, function()
+    it("lies on the wall and has its speed in a scene turned by any angle: " .. name, function()
       for _, angle in ipairs{ 0, 0.1, 0.3, 0.9, 2.3, 3 } do
         for _, dt in ipairs{ 0.01, 0.001 } do
           for _, speed in ipairs{ 1, 2, 5 } do

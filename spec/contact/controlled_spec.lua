@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps that follow their error where wires strike: each starts anew then, and is judged by the estimate
--- of the method that it starts with. Without one they grew to the longest while a wire landed: ends were
--- 2 to 14 mm off at 1e-5, no less at 1e-6, and some runs found no step short enough.
+-- Steps chosen by their error while wires strike. After a strike the steps start anew and are judged by the
+-- error estimate of the method that they start with. Without an estimate they grew to the longest while a
+-- wire landed: ends were 2 to 14 mm off at a tolerance of 1e-5, no less at 1e-6, and some runs found no
+-- step short enough.
 local core = require "softworld.core"
 local scenes = require "spec.contact.scenes"
 
@@ -36,12 +37,12 @@ local function fallen(what, name, options)
   return w:positions(), r.steps
 end
 
-describe("a cable that falls, its steps chosen by their error,", function()
+describe("a cable that falls, with steps chosen by their error,", function()
   for what in pairs(fall) do
     for _, name in ipairs(scenes.cables) do
       it(("ends where fine steps have it: %s, %s"):format(name, what), function()
         local fine = fallen(what, name, { dt = 1e-4 })
-        -- the softest wire slides off a peg: what it is off when it leaves grows until it ends
+        -- the softest wire slides off a peg; its error at that moment grows until the end
         local softest = name == "identified white"
         for tolerance, allowed in pairs{ [1e-5] = softest and 12e-3 or 4e-3,
           [1e-6] = softest and 5e-3 or 3e-3 } do

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire is drawn over one that is held. Both are round and thin beside their edges; they meet by their
--- smooth curves, and no place along an edge of either holds better than another.
+-- A wire is drawn over another one that is held. Both are round and thin compared with their edges. They
+-- meet by their smooth curves, so no place along an edge of either holds better than another.
 local sw = require "softworld"
 local vec = require "softworld.vec"
 local drawing = require "contact.drawn"
 
 local H = drawing.H
 
--- A straight wire, held all along, below the middle. o.edge: between its holds [edges of the other];
--- o.shift: so many of these aside; o.skew: turned about the vertical [rad].
+-- Adds a straight wire below the middle, pinned at every node. o.edge: its edge over that of the other
+-- wire; o.shift: shift sideways, in its edges; o.skew: turn about the vertical [rad]; o.ends: ends swapped.
 local function hold_other(s, o, see)
   local h, count = (o.edge or 0.7) * H, 8
   local skew, shift = o.skew or 0, (o.shift or 0.3) * h
@@ -36,7 +36,7 @@ local function check(o, bound)
 end
 
 describe("a wire drawn over another one without friction", function()
-  -- T h^2/EI. By chords the pull swings by 15, 50, 110, 175 %.
+  -- With chords the pull swings by 15, 50, 110 and 175 % at these T h^2/EI.
   for _, taut in ipairs{ 0.05, 0.5, 2, 10 } do
     for _, part in ipairs{ 0.05, 0.2 } do
       it(("slides: T h^2/EI %g, radius of %g edges"):format(taut, part), function()
@@ -53,7 +53,7 @@ describe("a wire drawn over another one without friction", function()
     ["the other one's edges short"] = { edge = 0.4, part = 0.3 },
     ["the other one askew"] = { skew = math.rad(30) },
   } do
-    it("does so with " .. name, function()
+    it("slides: " .. name, function()
       o.taut = 0.5
       check(o, 0.01)
     end)
@@ -61,7 +61,8 @@ describe("a wire drawn over another one without friction", function()
 end)
 
 describe("a limp wire bent by 150 degrees over another one", function()
-  -- Edges much longer than its bend: a mesh too coarse for more. By chords 0.18 to 8.6 and 0.49 to 1.99.
+  -- Edges are much longer than the bend: the mesh is too coarse for more. With chords the pull goes from
+  -- 0.18 to 8.6 and from 0.49 to 1.99.
   for _, part in ipairs{ 0.05, 0.2 } do
     it(("slides, if not smoothly: radius of %g edges"):format(part), function()
       local least, mean, most = drawn{ taut = 10, angle = math.rad(150), radius = part * H }
@@ -72,8 +73,8 @@ describe("a limp wire bent by 150 degrees over another one", function()
   end
 end)
 
--- Elastica over a point: arms that end at the angles p and A - p to the tangent there. Both have one moment
--- there, so T1 (1 - cos p) = T2 (1 - cos (A - p)) = EI k^2/2; friction: T2 cos (A - p) - T1 cos p =
+-- Elastica over a point: the arms end at the angles p and A - p to the tangent there. Both have the same
+-- moment there, so T1 (1 - cos p) = T2 (1 - cos (A - p)) = EI k^2/2. Friction: T2 cos (A - p) - T1 cos p =
 -- mu (T1 sin p + T2 sin (A - p)).
 local function ratio(mu, angle)
   local low, high = angle / 2, angle
@@ -88,7 +89,7 @@ local function ratio(mu, angle)
 end
 
 describe("a wire drawn over another one with friction", function()
-  -- By chords the pull goes from 1.35 to 1.82 at T h^2/EI = 0.05, from 1.07 to 2.53 at 0.5.
+  -- With chords the pull goes from 1.35 to 1.82 at T h^2/EI = 0.05, and from 1.07 to 2.53 at 0.5.
   for _, mu in ipairs{ 0.1, 0.3 } do
     for _, angle in ipairs{ 60, 90 } do
       it(("holds as a point does: mu %g, %d degrees"):format(mu, angle), function()

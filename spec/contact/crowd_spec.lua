@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Many obstacles, many nodes, many wires: the work of finding what touches, counted, and the same
--- results as where there are few.
+-- Many obstacles, nodes and wires: counts the work of finding touches, and compares results to those of
+-- few.
 local sw = require "softworld"
 local build = require "softworld.scene.build"
 
@@ -9,7 +9,7 @@ local function wire(scene, o)
     segments = o.segments or 40 }
 end
 
--- Every coordinate at so many places, exactly.
+-- Returns the exact coordinates of wires at 21 places each, as text.
 local function bits(...)
   local list = {}
   for _, w in ipairs{ ... } do
@@ -22,7 +22,7 @@ local function bits(...)
 end
 
 describe("many obstacles", function()
-  -- So many small boxes on a table, in a square, and a wire that comes down on some of them.
+  -- A square of `count` small boxes on a table, and a wire that comes down on some of them.
   local function bed(count)
     local s = sw.scene{}
     s:obstacle{ shape = "plane", friction = 0.3 }
@@ -34,7 +34,7 @@ describe("many obstacles", function()
     return s, wire(s, { from = { 0, 0.045, 0.03 }, to = { 0.3, 0.045, 0.03 }, segments = 60 })
   end
 
-  it("are not looked at one by one", function()
+  it("are not checked one by one", function()
     local function looks(count)
       local s = bed(count)
       local run = s:advance({ dt = 0.01 }, 0.1)
@@ -46,7 +46,7 @@ describe("many obstacles", function()
     assert.is_true(many < 0.1 * 1601 * 61 * steps, ("%d looks"):format(many))
   end)
 
-  it("are made without reading the list of all for each", function()
+  it("are added without reading the whole list for each", function()
     local s, list, reads = sw.scene{}, {}, 0
     build.data(s).obstacles = setmetatable({}, { __newindex = list, __len = function() return #list end,
       __index = function(_, k)
@@ -122,7 +122,7 @@ describe("many obstacles", function()
     end)
   end
 
-  it("have a row of their series for every step, touched or not", function()
+  it("have a row in their series for every step, touched or not", function()
     local s = sw.scene{}
     local plate = s:obstacle{ shape = "plane" }
     local far = s:obstacle{ shape = "sphere", radius = 0.01, at = { 3, 0, 0 } }
@@ -158,7 +158,7 @@ describe("many obstacles", function()
     assert.is_true(count > kept)
   end)
 
-  it("are met where a hand puts them, and after a snapshot", function()
+  it("are met where pose() puts them, and after a snapshot", function()
     local function run(others)
       local s = sw.scene{}
       local stop = s:obstacle{ shape = "box", size = { 0.2, 0.2, 0.02 }, at = { 3, 0, 0 } }
@@ -208,7 +208,7 @@ describe("many nodes that land at once", function()
 end)
 
 describe("wires that nothing couples", function()
-  -- One that is lifted off the table, one that swings, one that is thrown; nothing strikes.
+  -- One wire is lifted off the table, one swings, one is thrown; nothing strikes.
   local function three(s, k)
     local w
     if k == 1 then
@@ -235,12 +235,12 @@ describe("wires that nothing couples", function()
     return list, r
   end
 
-  it("go as they would alone, bit for bit", function()
+  it("move as they would alone, bit for bit", function()
     local together = run(1, 2, 3)
     for k = 1, 3 do assert.equal(bits(run(k)[1]), bits(together[k])) end
   end)
 
-  it("do so where they may touch each other but do not", function()
+  it("move the same where they may touch each other but do not", function()
     contact = true
     local together, all = run(1, 2, 3)
     contact = false
@@ -262,7 +262,7 @@ describe("wires that nothing couples", function()
     assert.is_true(all.iterations >= most)
   end)
 
-  it("keep what they touch when another one iterates longer", function()
+  it("keep their touches while another wire iterates longer", function()
     local s, low = sw.scene{}, {}
     local plate = s:obstacle{ shape = "plane", friction = 0.3 }
     for k = 1, 5 do
@@ -276,11 +276,10 @@ describe("wires that nothing couples", function()
     end
   end)
 
-  -- Twelve that fall aslant and strike in the same steps. A trial in which a wire strikes is redone,
-  -- so its friction need not agree there; and one that takes long must not halve the step of all:
-  -- five steps were rejected when it did. A strike of one makes all start anew: an error of time,
-  -- which was 15 um before, too.
-  it("strike as they would alone", function()
+  -- Twelve wires fall aslant and strike in the same steps. A trial in which a wire strikes is redone, so
+  -- its friction need not agree there. A trial that takes long must not halve the step of all wires (that
+  -- rejected five steps). The strike of one wire makes all start anew, which is an error of time: 15 um.
+  it("strike a table as they would alone", function()
     local draw, z = 1, {} -- heights of their ends [m]
     for i = 1, 24 do
       draw = draw * 16807 % 2147483647
@@ -305,7 +304,7 @@ describe("wires that nothing couples", function()
     end
   end)
 
-  it("are looked at for buckling with one linearisation", function()
+  it("are all checked for buckling with one linearisation", function()
     local s = sw.scene{}
     for k = 1, 6 do
       s:clamp(wire(s, { from = { 0, k, 0 }, to = { 0, k, 0.5 }, segments = 10 }), { s = 0 })

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire bent over what lies across it is drawn by three of its edges. No specs of its own.
+-- Draws a wire that is bent over an obstacle along by three of its edges. Contains no specs.
 local core = require "softworld.core"
 local vec = require "softworld.vec"
 
@@ -18,9 +18,10 @@ local function bent_path(slope, radius, round)
   return path
 end
 
---- Least, mean and largest pull over T. o.taut: T h^2/EI; o.angle: of the bend [rad]; o.round: radius of what
--- is below [m]; o.dt [s]; o.fine: so many times as many edges. All is seen turned by o.turn, from the other
--- end where o.swap is true. put(scene, see) puts what is below the origin, if o.first before the wire.
+--- Returns the least, mean and largest pull over T. o.taut: T h^2/EI; o.angle: of the bend [rad]; o.round:
+-- radius of the obstacle [m]; o.dt [s]; o.fine: factor on the number of edges; o.turn: of everything;
+-- o.swap: arc length counts from the other end. put(scene, see) adds the obstacle below the origin, before
+-- the wire if o.first.
 function drawn.pull(o, radius, put)
   local slope, q = o.angle / 2, o.turn or { 1, 0, 0, 0 }
   local function see(p) return vec.rotate(q, p) end
@@ -35,7 +36,7 @@ function drawn.pull(o, radius, put)
   local x, z = math.cos(slope), math.sin(slope)
   s:force{ kind = "point", on = w, s = o.swap and w.length or 0, force = see{ -T * x, 0, -T * z } }
   s:force{ kind = "damping", mass = 20, on = w }
-  local drag = 20 * 0.05 * w.length * H -- at the speed of an edge a second [N]
+  local drag = 20 * 0.05 * w.length * H -- damping force at one edge per second [N]
   local pin, dt = s:pin(w, { s = o.swap and 0 or w.length }), o.dt or 0.002
   assert(s:advance({ dt = dt }, 1).ok)
   pin:follow{ points = { { 0, 0, 0 }, see{ 3 * H * x, 0, -3 * H * z } }, relative = true, speed = H,

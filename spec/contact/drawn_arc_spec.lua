@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire drawn over a drum by a few points: its chords begin inside the drum, at other nodes with
--- every number of segments.
+-- The path of a wire over a drum is given by a few points. Its chords begin inside the drum, at other nodes
+-- for every number of segments.
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
 
 local R, W, DOWN = 0.06, 5, 0.25 -- radius of the drum [m], weight on the end [N], its depth [m]
 
-describe("a wire drawn over a drum by a few chords", function()
+describe("a wire whose path over a drum is a few chords", function()
   local cable = scenes.cable "GXL 1.5"
   local q = R + cable.radius
 
@@ -29,7 +29,7 @@ describe("a wire drawn over a drum by a few chords", function()
     return -pin:force()[1]
   end
 
-  -- Without friction the pull is W and the weight of the wire that hangs below the pin.
+  -- Without friction the pull is W plus the weight of the wire that hangs below the pin.
   local expected = W + 9.81 * cable.mass_per_length * (q + DOWN)
   for _, segments in ipairs{ 120, 160, 200, 240, 400 } do
     it(("is drawn with %d segments"):format(segments), function()

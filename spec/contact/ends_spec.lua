@@ -1,14 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire knows no direction: the same scene with arc length counted from the wire's other end gives the
--- same positions, to what rounding becomes in a few hundred iterations.
+-- A wire has no preferred direction: the same scene with arc length counted from the wire's other end gives
+-- the same positions. They differ by rounding, amplified over a few hundred iterations.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local A, B = { -0.2, -0.03, 0.004 }, { 0.2, 0.03, 0 }
 
--- Largest difference of places along the wire, of both ways to draw a scene: make(scene, from, to, place)
--- adds what is in it besides and gives the wire; place turns a share of the length into arc length.
+-- Returns the largest distance between the positions of a scene built in both directions. make(scene, from,
+-- to, place) builds the scene and returns the wire; place(wire, share) converts a share of the length into
+-- arc length.
 local function apart(make, duration)
   local function run(swapped)
     local scene = sw.scene{}
@@ -30,8 +31,8 @@ local function wire(scene, from, to)
   return scene:wire{ E = 2e7, density = 1400, radius = 0.002, from = from, to = to, segments = 24 }
 end
 
-describe("from its other end, a wire is the same", function()
-  for _, share in ipairs{ 0.32, 0.43, 0.55 } do -- nodes have other masses beside a clamp in mid-wire
+describe("a wire has the same positions when counted from its other end:", function()
+  for _, share in ipairs{ 0.32, 0.43, 0.55 } do -- unequal node masses beside the clamp
     it(("over an edge beside a clamp at %g of its length"):format(share), function()
       t.below(1e-7, apart(function(scene, from, to, place)
         scene:obstacle{ shape = "box", size = { 0.01, 0.2, 0.02 }, friction = 0.4,
@@ -44,7 +45,7 @@ describe("from its other end, a wire is the same", function()
     end)
   end
 
-  for _, speed in ipairs{ 0.07, 0.1 } do -- nodes come out of the feed, and push those that do not touch
+  for _, speed in ipairs{ 0.07, 0.1 } do -- nodes leave the feed and push others
     it(("paid out over an edge at %g m/s"):format(speed), function()
       t.below(1e-7, apart(function(scene, from, to, place)
         scene:obstacle{ shape = "box", size = { 0.03, 0.2, 0.02 }, friction = 0.2, at = { 0.12, 0, -0.0152 } }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Explicit integrators in contact: friction holds, lets slide and carries along as Coulomb says,
--- whenever within a step the method looks at it.
+-- Explicit integrators in contact. Friction sticks, slides and carries along as Coulomb's law says, at
+-- whichever instants of a step the method evaluates it.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -25,17 +25,17 @@ describe("friction in explicit steps", function()
         local scene, wire = lying(math.tan(STEEP) / share, STEEP)
         t.fine(scene:run{ duration = time, dt = 2e-5, integrator = method })
         local way = wire:position(0.05)[1] - 0.05
-        -- explicit contact bounces on its springs undamped, so that what holds slips a little each
-        -- time the normal force is low; without friction it would go 88 mm
+        -- explicit contact bounces on its springs without damping, so a sticking wire slips a little
+        -- whenever the normal force is low; without friction it would move 88 mm
         if holds then t.near(0, way, 1e-4, "way") end
-        -- what it is late by at the start, when nothing presses yet, is 1 to 2 % of the way
+        -- sliding starts late, because nothing presses at first: 1 to 2 % of the way
         if not holds then
           t.share(0.5 * time ^ 2 * G * math.sin(STEEP) * (1 - 1 / share), way, 0.02, "way")
         end
       end
     end)
 
-    it("carries along what lies on a belt, by " .. method, function()
+    it("carries a wire along with a belt, by " .. method, function()
       local scene, wire, board = lying(0.5, 0)
       board:follow{ points = { { 0, 0, -0.05 }, { 0.01, 0, -0.05 } }, duration = 0.2 }
       t.fine(scene:run{ duration = 0.22, dt = 2e-5, integrator = method })
@@ -43,7 +43,7 @@ describe("friction in explicit steps", function()
     end)
   end
 
-  it("lifts a rod between pads, which press as in implicit steps", function()
+  it("lifts a rod between pads with the same squeeze as implicit steps", function()
     local squeeze = {}
     for method, dt in pairs{ ["symplectic-euler"] = 1e-5, ["velocity-verlet"] = 5e-6, ["tr-bdf2"] = 2e-3 } do
       local scene = sw.scene{ gravity = { 0, 0, -G } }

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Coulomb friction of a wire on a table: what is pulled below mu N holds for as
--- long as one likes, what is pulled harder slides with (F - mu N)/m.
+-- Coulomb friction of a wire on a table. A wire pulled by less than mu N holds for any time; one that is
+-- pulled harder slides with (F - mu N)/m.
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
 
 local G, MASS, MU = 9.81, 0.03, 0.3
 local WEIGHT = MASS * G -- of the 1 m wire [N]
-local CREEP = 10e-6     -- most drift of a held wire in 100 s [m]
+local CREEP = 10e-6     -- largest drift of a held wire in 100 s [m]
 local SLIDE = 0.01      -- relative error of a sliding acceleration [-]
 
 local function pulled(share, options)
@@ -16,7 +16,7 @@ local function pulled(share, options)
   return s, w, L
 end
 
-describe("a wire on a table, pulled along", function()
+describe("a wire on a table", function()
   for _, share in ipairs{ 0.5, 0.9, 0.98 } do
     it(("holds %g mu N for 100 s"):format(share), function()
       local s, w, L = pulled(share)
@@ -24,8 +24,7 @@ describe("a wire on a table, pulled along", function()
       local at10 = w:position(L)[1]
       s:advance({ dt = 0.01 }, 110)
       assert.is_true(math.abs(w:position(L)[1] - at10) < CREEP)
-      -- what it gave way at first is the wire's own stretch, F L/(2 EA) at most,
-      -- and the friction springs
+      -- at first the wire gives way by its own stretch, F L/(2 EA) at most, and by the friction springs
       assert.is_true(at10 - L < 2e-4, "gave way " .. at10 - L)
     end)
   end
@@ -33,7 +32,7 @@ describe("a wire on a table, pulled along", function()
   for _, share in ipairs{ 1.02, 1.2, 2 } do
     it(("slides at %g mu N"):format(share), function()
       local s, w, L = pulled(share)
-      s:advance({ dt = 0.01 }, 1.5) -- past the start, in which slip spreads
+      s:advance({ dt = 0.01 }, 1.5) -- past the start, while slip spreads
       local v0, t0 = w:velocity(L / 2)[1], s.time
       s:advance({ dt = 0.01 }, 2.5)
       local a = (w:velocity(L / 2)[1] - v0) / (s.time - t0)
@@ -43,7 +42,7 @@ describe("a wire on a table, pulled along", function()
     end)
   end
 
-  it("slides across as it does along", function()
+  it("slides sideways with the same friction", function()
     local s, w = scenes.lying()
     s:advance({ dt = 0.01 }, 0.5)
     s:force{ kind = "line", on = w, force = { 0, 1.5 * MU * WEIGHT, 0 } }
@@ -67,7 +66,7 @@ describe("a wire on a table, pulled along", function()
     assert.is_true(math.abs(w:velocity(0.5)[1]) < 1e-6)
   end)
 
-  it("is at rest once it has stopped, wherever in a step it does", function()
+  it("stays at rest once it has stopped, at whatever instant of a step", function()
     for _, wire in ipairs{ scenes.wire, scenes.cable "GXL 1.5" } do
       for _, dt in ipairs{ 0.02, 0.01, 0.005, 0.002 } do
         for k = 0, 20 do
@@ -114,9 +113,9 @@ describe("a wire on a table, pulled along", function()
   end)
 end)
 
--- A wire on a slope, tan of it below and above mu. It holds: friction's spring gives way by the share of
--- its 1000 m/hbar^2 that holds the weight, less than g h^2/1000. It slides by the formula, to what the
--- first step does not know, h over the time.
+-- A wire on a slope whose tangent is below or above mu. Below, it holds: friction's spring of 1000 m/hbar^2
+-- gives way under the weight by less than g h^2/1000. Above, it slides by the formula; the first step
+-- causes a relative error of h over the time.
 describe("a cable on a slope, in steps of any size", function()
   for _, segments in ipairs{ 10, 40 } do
     for _, dt in ipairs{ 2e-2, 1e-2, 1e-3, 1e-4, 5e-5, 2e-5 } do

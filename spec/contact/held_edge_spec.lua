@@ -1,11 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire that leaves a clamp over an edge or a peg nearby: the clamp is below the face that ends at the
--- edge, but in no obstacle. Depth on the edge beside it is not the clamp's doing, and is pushed out.
+-- A wire leaves a clamp over an edge or a peg nearby. The clamp is below the face that ends at the edge,
+-- but inside no obstacle. The clamp therefore does not impose the depth on the edge beside it, and this
+-- depth is pushed out.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
-local share = 0.43 -- of the wire, where the clamp is [-]
+local share = 0.43 -- place of the clamp over the wire's length [-]
 local x = -0.2 + 0.4 * share - 0.011
 local obstacles = {
   ["a narrow box"] = { shape = "box", size = { 0.01, 0.2, 0.02 }, at = { x, 0, -0.0123 } },

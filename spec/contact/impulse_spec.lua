@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What obstacles get: over any time weight times time plus the change of momentum, blows included,
--- by every integrator, to rounding, which is that of speeds in steps of nanoseconds.
+-- The impulse on obstacles over any time is weight times time less the change of momentum, blows included.
+-- This holds for every integrator, to the rounding of speeds in steps of nanoseconds.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local core = sw.core
@@ -15,7 +15,7 @@ local function rotated(q, v) -- unit quaternion {w, x, y, z}
   return { v[1] + 2 * (q[1] * c[1] + d[1]), v[2] + 2 * (q[1] * c[2] + d[2]), v[3] + 2 * (q[1] * c[3] + d[3]) }
 end
 
--- A wire thrown on a table with a step in it; all of it turned by q. Returns scene, wire, obstacles, gravity.
+-- Throws a wire on a table with a step in it, all turned by q. Returns scene, wire, obstacles, gravity.
 local function thrown(o)
   local q = o.q or { 1, 0, 0, 0 }
   local gravity = rotated(q, { 0, 0, -G })
@@ -40,7 +40,8 @@ local function sum_of(parts, t1, t2)
   return sum
 end
 
--- Is what the obstacles got what the wire lost? momentum: function. Shares of weight times time.
+-- Checks that the impulse on the obstacles equals what the wires lost, in shares of weight times time.
+-- momentum: a function. Returns the impulse, and its size as a share.
 local function balanced(mass, gravity, parts, scene, momentum, run, what)
   local before, from = momentum(), scene.time
   run()
@@ -65,13 +66,13 @@ local function check(o)
       tolerance = o.tolerance })
     rejected = run.rejected
   end, what)
-  t.above(0.9, share, what .. ": something struck") -- it came at 1 m/s, which is 0.1 s of its weight
+  t.above(0.9, share, what .. ": something struck") -- it arrived at 1 m/s: 0.1 s of its weight
   return rejected
 end
 
-describe("the force on obstacles adds up to the momentum", function()
+describe("the impulse on obstacles balances the momentum:", function()
   local methods = {}
-  for _, method in ipairs(core.registry().integrators) do -- generalized-alpha: not for contact, and says so
+  for _, method in ipairs(core.registry().integrators) do -- generalized-alpha is not for contact
     if method.name ~= "generalized-alpha" then methods[#methods + 1] = method end
   end
   for _, method in ipairs(methods) do
@@ -81,7 +82,7 @@ describe("the force on obstacles adds up to the momentum", function()
           check{ method = method.name, e = e, dt = 2e-5, duration = 0.08 }
         else
           for _, dt in ipairs{ 0.02, 0.005, 0.001 } do
-            local midpoint = method.name == "implicit-midpoint" -- not for contact: for a short while
+            local midpoint = method.name == "implicit-midpoint" -- not for contact: a short time only
             if not midpoint or dt == 0.001 then
               check{ method = method.name, e = e, dt = dt, duration = midpoint and 0.03 or nil }
             end
@@ -91,7 +92,7 @@ describe("the force on obstacles adds up to the momentum", function()
     end)
   end
 
-  it("in short steps, turned scenes, of stiff cables, of wires that roll, with steps redone", function()
+  it("in short steps, in turned scenes, with stiff cables, rolling wires and redone steps", function()
     local random, redone = t.random(3), 0
     for _, e in ipairs{ 0, 0.8 } do
       redone = redone + check{ method = "tr-bdf2", e = e, dt = 1e-4, duration = 0.1 }
@@ -108,7 +109,7 @@ describe("the force on obstacles adds up to the momentum", function()
     t.above(0, redone, "steps redone")
   end)
 
-  it("of obstacles that move", function()
+  it("with obstacles that move", function()
     for _, e in ipairs{ 0, 0.8 } do
       local scene, wire, parts, gravity = thrown{ e = e, wire = { cable = "GXL 1.5" } }
       parts[2]:follow{ points = { { 0.1, 0, 0.005 }, { 0.1, 0.05, 0.06 } }, duration = 0.1, law = "linear" }
@@ -117,7 +118,7 @@ describe("the force on obstacles adds up to the momentum", function()
     end
   end)
 
-  it("of particles and of meshes", function()
+  it("with particles and meshes", function()
     local scene = sw.scene{}
     local parts = { scene:obstacle{ shape = "plane", friction = 0.3, restitution = 0.5 } }
     local object = scene:particles{ positions = { 0, 0, 0.02, 0.1, 0, 0.03, 0.2, 0, 0.03, 0.1, 0.1, 0.04 },
@@ -141,7 +142,7 @@ describe("the force on obstacles adds up to the momentum", function()
     t.share(mass_of(wire) * G, parts[1]:over(0.9, 1).mean_force, 0.05, "at rest")
   end)
 
-  it("of a gripper's pads", function()
+  it("with a gripper's pads", function()
     local scene, r = sw.scene{}, 0.003
     local table_ = scene:obstacle{ shape = "plane", friction = 0.3 }
     local wire = scene:wire{ E = 2e7, nu = 0.4, density = 1200, radius = r, from = { 0, 0, r },
@@ -163,7 +164,7 @@ describe("the force on obstacles adds up to the momentum", function()
 end)
 
 describe("an obstacle's force", function()
-  it("is the mean over the last step, and in the series", function()
+  it("is the mean over the last step, and is in the series", function()
     local scene, _, parts = thrown{ e = 0.8 }
     local run = t.fine(scene:run{ duration = 0.1, dt = 0.004 })
     local rows, n = parts[1]:log()
@@ -178,7 +179,7 @@ describe("an obstacle's force", function()
     t.above(10 * mass_of(scene:find "wire1") * G, largest, "the blow")
   end)
 
-  it("over parts of the time adds up, whatever the parts", function()
+  it("adds up over parts of the time, whatever the parts", function()
     local scene, _, parts = thrown{ e = 0.8 }
     t.fine(scene:run{ duration = 0.2, dt = 0.004 })
     local all = parts[1]:over()
@@ -188,7 +189,7 @@ describe("an obstacle's force", function()
     t.near(all.mean_force * 0.2, one.mean_force * one.duration + two.mean_force * two.duration, 1e-12, "mean")
   end)
 
-  it("is that of the state at rest", function()
+  it("is that of the equilibrium after settling", function()
     local scene = sw.scene{}
     local plane = scene:obstacle{ shape = "plane" }
     local wire = scene:wire{ E = 1e6, density = 1200, radius = 0.003, from = { 0, 0, 0.003 },
@@ -201,7 +202,7 @@ describe("an obstacle's force", function()
     assert.are.equal("at rest", plane:over().peak_force_note)
   end)
 
-  it("goes on to the bit from snapshots and files", function()
+  it("goes on to the same bits from snapshots and files", function()
     for _, method in ipairs{ "tr-bdf2", "bdf2" } do
       local function begun()
         local scene, wire, parts = thrown{ e = 0.8 }
@@ -229,7 +230,7 @@ describe("an obstacle's force", function()
     end
   end)
 
-  it("refuses what makes no sense", function()
+  it("refuses arguments that make no sense", function()
     local scene, _, parts = thrown{ e = 0 }
     t.fine(scene:run{ duration = 0.01 })
     local function refused(text, ...)

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What contact costs: friction follows the normal forces, and touches that pull open, within one
--- linearisation. Counts of iterations, which are the same on every machine.
+-- The cost of contact. Within one linearisation, friction follows the normal forces, and touches that pull
+-- open. Counts of iterations are the same on every machine.
 package.path = "./?.lua;" .. package.path
 local cases = require "softworld.cases"
 local core = require "softworld.core"
 local scenes = require "spec.contact.scenes"
 
--- Laying over three walls with all friction coefficients and numbers of segments, added up.
+-- Lays a wire over three walls with every friction coefficient and number of segments. Returns the sums.
 local function laid()
   local sum = { steps = 0, iterations = 0, rejected = 0, redone = 0, depth = 0, tension = 0 }
   for _, n in ipairs{ 50, 100 } do
@@ -33,22 +33,22 @@ describe("laying over walls at the default step", function()
     assert.is_true(each < 4.5, each .. " iterations a step")
   end)
 
-  it("needs the referee in less than one step of a hundred", function()
+  it("redoes less than one step in a hundred", function()
     local share = sum.redone / sum.steps
     assert.is_true(share < 0.01, 100 * share .. " % of the steps were redone")
     assert.is_true(sum.rejected < 0.01 * sum.steps, sum.rejected .. " steps were rejected")
   end)
 
-  it("stays above the walls, without a spike", function()
+  it("stays above the walls, without a spike of tension", function()
     assert.is_true(sum.depth < 1e-4, sum.depth .. " m deep")
     assert.is_true(sum.tension < 3, sum.tension .. " N") -- the wire weighs 0.29 N
   end)
 end)
 
 describe("a wire that begins to slide", function()
-  -- Lengthwise on a cylinder, off its top: all of it moves alike. Where it lies at first its
-  -- friction has no direction but that of rounding.
-  it("stays straight, and gains what gravity less friction gives", function()
+  -- Lengthwise on a cylinder, off its top: the whole wire moves alike. At the start only rounding gives its
+  -- friction a direction.
+  it("stays straight and gains the speed that gravity less friction gives", function()
     local R, r, mu, h = 0.05, 0.0025, 0.3, 0.005
     local s = core.scene{}
     s:obstacle{ shape = "cylinder", radius = R, length = 1, friction = mu,
@@ -70,15 +70,15 @@ describe("a wire that begins to slide", function()
 end)
 
 describe("a long wire that lands flat on a table", function()
-  -- Its nodes are metres from the origin: what places are rounded by is more than what friction's
-  -- spring is told by, and no shift.
-  it("finds no friction in what places are rounded by", function()
+  -- Its nodes are metres from the origin, so the rounding of their places is larger than the shift to which
+  -- friction's spring responds. It is no real shift.
+  it("shows no friction from the rounding of places", function()
     local s = core.scene{}
     s:obstacle{ shape = "plane", friction = 0.3 }
     local w = scenes.add_wire(s, { 0, 0, 0.01 }, { 20, 0, 0.01 }, 2000)
     assert.is_true(s:advance({ dt = 0.01 }, 0.03).ok)
     local row = s:advance({ dt = 0.01 }, 0.04)
-    -- the landing is followed in parts; two iterations each
+    -- the landing is followed in parts (substeps) of two iterations each
     assert.is_true(row.ok and row.iterations < 3 * row.steps,
       ("%d iterations in %d steps"):format(row.iterations, row.steps))
     local most = 0

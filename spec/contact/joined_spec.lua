@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A touch that is made stiffer in a step lets its wire out, and does work by that. Of lines it was not
--- counted: such steps were refused as energy from nowhere, the short steps instead let the wire sink in, and
--- joints that lie on a table cost 20 times the iterations (33,942 in 2,062 steps) at a depth of 110 um.
+-- A touch that becomes stiffer in a step lets its wire out and thereby does work. For joined wires this
+-- work was not counted once: such steps were refused as energy from nowhere, the short steps taken instead
+-- let the wire sink in, and joints that lie on a table cost 20 times the iterations (33,942 in 2,062 steps)
+-- at a depth of 110 um.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -10,7 +11,7 @@ local RADIUS = 0.0015
 local stiff = { EA = 1e5, EI = 1.3e-3, GJ = 1.6e-3, mass_per_length = 0.02, radius = RADIUS }
 local soft = { E = 5e6, density = 1500, radius = RADIUS }
 
--- A trunk along x and branches from its end, on a table, all joined there; the branches' far ends are lifted
+-- A trunk along x and branches from its end lie on a table, joined there. The branches' far ends are lifted
 -- and brought nearer.
 local function lifted(material, branches, friction)
   local scene = sw.scene{}
@@ -41,7 +42,7 @@ end
 describe("wires that are joined on a table", function()
   for name, case in pairs{ ["stiff, two branches, rough"] = { stiff, 2, 0.3 },
     ["stiff, one branch, smooth"] = { stiff, 1, 0 }, ["soft, one branch, smooth"] = { soft, 1, 0 } } do
-    it("are lifted in steps that are hardly ever refused: " .. name, function()
+    it("are lifted with few refused steps: " .. name, function()
       local run, depth = lifted(table.unpack(case))
       t.below(0.02, run.rejected / run.steps, "steps refused [-]")
       t.below(8, run.iterations / run.steps, "iterations of a step")

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Objects of particles touch wires, each other and themselves: statics, friction, momentum and energy
--- of collisions, what is kept when a scene is saved or changed.
+-- Objects of particles that touch wires, each other and themselves: statics, friction, momentum and energy
+-- of collisions, and the state after saving or changing a scene.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local G, R = 9.81, 1e-3
 
--- Rotation of all points and vectors of a scene about an axis that is none of its own.
+-- Returns a rotation of points and vectors about an axis that is no coordinate axis.
 local function turner(angle)
   local c, s, k = math.cos(angle), math.sin(angle), 1 / math.sqrt(3)
   return function(v)
@@ -19,7 +19,7 @@ end
 
 local straight = turner(0)
 
--- A block of n x n x n particles a side apart, its lowest layer's middle at the given place.
+-- A block of n x n x n particles, `side` apart; o.at is the middle of its lowest layer.
 local function block(scene, o)
   local n, side, turn, positions, hexes = o.n or 4, o.side or 4 * R, o.turn or straight, {}, {}
   local function number(i, j, k) return (k * n + j) * n + i + 1 end
@@ -57,8 +57,8 @@ end
 local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 
 describe("an object of particles", function()
-  -- The wires' ends carry both weights; the wires, that of the block. Also where no particle is over a
-  -- wire, and with steps that are long or short.
+  -- The wires' ends carry both weights; the wires carry the block's. Cases: also no particle above a wire,
+  -- and long and short steps.
   for _, case in ipairs{ { 0, 0.01 }, { 0, 2e-3 }, { 0.7, 5e-3, y = 0.4 * R }, { 2.1, 0.01, y = R } } do
     it(("falls on two wires, turned by %g, in steps of %g s"):format(case[1], case[2]), function()
       local turn, wires, ends = turner(case[1]), {}, {}
@@ -80,7 +80,7 @@ describe("an object of particles", function()
         load = load + dot(touch.force, up)
       end
       local weight = 2e-3 * G
-      -- what still swings has died away by 20 /s: far below a thousandth
+      -- the remaining swing has decayed at 20 /s, far below a thousandth
       t.share(weight, load, 0.01, "weight on the wires")
       for _, hold in ipairs(ends) do all = all + dot(hold:force(), up) end
       t.share(weight + 2 * wires[1].beam.mass_per_length * 0.2 * G, all, 0.01, "weight on the clamps")
@@ -88,7 +88,7 @@ describe("an object of particles", function()
     end)
   end
 
-  it("is kept up by a wire with explicit methods too", function()
+  it("is carried by a wire with explicit methods too", function()
     for _, method in ipairs{ "symplectic-euler", "velocity-verlet" } do
       local scene = sw.scene{ gravity = { 0, 0, -G } }
       local wire = scene:wire{ model = "string", E = 1e7, density = 1200, radius = R, from = { -0.02, 0, 0 },
@@ -100,12 +100,12 @@ describe("an object of particles", function()
         links = { { 1, 2, k = 100 } }, radius = R }
       scene:wire_contact{ friction = 0.3 }
       t.fine(scene:run{ duration = 0.02, dt = 2e-5, integrator = method })
-      -- free, it would have fallen by 2 mm
+      -- in free fall the object would have fallen by 2 mm
       t.above(1.6 * R, (object:particle(1))[3], method .. ": height")
     end
   end)
 
-  it("slides along wires as Coulomb has it", function()
+  it("slides along wires as Coulomb's law says", function()
     for _, share in ipairs{ 0.95, 1.1 } do
       local mu, a = 0.4, math.atan(0.4 * share)
       local scene = sw.scene{ gravity = { 0, 0, -G } }
@@ -125,10 +125,10 @@ describe("an object of particles", function()
       local way = (object:particle(1))[1] - x
       local free = 0.5 * G * (math.sin(a) - mu * math.cos(a)) * time ^ 2
       if share < 1 then
-        -- friction's springs of an object of 64 are 64 times softer than its touches
+        -- the friction springs of an object of 64 particles are 64 times softer than its touches
         t.below(50e-6, math.abs(way), "way of what sticks [m]")
       else
-        t.share(free, way, 0.06, "way of what slides") -- a speed of 1.5 mm/s comes with the springs
+        t.share(free, way, 0.06, "way of what slides") -- the springs add 1.5 mm/s
       end
     end
   end)
@@ -151,21 +151,21 @@ describe("an object of particles", function()
         t.below(1e-2, ledger.gained / before, "energy made")
       end
       assert.is_true(touched)
-      -- forces are opposite and equal: what momentum changes by is rounding
+      -- forces are equal and opposite: momentum changes by rounding only
       local p, q, whole = momentum(one, mass[1]), momentum(two, mass[2]), turn{ mass[1] * v, 0, 0 }
       for k = 1, 3 do t.near(whole[k], p[k] + q[k], 1e-7 * mass[1] * v, "momentum") end
-      -- one that is struck goes on faster than what struck it, or as fast
+      -- the struck object moves at least as fast as the one that struck it
       local along = turn{ 1, 0, 0 }
       t.above(dot(p, along) / mass[1] - 1e-3 * v, dot(q, along) / mass[2], "speed of what was struck")
-      -- no faster than elastic balls would make it
+      -- and no faster than an elastic impact of balls would make it
       t.below(1.001 * 2 * mass[1] / (mass[1] + mass[2]) * v, dot(q, along) / mass[2], "speed")
       t.below(before, scene:energy().kinetic, "kinetic energy")
     end)
   end
 
-  -- The wires are between rows of particles, so that edges of the block lie on them: both axes are 2 R
-  -- apart there, and the middle between the surfaces is R from the wire's.
-  it("tells where its edges touch", function()
+  -- The wires are between rows of particles, so edges of the block lie on them. There both axes are 2 R
+  -- apart, and the middle between the surfaces is R from the wire's axis.
+  it("reports where its edges touch a wire", function()
     local scene, wires = sw.scene{ gravity = { 0, 0, -G } }, {}
     scene:force{ kind = "damping", mass = 20 }
     for _, y in ipairs{ -4 * R, 4 * R } do
@@ -206,7 +206,7 @@ describe("an object of particles", function()
   end)
 
   it("does not pass through itself", function()
-    -- a strip 10 cells long whose ends are brought together, one above the other
+    -- a strip of 20 cells whose ends are brought together, one above the other
     local positions, links, n = {}, {}, 21
     for i = 0, n - 1 do
       for j = 0, 1 do positions[#positions + 1] = { i * 4 * R, j * 4 * R, 0 } end
@@ -229,7 +229,7 @@ describe("an object of particles", function()
     t.fine(scene:run{ duration = 1.5, dt = 5e-3 })
     assert.is_true(scene:contacts() > 20)
     t.below(0.1 * R, (scene:penetration()), "penetration")
-    -- of its upper part nothing is below the lower one's surface
+    -- no particle of the upper part is below the surface of the lower part
     local upper = 0
     for k = 1, 2 * n do
       local x = strip:particle(k)
@@ -239,7 +239,7 @@ describe("an object of particles", function()
     t.above(5, upper, "particles of the upper layer")
   end)
 
-  it("goes on alike after a snapshot, a saved file and a change of the scene", function()
+  it("goes on the same after a snapshot, a saved file and a change of the scene", function()
     local function make()
       local scene = sw.scene{ gravity = { 0.3, 0, -G } }
       scene:force{ kind = "damping", mass = 10 }
@@ -269,14 +269,14 @@ describe("an object of particles", function()
     assert.equal(touches, other:contacts())
     t.fine(other:run{ duration = 0.1, dt = 5e-3 })
     assert.same(ways[1], other:find("block"):positions())
-    -- another hold makes a new system; friction's springs outlive it, so nothing jumps
+    -- another hold makes a new system; friction's springs are kept, so nothing jumps
     scene:hold(object, { particles = { 64 } })
     local x = object:particle(1)
     t.fine(scene:run{ duration = 5e-3, dt = 5e-3 })
     t.near(x[1], (object:particle(1))[1], 1e-4, "place")
   end)
 
-  it("is refused with sections of meshes, and says so", function()
+  it("is refused wire contact with a tube, which is a mesh of particles", function()
     local scene = sw.scene{}
     local tube = scene:wire{ model = "tube", E = 1e6, density = 1000, radius = R, from = { 0, 0, 1 },
       to = { 0.02, 0, 1 } }

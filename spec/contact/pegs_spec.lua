@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pegs and rings are often thinner than a wire's edges are long. A wire meets them with its smooth curve: no
--- place along an edge of it holds better than another.
+-- Pegs and rings are often thinner than the wire's edges are long. The wire meets them with its smooth
+-- curve, so no place along an edge holds better than another.
 local vec = require "softworld.vec"
 local drawing = require "contact.drawn"
 
 local H = drawing.H
-local WIRE = 0.0005 -- its radius [m]
+local WIRE = 0.0005 -- the wire's radius [m]
 
 local flat = { axis = { 1, 0, 0 }, angle = math.pi / 2 }
 local function rod(shape, r)
@@ -14,7 +14,7 @@ end
 local shapes = {
   cylinder = function(r) return rod("cylinder", r) end,
   capsule = function(r) return rod("capsule", r) end,
-  -- the wire lies in the hole, on the lowest place of the tube
+  -- the wire lies in the hole, on the lowest point of the tube
   ring = function(r)
     return { shape = "torus", radius = 0.2, tube = r, at = { 0, 0, 0.2 - r },
       rotation = { axis = { 0, 1, 0 }, angle = math.pi / 2 } }
@@ -37,13 +37,13 @@ local function check(o, bound)
   local least, mean, most = drawn(o)
   local text = ("%.4f to %.4f of the pull, mean %.4f"):format(least, most, mean)
   print("measured: " .. text)
-  local off = math.max(0.002, 0.4 * bound) -- of the mean
+  local off = math.max(0.002, 0.4 * bound) -- allowed error of the mean
   assert.is_true(math.abs(mean - 1) < off and least > 1 - bound and most < 1 + bound, text)
 end
 
-describe("a thin peg without friction", function()
-  -- T h^2/EI, radius over edge. By chords the pull swings by 10 to 15 % at 0.05, 15 to 47 % at 0.5, 11 to
-  -- 96 % at 2.
+describe("a thin peg (without friction unless mu is given)", function()
+  -- Cases: T h^2/EI, radius over edge length. With chords the pull swings by 10 to 15 % at T h^2/EI = 0.05,
+  -- by 15 to 47 % at 0.5, and by 11 to 96 % at 2.
   for _, case in ipairs{ { 0.05, 0.1 }, { 0.05, 0.3 }, { 0.05, 0.5 }, { 0.05, 0.8 } } do
     it(("lets a stiff wire slide: T h^2/EI %g, radius of %g edges"):format(case[1], case[2]), function()
       check({ taut = case[1], part = case[2] }, 0.01)
@@ -54,8 +54,8 @@ describe("a thin peg without friction", function()
       check({ taut = case[1], part = case[2] }, 0.1)
     end)
   end
-  -- Thicker ones, as long as the wire does not go round them. By chords the pull swings by 5 to 16 % at 0.05,
-  -- by 17 to 21 % at 0.5, by 4 to 6 % at 2 and 30 degrees.
+  -- Thicker pegs, as long as the wire does not wrap round them. With chords the pull swings by 5 to 16 % at
+  -- 0.05, by 17 to 21 % at 0.5, and by 4 to 6 % at 2 and 30 degrees.
   for _, case in ipairs{ { 0.05, 1 }, { 0.05, 1.5 }, { 0.05, 2 }, { 0.05, 3.5 }, { 0.5, 1 }, { 0.5, 1.2 } } do
     it(("lets a wire slide if thicker: T h^2/EI %g, radius of %g edges"):format(case[1], case[2]), function()
       check({ taut = case[1], part = case[2] }, 0.005)
@@ -66,8 +66,9 @@ describe("a thin peg without friction", function()
       check({ taut = 2, part = part, angle = 30 }, 0.01)
     end)
   end
-  -- Thicker than four edges, as long as it does not begin to go round. By chords the pull swings
-  -- by 0.5 to 0.7 %, and steps by tolerance follow each blow: 12 times as many iterations on edges of R/10.
+  -- Pegs thicker than four edges, as long as the wire does not begin to wrap. With chords the pull swings
+  -- by 0.5 to 0.7 %, and steps chosen by tolerance follow each blow: 12 times as many iterations with edges
+  -- of R/10.
   for _, part in ipairs{ 5, 6, 8 } do
     it(("lets a wire slide if it only leans on it: radius of %g edges"):format(part), function()
       check({ taut = 0.05, part = part, angle = 20 }, 0.002)
@@ -80,15 +81,15 @@ describe("a thin peg without friction", function()
     ["all turned"] = { turn = vec.turn({ 0.6, 0, 0.8 }, 1.1) },
     ["the mesh shifted"] = { fine = 41 / 40 },
   } do
-    it("does so with " .. name, function()
+    it("lets a wire slide: " .. name, function()
       o.taut, o.part = 0.2, 0.7
       check(o, o.bound or 0.03)
     end)
   end
 
-  -- Where it is stiff it touches in one place, and friction there does not know of its edges.
+  -- A stiff wire touches in one place, so friction there does not depend on the edges.
   for _, mu in ipairs{ 0.1, 0.3 } do
-    it("rubs alike at any edges: mu " .. mu, function()
+    it("has the same friction on coarse and fine edges: mu " .. mu, function()
       local function pull(fine)
         local _, mean = drawn{ taut = 0.05, angle = math.rad(60), radius = 0.5 * H, mu = mu, fine = fine }
         return mean

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire on a floor, pushed by a wall that gains speed steadily: struck once, it goes on with
+-- A wire on a floor is struck and pushed by a wall of constant acceleration a. From then on it moves with
 -- the wall, which presses with m (a + mu g).
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
@@ -34,8 +34,8 @@ describe("a wall that gains speed", function()
     end
   end
 
-  it("strikes with the speed it has when it gets there", function()
-    -- without friction it may leave the wall again, but not by more than a step's gain
+  it("strikes with the speed that it has on arrival", function()
+    -- without friction the wire may leave the wall again, by no more than the wall gains in a step
     for _, dt in ipairs{ 0.01, 0.005 } do
       local s, w = pushed{ friction = 0, a = 1, dt = dt, gap = 0.001 }
       assert.is_true(s:advance({ dt = dt }, 0.15).ok)
@@ -48,16 +48,15 @@ describe("a wall that gains speed", function()
   end)
 end)
 
--- A table is lifted by H in T, s(u) = 10 u^3 - 15 u^4 + 6 u^5 with u = t/T, and slows down by more than
--- G. What lies on it leaves where H s" = -G T^2 and flies: its height when the table stops is that of a
--- throw. A wire that was held back by what it leaves would be lower, the more the smaller the steps: by
--- 1.3 mm of 6.8 once, at 0.4 ms. In the step h in which it leaves the acceleration is known to its change
--- in that step, jerk times h, so the speed to half of that times h, and the height to that times the time
--- that is left.
+-- A table is lifted by H in time T, s(u) = 10 u^3 - 15 u^4 + 6 u^5 with u = t/T, and decelerates by more
+-- than G. A wire on it leaves where H s" = -G T^2 and flies, so its height when the table stops is that of
+-- a throw. A wire that the table holds back is lower, the more the smaller the steps (a fault: by 1.3 mm of
+-- 6.8 mm at 0.4 ms). In the step h in which the wire leaves, its acceleration is known to jerk times h, its
+-- speed to half of that times h, and its height to that times the remaining time.
 describe("a wire on a table that stops", function()
   local START = 0.1
 
-  -- The height of the throw [m], and what it is known to, over the square of the step [m/s2].
+  -- Returns the height of the throw [m], and its allowed error over the square of the step [m/s2].
   local function thrown(H, T)
     local low, high = 0.5, 0.75
     for _ = 1, 60 do
@@ -85,11 +84,11 @@ describe("a wire on a table that stops", function()
   end
 
   local steps = { [20] = { 2e-2, 1e-2, 5e-3, 2e-3, 5e-4, 4e-4, 3.125e-4, 1e-4 }, [150] = { 4e-4 } }
-  local rods = { { 0.0015, 0 }, { 0.0015, 0.4 }, { 0.003, 0 }, { 0.003, 0.4 } } -- radius, friction
+  local rods = { { 0.0015, 0 }, { 0.0015, 0.4 }, { 0.003, 0 }, { 0.003, 0.4 } } -- radius [m], friction [-]
   for k, H in ipairs{ 0.08, 0.1, 0.12 } do
     for i, T in ipairs{ 0.17, 0.2 } do
       for n, rod in ipairs(rods) do
-        if (k == 2 and i == 2) or n == 1 + (k + i) % 4 then -- one of them with every throw, all with one
+        if (k == 2 and i == 2) or n == 1 + (k + i) % 4 then -- each throw with one rod, one throw with all
           local o = { H = H, T = T, radius = rod[1], friction = rod[2] }
           it(("is thrown, %g mm in %g s, radius %g mm, mu %g"):format(1e3 * H, T, 1e3 * rod[1], rod[2]),
             function()
@@ -98,7 +97,7 @@ describe("a wire on a table that stops", function()
                 for _, dt in ipairs(list) do
                   local off = flown(o, segments, dt) - exact
                   local what = ("%d edges, %g s: %g m off, %.3g h^2"):format(segments, dt, off, off / dt ^ 2)
-                  -- a tenth more, for the jerk changes too; what it lay deep, 2 um
+                  -- 10 % more, because the jerk changes too, and 2 um for the depth at which the wire lies
                   assert.is_true(math.abs(off) < 1.1 * known * dt ^ 2 + 2e-6, what)
                 end
               end

@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Plans of random scenes of contact: a number gives one, a plain table without objects in a frame of its own.
+-- Plans of random scenes of contact. A seed gives one plan: a plain table without objects, in its own
+-- frame.
 local sw = require "softworld"
 local vec = require "softworld.vec"
 local samples = require "contract.samples"
@@ -27,7 +28,7 @@ local function dice(seed)
   return d
 end
 
--- Places all along a wire's path, close enough to each other.
+-- Returns places along a wire's path, dense enough to check distances.
 local function places(path)
   local list, parts = {}, 72 // (#path - 1)
   for i = 1, #path - 1 do
@@ -111,7 +112,7 @@ local function surface(d)
   return s
 end
 
---- A mesh as the text of a file.
+--- Returns a mesh as the text of a file.
 function random_plans.obj_of(vertices, faces)
   local lines = {}
   for i = 1, #vertices, 3 do
@@ -121,14 +122,14 @@ function random_plans.obj_of(vertices, faces)
   return table.concat(lines, "\n") .. "\n"
 end
 
---- Arguments of an obstacle's shape.
+--- Returns the arguments of an obstacle's shape.
 function random_plans.shape_args(o)
   return { shape = o.shape, size = o.size, radius = o.radius, length = o.length, points = o.points,
     normal = o.normal, data = o.vertices and random_plans.obj_of(o.vertices, o.faces),
     format = o.vertices and "obj" }
 end
 
--- Distance of an obstacle's surface from the wires' surfaces.
+-- Returns the distance of an obstacle's surface from the wires' surfaces.
 local function room(o, shape, wires)
   local back, least = vec.conjugate(o.rotation), math.huge
   for _, w in ipairs(wires) do
@@ -139,7 +140,7 @@ local function room(o, shape, wires)
   return least
 end
 
--- Come from far away towards a place of a wire until no more than gap is left.
+-- Moves an obstacle from far away towards a place of a wire until no more than gap is left.
 local function bring_near(o, wires, from, towards, gap)
   local shape, way = sw.core.shape(random_plans.shape_args(o)), 1
   repeat
@@ -174,7 +175,7 @@ local function plane_plan(d, wires)
   return o
 end
 
--- Up and about; towards: and that way, if given.
+-- A random motion, upwards and to a side; if `towards` is given, also that way.
 local function motion(d, most, towards)
   local way = d.direction()
   way[3] = math.abs(way[3])
@@ -202,7 +203,7 @@ local function holds_plan(d, w, still)
     return { { kind = "feed", share = d.of{ 0, 1 }, speed = d.between(-0.1, 0.4) } }
   elseif kind == "tie" then
     return { { kind = "tie", share = at, to = scale(d.direction(), 0.05),
-      slack = d.chance(0.5) and 0.06 or nil, -- not less than it is long: it would yank the wire
+      slack = d.chance(0.5) and 0.06 or nil, -- not shorter than the tie: it would yank
       stiffness = 10 ^ d.between(2, 5) } }
   elseif kind == "clip" then
     return { { kind = "clip", share = 0.5, width = d.between(0.005, 0.01), insertion = d.between(2, 10),
@@ -223,10 +224,10 @@ local function wires_plan(d)
   return wires
 end
 
--- Where a thing that moves has been brought after a share of its way.
+-- Returns where a moving thing is after a share of its way.
 local function brought(at, move, share) return move and add(at, move.by, share) or at end
 
--- Does an obstacle come so near to what holds a wire that both might squeeze it?
+-- Returns true if an obstacle comes so near to a hold that both might squeeze the wire.
 local function squeezes(o, w, h)
   local shape = sw.core.shape(random_plans.shape_args(o))
   local at = w.places[1 + math.floor(h.share * (#w.places - 1) + 0.5)]
@@ -239,7 +240,8 @@ local function squeezes(o, w, h)
   return false
 end
 
--- No hold and no obstacle goes on where both would squeeze a wire: rigid things do without end.
+-- Stops each hold or obstacle whose motion would squeeze a wire between both: rigid things squeeze without
+-- limit.
 local function keep_apart(plan)
   for _, w in ipairs(plan.wires) do
     for _, h in ipairs(w.holds) do
@@ -261,7 +263,7 @@ local function times_plan(d, plan)
   end
 end
 
---- The plan of a number.
+--- Returns the plan of a seed.
 function random_plans.plan(seed)
   local d = dice(seed)
   local plan = { seed = seed, wires = wires_plan(d), obstacles = {}, gravity = { 0, 0, -9.81 } }

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Random scenes of contact, and the same ones seen otherwise: turned, mirrored, with the wires' ends
--- swapped, with other nodes. A plan and a view give a scene.
+-- Random scenes of contact and views of them: turned, mirrored, with the wires' ends swapped, with other
+-- nodes. A plan and a view give a scene.
 local sw = require "softworld"
 local random_plans = require "contact.random_plans"
 local vec = require "softworld.vec"
@@ -10,8 +10,8 @@ local random_scenes = { plan = random_plans.plan }
 local add, scale = vec.add, vec.scale
 
 -- view: turn (quaternion), mirror (true: y becomes -y, before the turn), swap (true: s counts from the
--- other end), segments (a function of those planned), shift (of inner nodes, in edges), nudge (vector by
--- which wires begin beside [m]).
+-- other end), segments (function of the planned number), shift (of inner nodes, in edges), nudge (offset of
+-- the wires at the start [m]).
 local function seer(view)
   local turn, see = view.turn or { 1, 0, 0, 0 }, {}
   local function mirrored(v) return view.mirror and { v[1], -v[2], v[3] } or v end
@@ -62,7 +62,7 @@ local function put_obstacle(scene, o, see, view)
   return obstacle
 end
 
--- Inner nodes go along the wire by a share of an edge: each is taken by a pin, which lets go at once.
+-- Moves inner nodes along the wire by a share of an edge: a pin takes each node and lets go at once.
 local function shift_nodes(scene, wire, segments, share)
   for i = 1, segments - 1 do scene:pin(wire, { s = (i + share) * wire.length / segments }):release() end
 end
@@ -112,7 +112,7 @@ function put.tie(scene, wire, h, see)
     to = add(wire:position(see.s(wire, h.share)), see.vector(h.to)) })
 end
 
--- A wire that is in its seat already.
+-- The wire is already in the clip's seat.
 function put.clip(scene, wire, h, see)
   local s = see.s(wire, h.share)
   local along = add(wire:position(s + 1e-3), wire:position(s - 1e-3), -1)
@@ -138,9 +138,9 @@ function random_scenes.scene(plan, view)
   return scene, wires, obstacles
 end
 
--- --- what comes of it ---------------------------------------------------------------------------
+-- --- outcomes of runs ---------------------------------------------------------------------------
 
-local PLACES = 20 -- of a wire that are looked at, and its start
+local PLACES = 20 -- places of a wire that are compared, besides its start
 
 local function places_of(wire, view)
   local back, list = vec.conjugate(view.turn or { 1, 0, 0, 0 }), {}
@@ -151,8 +151,9 @@ local function places_of(wire, view)
   return list
 end
 
--- Energies [J]: what there is, by kinds, what was lost, and what is from nowhere or of the scene's
--- changes, which is one thing to a wire that is let out of what it began in.
+-- Returns the energies [J]: the present ones by kind, the losses, and the sum of energy from nowhere and
+-- work of the scene's changes, which cannot be told apart for a wire that is let out of an obstacle it
+-- began in.
 local function energies_of(run)
   local l, lost = run:ledger(), 0
   for _, w in pairs(l.lost) do lost = lost + w end
@@ -160,9 +161,9 @@ local function energies_of(run)
     gap = l.gap + l.work.changes }, l.play
 end
 
---- Run a plan as seen in a view. Gives ok and reason; places, of all wires, as the plan's frame has them
--- [m]; peaks of means over 10 ms: tension of each wire, force on each obstacle [N]; energies and what was
--- in play [J]; solves per simulated second; the run.
+--- Runs a plan in a view. Returns ok and reason; places of all wires, in the plan's frame [m]; peaks of
+-- means over 10 ms: tension of each wire, force on each obstacle [N]; energies and the energy in play [J];
+-- solves per simulated second; the run.
 function random_scenes.outcome(plan, view)
   view = view or {}
   local scene <close>, wires, obstacles = random_scenes.scene(plan, view)
@@ -180,8 +181,9 @@ function random_scenes.outcome(plan, view)
   return out
 end
 
---- How far two outcomes are apart: largest distance of places over the shortest wire's length; of
--- peaks, over the largest of them; of energies, over what was in play. And the peak and energy meant.
+--- Returns the differences of two outcomes: the largest distance of places over the shortest wire's length;
+-- of peaks, over the largest peak; of energies, over the energy in play. which and what name the peak and
+-- the energy meant.
 function random_scenes.difference(plan, a, b)
   local length, d = math.huge, { place = 0, peak = 0, energy = 0 }
   for _, w in ipairs(plan.wires) do length = math.min(length, w.length) end

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Two hundred random scenes of contact, seeds 1 to 200, each run as planned, turned with gravity by a
--- random rotation, mirrored, with its wires' ends swapped, with inner nodes a third of an edge further
--- on, and with twice the segments: end states, filtered peaks and energies agree. Wires are of the
--- catalogue or soft, free, thrown, clamped, pinned, gripped, fed, tied and in clips, on boxes, round
--- shapes, hulls, meshes and planes that stand or move, with friction 0 to 1 and with restitution, in
+-- Two hundred random scenes of contact, seeds 1 to 200. Each is run as planned, turned with gravity by a
+-- random rotation, mirrored, with its wires' ends swapped, with inner nodes shifted by a third of an edge,
+-- and with twice the segments. End states, filtered peaks and energies agree. The wires are from the
+-- catalogue or soft, free, thrown, clamped, pinned, gripped, fed, tied and in clips. They lie on boxes,
+-- round shapes, hulls, meshes and planes that stand or move, with friction 0 to 1 and with restitution, in
 -- motion and quasi-static, in steps of 50 to 1 ms. Seeds are never exchanged.
 package.path = "./?.lua;" .. package.path
 local random_scenes = require "contact.random_scenes"
@@ -12,19 +12,19 @@ local vec = require "softworld.vec"
 
 local COUNT = 200
 
--- The first three are the same for the continuum and for the mesh: what differs comes from rounding, of
--- 1e-16, which a step of an iteration that stops at a tolerance may make 1e-9. Of the shortest wire's
--- length, the largest peak, what was in play.
+-- Bounds for turned, mirrored and swapped scenes, which are the same for the continuum and for the mesh.
+-- They differ by rounding of 1e-16; an iteration that stops at a tolerance may make that 1e-9. Relative to
+-- the shortest wire's length, the largest peak, and the energy in play.
 local SAME = { place = 1e-4, peak = 0.01, energy = 0.01 }
--- So far apart are scenes in which a tolerance or an order decided about more than its own size: hulls
--- (their distances are found by iteration), friction at quasi-static poses, and, of swapped ends, blows
--- that come at the same time, which are dealt with one after another along the wire.
+-- Bounds for scenes in which a tolerance or an order decides about more than its own size: hulls (their
+-- distances are found by iteration), friction at quasi-static poses, and, with swapped ends, simultaneous
+-- blows, which are treated one after another along the wire.
 local NEAR = { place = 0.05, peak = 0.2, energy = 0.5 }
--- So many scenes may be that. Measured: 5, 1, 14.
+-- Allowed numbers of such scenes. Measured: 5, 1, 14.
 local DIFFERENT = { turned = 8, mirrored = 1, swapped = 20 }
 
--- A scene is branching when a wire that begins 1e-9 m beside ends further away than the end states may
--- differ. Only the books and what is finite are looked at then.
+-- A scene is branching if a wire that begins 1e-9 m beside its place ends further away than SAME.place.
+-- Then only the energy books and finite numbers are checked.
 local NUDGE, MOST_BRANCHING = 1e-9, 0.15
 
 local function view_turned(seed)
@@ -45,7 +45,7 @@ local function beyond(difference, bounds)
   return false
 end
 
--- To the faces, edges and corners of a cube.
+-- Unit vectors to the faces, edges and corners of a cube.
 local ways = {}
 for k = 0, 26 do
   local way = { k % 3 - 1, k // 3 % 3 - 1, k // 9 - 1 }
@@ -67,7 +67,7 @@ local function branches(plan, base)
   return false
 end
 
--- All that is looked at, of one scene. failed: views whose run failed.
+-- Runs one scene in all views. failed: reasons of failed views.
 local function judged(seed)
   local plan = random_scenes.plan(seed)
   local base = random_scenes.outcome(plan)
@@ -94,7 +94,7 @@ describe("two hundred random scenes", function()
     for seed = 1, COUNT do scenes[seed] = judged(seed) end
   end)
 
-  -- Differences in a view of those that have them and do not branch.
+  -- Returns the differences in a view, of the scenes that have them and do not branch.
   local function each(name)
     local list = {}
     for _, scene in ipairs(scenes) do
@@ -109,7 +109,7 @@ describe("two hundred random scenes", function()
     return list[math.ceil(part * #list)]
   end
 
-  it("end, or say why they cannot be believed", function()
+  it("end, or fail with a reason", function()
     local failed = {}
     for _, scene in ipairs(scenes) do
       if not scene.base.ok then
@@ -117,11 +117,11 @@ describe("two hundred random scenes", function()
         failed[#failed + 1] = scene.seed
       end
     end
-    -- measured: one, bent wire let go at once in a step too long for it
+    -- measured: one, a bent wire that is let go at once in a step too long for it
     assert.is_true(#failed <= 2, "failed: " .. table.concat(failed, ", "))
   end)
 
-  it("keep books that balance, and numbers that are finite", function()
+  it("keep energy books that balance, and finite numbers", function()
     for _, scene in ipairs(scenes) do
       local l = scene.base.run:ledger()
       local sum, size = l.at_start + l.gap, math.abs(l.at_start) + l.gap + math.abs(l.total)
@@ -129,15 +129,15 @@ describe("two hundred random scenes", function()
       for _, w in pairs(l.lost) do sum, size = sum - w, size + math.abs(w) end
       assert.is_true(math.abs(l.total - sum) <= 1e-11 * size + 1e-15, "books of " .. scene.seed)
       for _, p in ipairs(scene.base.places) do
-        assert.is_true(vec.norm(p) < 10, "place of " .. scene.seed) -- they are within half a metre
+        assert.is_true(vec.norm(p) < 10, "place of " .. scene.seed) -- all are within half a metre
       end
       for name, peak in pairs(scene.base.peaks) do
-        assert.is_true(math.abs(peak) < math.huge, name .. " of " .. scene.seed) -- pressed wires: below 0
+        assert.is_true(math.abs(peak) < math.huge, name .. " of " .. scene.seed) -- pressed wires: negative
       end
     end
   end)
 
-  it("seldom branch", function()
+  it("branch in at most 15 % of all cases", function()
     local branching = {}
     for _, scene in ipairs(scenes) do
       if scene.branching then branching[#branching + 1] = scene.seed end
@@ -147,7 +147,7 @@ describe("two hundred random scenes", function()
   end)
 
   for name in pairs(exact) do
-    it("are the same " .. name, function()
+    it("end the same when " .. name, function()
       local different = {}
       for _, scene in ipairs(scenes) do
         assert.is_true(scene.branching or not scene.failed[name], scene.failed[name])
@@ -163,10 +163,10 @@ describe("two hundred random scenes", function()
     end)
   end
 
-  -- Where nodes are is a choice, as how many there are is. What a third of an edge changes is an error
-  -- of the mesh, and twice the segments take away most of that: measured, the median of both shares is
-  -- 1.0 for end states, 0.9 for peaks and 0.7 for energies; nine in ten are below 3.0, 3.8 and 2.7.
-  it("change with shifted nodes as they do with finer ones", function()
+  -- The positions and the number of nodes are both choices. A shift by a third of an edge gives an error of
+  -- the mesh; twice the segments remove most of that error. Measured ratios of both: the median is 1.0 for
+  -- end states, 0.9 for peaks and 0.7 for energies; nine in ten are below 3.0, 3.8 and 2.7.
+  it("change with shifted nodes about as much as with finer ones", function()
     local floors = { place = 5e-5, peak = 1e-3, energy = 1e-3 }
     for name, floor in pairs(floors) do
       local list = {}

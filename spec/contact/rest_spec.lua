@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Lying, falling and bouncing: a wire on a table keeps still, gains no energy and
--- weighs what it weighs; obstacles of every shape carry one.
+-- A wire on a table keeps still, gains no energy and presses with its weight. Obstacles of every shape
+-- carry one.
 local scenes = require "spec.contact.scenes"
 local core = require "softworld.core"
 
@@ -9,7 +9,7 @@ local WEIGHT = 0.03 * 9.81 -- of 1 m [N]
 describe("a wire on a table", function()
   it("keeps still for 20 s with every implicit integrator", function()
     for _, m in ipairs(core.registry().integrators) do
-      if m.implicit and m.contact then -- undamped ones say that they are not for contact
+      if m.implicit and m.contact then -- undamped integrators report that they are not for contact
         local s, w, plate = scenes.lying()
         s:advance({ dt = 0.01, integrator = m.name }, 1)
         local x0 = w:position(1)
@@ -43,7 +43,7 @@ describe("a wire on a table", function()
     end
   end)
 
-  it("bounces to the height that the restitution says", function()
+  it("bounces to the height that the restitution gives", function()
     for _, e in ipairs{ 0, 0.5, 0.9 } do
       local s = core.scene{}
       local w = scenes.add_wire(s, { 0, 0, 0.2025 }, { 0.1, 0, 0.2025 }, 4, { EI = 1 })
@@ -54,7 +54,7 @@ describe("a wire on a table", function()
         hit = hit or w:velocity(0.05)[3] > 0
         if hit then highest = math.max(highest, w:position(0.05)[3] - 0.0025) end
       end
-      -- the impact is set at the start of the step that meets it: v dt of height
+      -- the impact is placed at the start of the step that meets it: an error of v dt in height
       local slack = 2 * 0.002 * 2.0 * (e > 0 and 1 or 0.1)
       assert.is_true(math.abs(highest - 0.2 * e * e) < slack,
         ("e = %g: %g m instead of %g"):format(e, highest, 0.2 * e * e))
@@ -82,7 +82,7 @@ describe("every shape", function()
       local s = core.scene{}
       shape.friction = 0.5
       local o = s:obstacle(shape)
-    -- stiff, so that it does not bow up between the edges of a flat top
+    -- stiff, so it does not bow up between the edges of a flat top
       local w = scenes.add_wire(s, { -0.25, 0, 0.004 }, { 0.25, 0, 0.004 }, 24, { EI = 0.1 })
       s:force{ kind = "damping", mass = 4 }
       local r = s:advance({ dt = 0.005 }, 3)
@@ -98,13 +98,13 @@ describe("every shape", function()
 end)
 
 describe("settle with obstacles", function()
-  it("lays a wire over a thin wall instead of letting it through", function()
+  it("lays a wire over a thin wall without letting it through", function()
     local s = core.scene{}
     s:obstacle{ shape = "box", size = { 0.01, 1, 0.5 }, at = { 0, 0, 0.25 }, friction = 0.3 }
     local w = scenes.add_wire(s, { -0.4, 0, 0.6 }, { 0.4, 0, 0.6 }, 40)
     local r = s:settle()
     assert.is_true(r.ok, r.reason)
-    -- it bends over two edges 10 mm apart and bows up between them
+    -- the wire bends over two edges 10 mm apart and bows up between them
     assert.is_true(math.abs(w:position(0.4)[3] - 0.5025) < 1.5e-3)
     assert.is_true(w:position(0)[3] < 0.3)
   end)

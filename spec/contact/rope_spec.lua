@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A rope over a thick wire on coarse meshes: touches of the same two segments come and go,
--- and one that comes must not take another's state for its own.
+-- A rope over a thick wire, on coarse meshes. Touches of the same two segments come and go; a new touch
+-- must not take over the state of another one.
 local core = require "softworld.core"
 
 local R, RADIUS = 0.05, 0.0005

@@ -11,7 +11,7 @@ scenes.wire = { EA = 2e3, EI = 1e-3, mass_per_length = 0.03, radius = 0.0025 }
 -- Cables of the catalogue: thin, usual, thick, very soft.
 scenes.cables = { "GXL 0.5", "GXL 1.5", "FLRY-B 10", "H07V-K 10", "identified white" }
 
---- What a wire of a cable is made of, as scenes.wire.
+--- Returns the properties of a catalogue cable, in the form of scenes.wire.
 function scenes.cable(name)
   local c = cable.get(name)
   return { EA = c.EA.value, EI = c.EI.value, GJ = c.GJ.value, mass_per_length = c.mass_per_length.value,
@@ -35,7 +35,7 @@ function scenes.lying(options)
   return s, w, table_, L
 end
 
---- A table, and two rails on it with room for three wires of radius r side by side, and two times 5 mm.
+--- Adds a table and two rails on it. Three wires of radius r fit exactly side by side between the rails.
 function scenes.railed(s, r, friction)
   local plane = s:obstacle{ shape = "plane", friction = friction }
   local rails = {}
@@ -46,8 +46,8 @@ function scenes.railed(s, r, friction)
   return plane, rails
 end
 
---- A wire of 0.4 m with its middle at `at`, turned by two angles, flung at
--- speed along x against a wall of 10 mm by 1 m by 0.5 m at x = 0.3.
+--- Returns a wire of 0.4 m with its middle at o.at, turned by o.turn and tilted by o.tilt. It is flung at
+-- o.speed along x against a wall of 10 mm by 1 m by 0.5 m at x = 0.3.
 function scenes.flung(o)
   local s = core.scene{ gravity = { 0, 0, -9.81 } }
   local wall = s:obstacle{ shape = "box", size = { 0.01, 1, 0.5 }, at = { 0.3, 0, 0.25 },
@@ -64,8 +64,8 @@ function scenes.flung(o)
   return s, w, wall
 end
 
---- Does the wire's axis cross the plane x = 0.3 inside the wall's outline,
--- more than `margin` within it? Such a wire has passed through the wall.
+--- Returns true if the wire's axis crosses the plane x = 0.3 more than `margin` inside the wall's outline:
+-- such a wire has passed through the wall.
 function scenes.pierces(wire, margin)
   local x = wire:positions()
   for i = 1, #x - 3, 3 do

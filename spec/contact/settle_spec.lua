@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Settling wires that lie on each other.
+-- Settling wires that lie on each other, and wires that begin inside an obstacle.
 local scenes = require "spec.contact.scenes"
 
 local cables = require("softworld").cable
@@ -7,8 +7,8 @@ local core = require "softworld.core"
 
 local R, G, MASS = scenes.wire.radius, 9.81, scenes.wire.mass_per_length
 
--- Seven wires of 0.4 m between two rails: three below, two in their gaps with a third
--- against a rail, one on top.
+-- Seven wires of 0.4 m between two rails: three below, two in the gaps above them and a third against a
+-- rail, one on top.
 local function bundle(friction)
   local s = core.scene{}
   local plane, rails = scenes.railed(s, R, friction)
@@ -61,7 +61,8 @@ describe("settling", function()
     end
   end)
 
-  -- Half a turn round a peg, nodes on the circle of the middle line: chords begin inside the peg by h^2/8R.
+  -- Half a turn round a peg. Nodes lie on the circle of the middle line, so chords begin inside the peg, by
+  -- h^2/8R.
   local function round_peg(name, radius, load, edges)
     local cable = cables(name)
     local out = radius + cable.outer_diameter.value / 2
@@ -81,12 +82,12 @@ describe("settling", function()
     return s, w
   end
 
-  -- Coarse edges of a stiff cable, half a turn round a peg under a sudden load: friction makes the way to
-  -- rest long, and the steps of it short. A touch at rest is no deeper than 50 um, the depth from which it is
-  -- made stiffer (csrc/contact/law.c). What moves on is what the agreement of touches leaves: 1 % of a normal
-  -- force of 20 N, times 0.3, on some 10 g: 2e-6 m in 0.5 ms. Accepted 0.9 mm deep, wires moved 2 to 8 mm and
-  -- made 2.8 J.
-  it("leaves nothing deep in a peg, whatever the edges", function()
+  -- Coarse edges of a stiff cable, half a turn round a peg under a sudden load. Friction makes the way to
+  -- rest long and the steps on it short. A touch at rest is no deeper than 50 um, the depth from which it
+  -- becomes stiffer (csrc/contact/law.c). The motion that remains comes from the tolerance of the touches:
+  -- 1 % of a normal force of 20 N, times 0.3, on some 10 g, is 2e-6 m in 0.5 ms. When a depth of 0.9 mm was
+  -- accepted, wires moved 2 to 8 mm and made 2.8 J.
+  it("leaves no touch deep in a peg, whatever the edges", function()
     for _, name in ipairs{ "H07V-K 2.5", "H07V-K 10", "GXL 1.5", "FLRY-B 0.5" } do
       for _, share in ipairs{ 2.5, 2.2, 2, 1.8, 1.5, 1 } do
         local s, w = round_peg(name, 0.05, 20, share)
@@ -104,10 +105,10 @@ describe("settling", function()
     end
   end)
 
-  -- The same without coming to rest: the load at once, while the chords come out of the peg. What the touches
-  -- do on that way is theirs, and no energy from nowhere; taken for that, 3,000 steps of 40 were redone, and
-  -- some runs refused. 0.5 % of what is in play is what a run may make in all.
-  it("is not needed: a wire comes out of what it is placed in at every step", function()
+  -- The same without settling: the load acts at once, while the chords come out of the peg. The work of the
+  -- touches on that way is no energy from nowhere; when it was counted so, 3,000 trials of 40 steps were
+  -- redone, and some runs were refused. A run may make 0.5 % of the energy in play in all.
+  it("is not needed: a wire placed inside a peg comes out of it at every step size", function()
     for _, case in ipairs{ { "GXL 1.5", 0.04, 8 }, { "GXL 0.5", 0.03, 2 }, { "H07V-K 2.5", 0.05, 20 },
       { "FLRY-B 0.5", 0.02, 10 } } do
       for _, dt in ipairs{ 0.004, 0.001, 0.00025 } do
@@ -125,9 +126,9 @@ describe("settling", function()
     end
   end)
 
-  -- A hold keeps a node inside of a cylinder: beside it no force takes the wire out, and a touch that is made
-  -- stiffer and stiffer there makes energy, or the run is refused. That depth is left alone.
-  it("bears what a hold imposes", function()
+  -- A hold keeps a node inside a cylinder. No force can take the wire out beside it; a touch that becomes
+  -- stiffer and stiffer there makes energy, or the run is refused. So this depth is accepted.
+  it("is not needed: a depth that a hold imposes is accepted, without energy gain", function()
     for _, hold in ipairs{ "pin", "clamp" } do
       for _, deep in ipairs{ 2e-4, 1e-3 } do
         for _, dt in ipairs{ 0.01, 0.001 } do

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Edges meet a smooth wire, not the chords between its nodes: no place along an edge of the wire
--- holds better than another.
+-- Sharp edges meet the smooth curve of a wire, not the chords between its nodes. So no place along an edge
+-- of the wire holds better than another.
 local core = require "softworld.core"
 
 local T = 1 -- pull [N]
 
--- An edge along y at the origin, of faces that go down by `slope` on both sides of it: of a box, or
--- of a wedge that is a hull.
+-- Adds an edge along y at the origin. Its faces go down by `slope` on both sides. It belongs to a box, or
+-- to a hull in the form of a wedge.
 local function add_edge(s, slope)
   if slope == math.pi / 4 then
     return s:obstacle{ shape = "box", size = { 1, 1, 1 }, at = { 0, 0, -math.sqrt(0.5) },
@@ -21,7 +21,8 @@ local function add_edge(s, slope)
   return s:obstacle{ shape = "hull", points = points, friction = 0 }
 end
 
--- A wire bent over an edge is drawn by three of its own edges: least and largest pull over T.
+-- Draws a wire that is bent over an edge along by three of its own edges. Returns the least and largest
+-- pull over T.
 local function drawn(o)
   local h, n, r, slope = o.h or 0.01, 20, 0.0005, o.angle / 2
   local s = core.scene{ gravity = { 0, 0, 0 } }
@@ -40,7 +41,7 @@ local function drawn(o)
   add_edge(s, slope + math.rad(15)) -- the wire stays off its faces
   s:force{ kind = "point", on = w, s = 0, force = { -T * x, 0, -T * z } }
   s:force{ kind = "damping", mass = 20, on = w }
-  local drag = 20 * 0.05 * w.length * h -- at the speed of an edge a second [N]
+  local drag = 20 * 0.05 * w.length * h -- damping force at one edge per second [N]
   local pin = s:pin(w, { s = w.length })
   local dt = o.dt or 0.002
   assert.is_true(s:advance({ dt = dt }, 1).ok)
@@ -57,7 +58,7 @@ local function drawn(o)
 end
 
 describe("a sharp edge without friction", function()
-  -- Chords hold the wire: 54, 140 and 200 % more than T at T h^2/EI = 0.5, 2 and 10.
+  -- With chords the pull is 54, 140 and 200 % more than T at T h^2/EI = 0.5, 2 and 10.
   for _, case in ipairs{ { 0.5, 90 }, { 2, 90 }, { 10, 90 }, { 2, 60 }, { 10, 60 }, { 10, 30 },
     { 2, 90, dt = 0.01 }, { 2, 90, dt = 0.0005 }, { 10, 90, h = 0.003 } } do
     local name = ("T h^2/EI %g, %d degrees, dt %g, edges of %g"):format(case[1], case[2],
@@ -74,7 +75,7 @@ end)
 local EI, WEIGHT = 1e-3, 0.3 -- [N m2], [N/m]
 local l = (EI / WEIGHT) ^ (1 / 3)
 
--- Place on the wire's smooth curve, u edges from its first node: x [m].
+-- Returns x on the wire's smooth curve, u edges from its first node [m].
 local function on_curve(p, u)
   local c = math.floor(u + 0.5)
   local v = u - c + 0.5
@@ -99,7 +100,7 @@ local function over_table(b, onto, shift)
       local middle = (low + high) / 2
       if on_curve(p, middle) < 0 then low = middle else high = middle end
     end
-    local off = (n - low) * length / n - b * l -- it hangs over by so much too much
+    local off = (n - low) * length / n - b * l -- overhang in excess of b [m]
     if math.abs(off) < 1e-6 * l then return math.abs(pin:force()[1]) / (WEIGHT * l), p[#p] / l end
     x = x - off
     pin:pose{ x, 0, r }
@@ -113,7 +114,7 @@ describe("a wire over the edge of a table (case 16)", function()
     for eighth = 0, 7 do
       it(("is held by the exact force: b = %g, mesh shifted by %d/8"):format(case.b, eighth), function()
         local H, tip = over_table(case.b, case.onto, eighth / 8)
-        -- by chords: up to 78 % off. The reference asks for 1 %, and for 0.5 % of b.
+        -- with chords: up to 78 % off. The reference asks for 1 % of H, and for 0.5 % of b.
         assert.is_true(math.abs(H / case.H - 1) < 0.01, H .. " instead of " .. case.H)
         assert.is_true(math.abs(tip + case.H) < 0.005 * case.b, tip .. " instead of " .. -case.H)
       end)
@@ -121,7 +122,7 @@ describe("a wire over the edge of a table (case 16)", function()
   end
 end)
 
--- Coarse wires over thin walls: touches come and go at edges nearer to each other than nodes are.
+-- Coarse wires over thin walls: touches come and go at edges that are nearer to each other than the nodes.
 describe("a wire dropped on a thin wall", function()
   for _, case in ipairs{ { 8, 0.003 }, { 14, 0.001 }, { 20, 0.01 }, { 35, 0.003 } } do
     for _, dt in ipairs{ 1e-2, 2e-3, 5e-4 } do
@@ -147,10 +148,10 @@ describe("a wire dropped on a thin wall", function()
   end
 end)
 
--- Facets stand for what is round: the wire meets some of them with its chords, each for itself they
--- would only be in each other's way.
+-- The facets approximate a round peg. The wire meets them with its chords; if it met each facet with its
+-- smooth curve, they would hinder each other.
 describe("a wire that falls on a round peg of 256 facets", function()
-  it("takes no more iterations than there is to find out", function()
+  it("takes less than 4000 iterations", function()
     local s, points, R = core.scene{}, {}, 0.03
     for i = 0, 255 do
       local a = 2 * math.pi * (i + 0.37) / 256

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a taut wire presses with has nothing to do with its weight. A limp, weightless string of 1 N over a
--- cylinder presses with T/R = 19 N/m; touches as stiff as 100,000 times their usual stiffness let it sink in
--- by 0.1 to 0.7 mm, at rest, and the first steps threw 83 J of that out (100 edges).
+-- The contact force of a taut wire does not depend on its weight. A limp, weightless string under 1 N over
+-- a cylinder presses with T/R = 19 N/m. Touches of 100,000 times their usual stiffness were too soft for
+-- that: the string sank in by 0.1 to 0.7 mm at rest, and the first steps turned this into 83 J (100 edges).
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local capstan = require "spec.check.capstan"
@@ -9,7 +9,7 @@ local t = require "spec.physics.tools"
 
 describe("a taut string without weight", function()
   for _, edges in ipairs{ 100, 200, 250 } do
-    it("lies on a cylinder, of " .. edges .. " edges", function()
+    it("lies on a cylinder without sinking in: " .. edges .. " edges", function()
       local scene, wire, pin = capstan.scene{ friction = 0, angle = math.pi, segments = edges }
       t.fine(scene:settle())
       t.below(55e-6, (scene:penetration()), "depth [m]")
@@ -22,10 +22,10 @@ describe("a taut string without weight", function()
   end
 end)
 
--- Its ends are pulled down until it is stretched by half a percent: 150 to 900 N at a place, thousands of
--- times its weight. A touch that was too deep was made stiffer within the step, which makes energy when it
--- comes out; the step was refused, and so was every other one: at 1 ms 4,075 of 4,732 steps, 20 times the
--- solves. It is made stiffer from the next step on now, at the same force.
+-- The ends are pulled down until the cable is stretched by half a percent: contact forces of 150 to 900 N,
+-- thousands of times its weight. A touch that is too deep becomes stiffer from the next step on, at the
+-- same force. Stiffening within the step makes energy when the touch comes out, so such steps were refused:
+-- at 1 ms 4,075 of 4,732 steps, at 20 times the solves.
 local function pulled(cable, dt)
   local scene = sw.scene{}
   local wire = scene:wire{ cable = cable, from = { 0, 0, 0 }, to = { 0.6, 0, 0 }, segments = 60 }
@@ -41,7 +41,8 @@ end
 
 describe("a cable that is pulled hard over a thick cylinder", function()
   for _, cable in ipairs{ "GXL 1.5", "H07V-K 10" } do
-    it("costs the same steps as any other: " .. cable, function()
+    it("has the same tension and depth at every step size, few refused steps and no " ..
+      "energy gain: " .. cable, function()
       local _, coarse, sunk = pulled(cable, 0.01)
       t.below(1e-4, sunk, "depth [m]")
       for _, dt in ipairs{ 0.002, 0.001 } do

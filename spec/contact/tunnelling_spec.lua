@@ -1,13 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- No wire passes through a 10 mm wall, however fast: 30 m/s with 10 ms steps is
--- thirty wall thicknesses a step.
+-- No wire passes through a 10 mm wall, however fast. At 30 m/s a step of 10 ms is thirty wall thicknesses.
 local scenes = require "spec.contact.scenes"
 
--- The axis may be up to this far within the wall's outline while it bends over an
--- edge in one step [m]; half the wall's thickness.
+-- The axis may be this far inside the wall's outline while it bends over an edge in one step [m]; half the
+-- wall's thickness.
 local MARGIN = 0.005
--- A plastic impact gains no energy; the swing of a free wire in 10 ms steps can
--- move energy by this share of the 5.4 J it starts with.
+-- A plastic impact gains no energy, but the swing of a free wire in 10 ms steps can raise it by this share
+-- of the 5.4 J at the start.
 local GAIN = 0.08
 
 local function fling(o)
@@ -41,8 +40,8 @@ describe("a wire flung against a 10 mm wall at 30 m/s with 10 ms steps", functio
         deepest = math.max(deepest, r.penetration)
       end
     end
-    -- faces: deeper than the law's own limit of 50 um only for an instant; the
-    -- radius is 2.5 mm
+    -- on faces the wire is deeper than the law's limit of 50 um only for an instant; the bound is its
+    -- radius, 2.5 mm
     assert.is_true(deepest < 0.0025, "deepest " .. deepest)
   end)
 
@@ -55,7 +54,7 @@ describe("a wire flung against a 10 mm wall at 30 m/s with 10 ms steps", functio
     end
   end)
 
-  it("does so with a stiff wire and other implicit integrators", function()
+  it("stays on its side if it is stiff, and with other implicit integrators", function()
     local stiff = { EA = 2e5, EI = 1 }
     for _, integrator in ipairs{ "tr-bdf2", "sdirk2", "implicit-euler", "bdf2" } do
       check({ turn = 0.5, tilt = 0.5, at = { -0.1, 0, 0.3 }, segments = 20, integrator = integrator },
@@ -65,15 +64,15 @@ describe("a wire flung against a 10 mm wall at 30 m/s with 10 ms steps", functio
     end
   end)
 
-  it("notices when there is no wall in the way", function()
+  it("flies on where there is no wall in the way", function()
     local s, w = scenes.flung{ turn = 1.5708, tilt = 0, at = { -0.1, 0, 0.8 }, segments = 20 }
     s:advance({ dt = 0.01 }, 0.03)
     assert.is_true(w:position(0.2)[1] > 0.3)
   end)
 
-  -- Seen from the box, the straight way between the wire's places at a step's start and its end leads
-  -- through the middle.
-  it("finds nothing in the way where a box spins by half a turn a step, a metre beside", function()
+  -- Seen from the box, the straight line between the wire's places at the start and end of a step leads
+  -- through its middle.
+  it("does not meet a box that spins by half a turn a step, a metre beside it", function()
     local function falls(beside)
       local s = require("softworld.core").scene{}
       local w = s:wire{ EA = 1e3, EI = 1.5e-3, mass_per_length = 0.03, radius = 0.0025, from = { 0, -0.2, 0 },

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A cable wound on a drum against a brake. Along a free wire tension + EI curvature^2/2 is the same
--- everywhere (elastica): here it is the brake's force T. On the drum the curvature is 1/R, so the wire
--- comes on with T - EI/(2 R^2), and friction keeps that.
+-- A cable is wound on a drum against a brake. Along a free wire tension + EI curvature^2/2 is constant
+-- (elastica); here it equals the brake's force T. On the drum the curvature is 1/R, so the wire arrives
+-- with the tension T - EI/(2 R^2), and friction keeps that tension.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local R, TURNS, TIME, LENGTH = 0.05, 1.5, 3, 0.8 -- [m], [-], [s], [m]
 
--- The drum turns and goes sideways by 2.5 wire radii a turn; the wire is clamped on its top.
+-- The drum turns and moves sideways by 2.5 wire radii per turn; the wire is clamped to its top.
 local function wound(cable, brake, edges, dt)
   local other = sw.scene{}:wire{ cable = cable, from = { 0, 1, 0 }, to = { 1, 1, 0 }, segments = 2 }
   local r = other.radius
@@ -23,7 +23,7 @@ local function wound(cable, brake, edges, dt)
   local along = 2.5 * r * TURNS
   scene:clamp(wire, { s = 0 }):follow(function(time)
     local u = math.min(time / TIME, 1)
-    local share = u ^ 3 * (10 - 15 * u + 6 * u ^ 2) -- minimum jerk, as the drum
+    local share = u ^ 3 * (10 - 15 * u + 6 * u ^ 2) -- minimum jerk, like the drum
     local a = turned * share
     return { -top * math.sin(a), along * share, top * math.cos(a) }, { axis = { 0, 1, 0 }, angle = -a }
   end)
@@ -33,7 +33,7 @@ local function wound(cable, brake, edges, dt)
   return wire, top
 end
 
--- Mean tension of the wound part [N].
+-- Returns the mean tension of the wound part [N].
 local function kept(wire)
   local sum = 0
   for k = 0, 20 do sum = sum + wire:tension(0.1 + 0.01 * k) end
@@ -41,10 +41,11 @@ local function kept(wire)
 end
 
 describe("a cable wound on a drum", function()
-  -- Edges of 10 and 5 mm around 51 to 53 mm. Friction locked in 273 and 184 N once: chords that roll onto
-  -- the drum and stick are stretched by h^2/(12 R^2), times EA = 137 kN. Touches softer than EA h/R^2, the
-  -- wire's own stiffness against a shift outwards, let it in where it comes on and out further on: that
-  -- stretched it by as much as the step allowed, and threw it (9.2 N at 5 ms).
+  -- Edges of 10 and 5 mm on a radius of 51 to 53 mm. Two faults that this test finds: chords that roll onto
+  -- the drum and stick are stretched by h^2/(12 R^2), times EA = 137 kN, and friction locks in 273 and 184
+  -- N. Touches softer than EA h/R^2, the wire's own stiffness against an outward shift, let the wire sink
+  -- in where it arrives and come out further on; that stretched it by all a step allows and threw it (9.2 N
+  -- at 5 ms).
   local cases = {
     { "GXL 1.5", 4, 80, 0.02 }, { "GXL 1.5", 4, 80, 0.01 },
     { "GXL 1.5", 4, 80, 0.002 }, { "GXL 1.5", 4, 160, 0.01 },
@@ -61,7 +62,7 @@ describe("a cable wound on a drum", function()
           largest, 1 / wire:curvature(0.2)))
         t.near(tension, kept(wire), 0.17 * brake, "tension of the wound part")
         assert.is_true(largest < 1.35 * brake, largest)
-        -- the edge beside the clamp bent half as much again as the others: 37 mm for 51
+        -- with a fault, the edge beside the clamp bent more than the others: to 37 mm instead of 51 mm
         t.share(top, (wire:min_bend_radius()), 0.07, "smallest radius of the run")
         for _, s in ipairs{ 0.1, 0.2, 0.3 } do
           t.near(tension, wire:tension(s), 0.2 * brake, "tension at " .. s)
@@ -72,12 +73,12 @@ describe("a cable wound on a drum", function()
       end)
   end
 
-  it("keeps the same tension at any step", function()
+  it("keeps the same tension at every step size", function()
     local fine = kept((wound("H07V-K 10", 4, 80, 0.002)))
     for _, dt in ipairs{ 0.02, 0.01, 0.005 } do
       local tension = kept((wound("H07V-K 10", 4, 80, dt)))
       print(("measured: %.3g N at %g s, %.3g N at 2 ms"):format(tension, dt, fine))
-      t.near(fine, tension, 0.04 * 4, "tension of the wound part") -- 2.4, 2.6, 2.4 and 1.8 N once
+      t.near(fine, tension, 0.04 * 4, "tension of the wound part") -- with a fault: 2.4, 2.6, 2.4, 1.8 N
     end
   end)
 end)

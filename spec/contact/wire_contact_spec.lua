@@ -35,7 +35,7 @@ describe("wire_contact", function()
     assert.is_true(#s:touches() > 0)
   end)
 
-  it("goes on bit by bit after a snapshot is restored", function()
+  it("goes on to the same bits after a snapshot is restored", function()
     local function places(s, w)
       local list = {}
       for _, x in ipairs(w) do
@@ -84,14 +84,14 @@ describe("wire_contact", function()
   end)
 end)
 
--- Two cables twisted round each other, axes nearer than their radii, as it happens where a script takes nodes
--- on a helix: chords cut it short, and the clamps hold both where no force can part them. What is placed so
--- comes out slowly, and what the holds impose stays. It was pushed harder from step to step: 1e2 to 1e7 J
--- from nowhere. 2 % of what is in play is told.
+-- Two cables twisted round each other with axes nearer than the sum of their radii. This happens where a
+-- script takes nodes on a helix: chords cut it short, and the clamps hold both cables where no force can
+-- part them. A depth from placing comes out slowly; a depth that holds impose stays. When it was pushed
+-- harder from step to step, it made 1e2 to 1e7 J from nowhere. 2 % of the energy in play is reported.
 describe("a twisted pair of real cables", function()
   local cables = require("softworld").cable
 
-  -- segments: of the one; of the other seven in a hundred fewer, where meshes are to be unlike.
+  -- segments: of the first cable; the second has 7 % fewer if `unlike` is set.
   local function twisted(name, segments, nearer, unlike)
     local s, cable = core.scene{ gravity = { 0, 0, 0 } }, cables(name)
     local wires = {}
@@ -113,7 +113,7 @@ describe("a twisted pair of real cables", function()
   end
 
   for _, name in ipairs{ "GXL 1.5", "H07V-K 2.5", "FLRY-B 0.5" } do
-    it("makes no energy however near they were placed: " .. name, function()
+    it("makes no energy, however near the cables were placed: " .. name, function()
       for _, segments in ipairs{ 20, 40 } do
         for k, nearer in ipairs{ 0, 1e-5, 2e-4, 0, 1e-4 } do
           for _, dt in ipairs{ 0.01, 0.002, 0.0005 } do
@@ -124,7 +124,7 @@ describe("a twisted pair of real cables", function()
             assert.is_true(r.ok, what .. tostring(r.reason))
             assert.is_true(l.gained < 0.02 * l.play, what .. l.gained / l.play .. " from nowhere")
             assert.is_true(l.redone.count <= math.max(2, 0.05 * l.steps), what .. l.redone.count .. " redone")
-            -- half way they still lie beside each other; free at one end they may come loose
+            -- half way they still lie beside each other; at the free end they may come loose
             local a, b = wires[1]:position(0.15), wires[2]:position(0.15)
             local apart = ((a[1] - b[1]) ^ 2 + (a[2] - b[2]) ^ 2 + (a[3] - b[3]) ^ 2) ^ 0.5
             local diameter = cables(name).outer_diameter.value

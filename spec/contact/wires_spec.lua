@@ -5,7 +5,7 @@ local core = require "softworld.core"
 local G = 9.81
 local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 
--- Total momentum of free wires [N s]: nodes' lumped masses.
+-- Returns the total momentum of free wires [N s], from the nodes' lumped masses.
 local function momentum(wires, masses)
   local sum = { 0, 0, 0 }
   for k, w in ipairs(wires) do
@@ -20,8 +20,8 @@ local function momentum(wires, masses)
 end
 
 describe("wires that cross", function()
-  -- A light wire lies across two stiff ones; what they carry is its weight.
-  it("share a third one's weight evenly and exactly", function()
+  -- A light wire lies across two stiff ones, which carry its weight.
+  it("carry a third one's weight in exactly equal shares", function()
     local s = core.scene{}
     local function rail(x)
       local w = s:wire{ E = 2e11, density = 7800, radius = 0.004, from = { x, -0.1, 0 },
@@ -52,8 +52,8 @@ describe("wires that cross", function()
 end)
 
 describe("a wire in the groove between two others", function()
-  -- Radius r each, axes of the rails `apart` radii from each other: normals lean by
-  -- sin(lean) = apart/4, so both together press weight/cos(lean).
+  -- All radii are r, the rails' axes are `apart` radii from each other. Normals lean by sin(lean) =
+  -- apart/4, so both together press with weight/cos(lean).
   local function slide(mu, degrees, apart, turn)
     local a, r = math.rad(degrees), 0.003
     local along, across = { math.cos(turn), math.sin(turn), 0 }, { -math.sin(turn), math.cos(turn), 0 }
@@ -62,7 +62,7 @@ describe("a wire in the groove between two others", function()
     local function at(x, y, z)
       return { x * along[1] + y * across[1], x * along[2] + y * across[2], z }
     end
-    for _, y in ipairs{ -apart * r / 2, apart * r / 2 } do -- as good as rigid
+    for _, y in ipairs{ -apart * r / 2, apart * r / 2 } do -- nearly rigid
       local w = s:wire{ E = 2e12, density = 100, radius = r, from = at(-0.5, y, 0),
         to = at(0.5, y, 0), segments = 40 }
       s:clamp(w, { s = 0 })
@@ -100,7 +100,7 @@ describe("a wire in the groove between two others", function()
 end)
 
 describe("a wire over a thick one", function()
-  -- The capstan with a wire as the cylinder; the rope's axis runs at R + r.
+  -- The capstan with a thick wire as the cylinder; the rope's axis runs at R + r.
   it("is drawn with exp(mu angle) times the pull", function()
     local R, r, mu = 0.05, 0.0005, 0.3
     local path, Rw = {}, R + r
@@ -133,7 +133,7 @@ describe("a wire over a thick one", function()
 end)
 
 describe("an impact of two wires", function()
-  -- As good as rigid, or soft: what they go on with is their common speed at the place.
+  -- Nearly rigid or soft wires. After the impact they move with their common speed at the place of impact.
   local function crash(EI, friction)
     local s = core.scene{ gravity = { 0, 0, 0 } }
     local function wire(from, to, mass, speed)
@@ -173,17 +173,17 @@ describe("an impact of two wires", function()
     end
   end)
 
-  it("leaves rigid wires going on together, with what the centre of mass keeps", function()
+  it("leaves rigid wires moving together and loses the energy of a plastic impact", function()
     local r = crash(1e3, 0)
     local away = r.b:velocity(0.05)[3] - r.a:velocity(0.11)[3]
     assert.is_true(math.abs(away) < 0.05, away)
-    -- plastic impact of two rigid rods touching at offsets d from their centres: the
-    -- effective mass there is m/(1 + 12 d^2/L^2), the loss half of the reduced one's
-    -- times the square of the approach of 2 m/s
+    -- plastic impact of two rigid rods that touch at offsets d from their centres: the effective mass there
+    -- is m/(1 + 12 d^2/L^2); the energy lost is half the reduced effective mass times the square of the
+    -- approach speed of 2 m/s
     local function effective(m, L, d) return m / (1 + 12 * d * d / (L * L)) end
     local ma, mb = effective(0.02, 0.2, 0.01), effective(0.006, 0.12, 0.01)
     local loss = 0.5 * ma * mb / (ma + mb) * 4
-    -- implicit Euler's own loss in the step of the impact comes on top: 2 %
+    -- the allowance covers the loss of implicit Euler in the step of the impact: 2 %
     assert.is_true(math.abs((r.energy - r.left) / loss - 1) < 0.03, (r.energy - r.left) / loss)
   end)
 end)
@@ -197,7 +197,7 @@ local function unit_cross(a, b)
   return { c[1] / n, c[2] / n, c[3] / n }
 end
 
--- Gauss's linking number of closed polygons: the solid angles of their pairs of segments.
+-- Gauss's linking number of two closed polygons, from the solid angles of their pairs of segments.
 local function linking(p, q)
   local sum = 0
   for i = 1, #p do
@@ -219,7 +219,7 @@ local function linking(p, q)
   return sum / (4 * math.pi)
 end
 
--- A wire's nodes as a polygon that is closed through points far away along x.
+-- Returns a wire's nodes as a polygon, closed through points far away along x.
 local function closed(w, x)
   local flat, list = w:positions(), {}
   for i = 1, #flat, 3 do list[#list + 1] = { flat[i], flat[i + 1], flat[i + 2] } end
@@ -257,7 +257,7 @@ describe("wires driven into each other at 30 m/s with 10 ms steps", function()
       local r = s:advance({ dt = 0.01, integrator = o.integrator }, i * 0.01)
       if not r.ok then return r.reason end
     end
-    -- closed far behind and far ahead, the two are linked as long as b is hooked on a
+    -- closed far behind and far ahead, both are linked as long as b is hooked on a
     local linked = linking(closed(a, -10), closed(b, 10))
     if math.abs(math.abs(linked) - 1) > 0.01 then return "linking number " .. linked end
   end
@@ -271,7 +271,7 @@ describe("wires driven into each other at 30 m/s with 10 ms steps", function()
     end
   end)
 
-  it("nor with other implicit integrators", function()
+  it("do not pass through each other with other implicit integrators", function()
     for _, integrator in ipairs{ "sdirk2", "implicit-euler", "bdf2" } do
       assert.is_nil(drive{ n = 20, tilt = 0.3, y = 0.05, skew = 0.1, friction = 0.2,
         integrator = integrator }, integrator)

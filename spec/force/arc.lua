@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A wire bent to one curvature all along by two clamps: every hinge then carries
--- the same moment, whatever the mesh.
+-- A wire bent to one curvature all along by two clamps. Every hinge then carries the same moment, whatever
+-- the mesh.
 local sw = require "softworld"
 local arc = {}
 
@@ -28,8 +28,8 @@ local function hinge_lengths(N)
   return w, l
 end
 
---- Bend to the curvature [1/m] in the plane of x and {0, cos a, sin a}; settles.
--- The polygon of that curvature needs no force but the moment.
+--- Bends the wire to the curvature [1/m] in the plane of x and {0, cos a, sin a}, and settles. The polygon
+-- of that curvature needs no force except the moment.
 function arc:bend(kappa, a)
   a = a or math.pi / 2
   local w, l = hinge_lengths(self.N)
@@ -45,7 +45,8 @@ function arc:bend(kappa, a)
   return self
 end
 
---- To the curvature in steps, from where it was (0 at first); visit(kappa, moment) after each.
+--- Bends to the curvature in steps, from the present one (0 at first). Calls visit(kappa, moment) after
+-- each.
 function arc:sweep(kappa, steps, visit, a)
   local from = self.kappa or 0
   for i = 1, steps do
@@ -56,7 +57,7 @@ function arc:sweep(kappa, steps, visit, a)
   return self
 end
 
---- Moment [N m] with which the wire resists: in the plane of z, then of y.
+--- Returns the moment [N m] with which the wire resists: in the plane of z, then of y.
 function arc:moment()
   local m = self.first:moment{}
   return m[2], -m[3]

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Damping by stiffness in wires that hardly stretch: no axial force from an edge that only turns,
--- the true one where it gets longer, and no loss from turning.
+-- Stiffness damping of wires that hardly stretch: no axial force from an edge that only turns, the true
+-- force where an edge gets longer, and no loss from turning.
 local sw = require "softworld"
 local t = require "physics.tools"
 
@@ -8,7 +8,7 @@ local CABLES = { "GXL 0.5", "GXL 1.5", "FLRY-B 10" }
 local METHODS = { "tr-bdf2", "bdf2", "implicit-euler", "implicit-midpoint", "sdirk2" }
 local BETA = 1e-3
 
--- v turned about a unit axis (Rodrigues).
+-- Returns v turned about a unit axis (Rodrigues).
 local function turned(v, axis, angle)
   local c, s, across = math.cos(angle), math.sin(angle), t.cross(axis, v)
   local along = axis[1] * v[1] + axis[2] * v[2] + axis[3] * v[3]
@@ -17,8 +17,8 @@ local function turned(v, axis, angle)
   return out
 end
 
--- Largest tension of a cable clamped at one end [N]. options: beta [s], sag: true falls, false is
--- turned by its clamp to and fro, up to 6 rad/s; turn: of the whole scene.
+-- Returns the largest tension of a cable clamped at one end [N]. options: beta [s]; sag: true = the cable
+-- falls, false = its clamp turns it to and fro, up to 6 rad/s; axis, angle: of the whole scene.
 local function swung(cable, options, run)
   local function place(v) return turned(v, options.axis or { 0, 0, 1 }, options.angle or 0) end
   local to, down = place{ 0.3, 0, 0 }, place{ 0, 0, options.sag and -9.80665 or 0 }
@@ -54,17 +54,17 @@ describe("stiffness damping of cables", function()
     end)
   end
 
-  it("says the same of every cable of the catalogue at the default step", function()
+  it("adds no tension to any cable of the catalogue at the default step", function()
     for _, cable in ipairs(sw.cables()) do
       local none = swung(cable, { beta = 0 }, { duration = 0.3 })
       t.share(none, swung(cable, {}, { duration = 0.3 }), 0.05, "tension of " .. cable)
     end
   end)
 
-  -- The method's own error is in both; that of damping would be many times as large. (The axial
-  -- force of sdirk2 alone counts what turns five times.)
+  -- The method's own error is in both; an error of damping would be many times as large. (With sdirk2
+  -- alone, the axial force of a turning edge counts five times.)
   for _, method in ipairs(METHODS) do
-    it("changes what " .. method .. " has by no more than it damps", function()
+    it("changes the tension that " .. method .. " has by no more than it damps", function()
       for _, dt in ipairs{ 2e-2, 5e-3, 1e-3 } do
         local none = swung("GXL 1.5", { beta = 0 }, { dt = dt, integrator = method })
         local damped = swung("GXL 1.5", {}, { dt = dt, integrator = method })
@@ -74,7 +74,7 @@ describe("stiffness damping of cables", function()
     end)
   end
 
-  it("does not depend on where the scene is turned to", function()
+  it("gives the same tension in a turned scene", function()
     local random = t.random(3)
     for _, sag in ipairs{ true, false } do
       local straight = swung("GXL 1.5", { sag = sag }, {})
@@ -88,7 +88,7 @@ describe("stiffness damping of cables", function()
     end
   end)
 
-  it("leaves the tension of a cable that turns steadily as it is", function()
+  it("does not change the tension of a cable that turns steadily", function()
     local function turn(beta, dt)
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.3, 0, 0 }, segments = 30 }
@@ -127,7 +127,7 @@ describe("the tension of a damped wire", function()
   local methods = { "rk4", "velocity-verlet" }
   table.move(METHODS, 1, #METHODS, 3, methods)
   for _, method in ipairs(methods) do
-    it("is what its clamp feels, dashpots included, with " .. method, function()
+    it("is the force on its clamp, dashpots included, with " .. method, function()
       local wire, hand = drawn(method, method:find "^[rv]" and 5e-5 or 2e-3)
       local strain, rate = 0.02 * 0.3 / 0.4, 0.02 / 0.4
       t.share(50 * (strain + 2e-3 * rate), wire:tension(0.2), 4e-3, "tension")
@@ -138,8 +138,8 @@ describe("the tension of a damped wire", function()
   end
 end)
 
-describe("what stiffness damping takes", function()
-  it("is beta omega / 2 of an axial mode", function()
+describe("the loss by stiffness damping", function()
+  it("is beta omega / 2 for an axial mode", function()
     local EA, m, L = 200, 0.05, 0.5
     local omega = math.pi / 2 / L * (EA / m) ^ 0.5
     for _, method in ipairs{ "tr-bdf2", "bdf2", "implicit-midpoint" } do
@@ -147,7 +147,7 @@ describe("what stiffness damping takes", function()
       local wire = scene:wire{ EA = EA, EI = 1e-4, mass_per_length = m, radius = 0.002,
         from = { 0, 0, 0 }, to = { L, 0, 0 }, segments = 32 }
       scene:clamp(wire, { s = 0 })
-      -- pulled as the first mode is
+      -- pulled in the shape of the first mode
       local pull = scene:force{ kind = "line", on = wire, force = { 0.2, 0, 0 } }
       t.fine(scene:settle())
       pull:release()
@@ -161,8 +161,8 @@ describe("what stiffness damping takes", function()
     end
   end)
 
-  -- A bent wire that turns as a rigid body bends no more and no less.
-  it("is nothing of a bent wire that turns in its plane", function()
+  -- A bent wire that turns as a rigid body keeps its bend.
+  it("is zero for a bent wire that turns in its plane", function()
     for _, kind in ipairs{ "damping", "viscous_bend" } do
       local points = {}
       for i = 0, 40 do
@@ -178,7 +178,7 @@ describe("what stiffness damping takes", function()
         scene:force{ kind = kind, on = wire, eta = 5e-3 * 2e-3 }
       end
       wire:set_velocity({ 0, 0, 0 }, { 0, 0, 10 }, { 0, 2 * 0.1 / math.pi, 0 })
-      t.fine(scene:run{ duration = 0.5, dt = 1e-3 }) -- it opens a little and comes to rest so
+      t.fine(scene:run{ duration = 0.5, dt = 1e-3 }) -- it opens a little and stays so
       local _, before = t.momentum(wire)
       local energy = scene:energy().total
       t.fine(scene:run{ duration = 1, dt = 1e-3 })
@@ -260,8 +260,8 @@ describe("rates of strain", function()
     end
   end
 
-  -- Another wire that is fed makes the system anew now and then.
-  it("go on where the scene is built anew", function()
+  -- Another wire that is fed rebuilds the system now and then.
+  it("go on when the system is rebuilt", function()
     local function run(feeds)
       local scene, wire = scene_of "rod"
       local other = scene:wire{ cable = "GXL 1.5", from = { 0, 1, 0 }, to = { 0.1, 1, 0 }, segments = 20 }
@@ -279,7 +279,7 @@ describe("rates of strain", function()
     t.share(now, now_of_fed, 1e-6, "tension")
   end)
 
-  it("are those of a mesh's springs too", function()
+  it("are right for a mesh's springs too", function()
     local function swung_tube(dt)
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local wire = scene:wire{ E = 5e7, density = 1000, radius = 0.005, model = "tube",
@@ -294,7 +294,7 @@ describe("rates of strain", function()
     t.share(swung_tube(1e-3), swung_tube(1e-2), 0.05, "tension")
   end)
 
-  it("of a cable that is fed out and swings", function()
+  it("are right for a cable that is fed out and swings", function()
     local function fed(run)
       local scene = sw.scene{}
       local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.2, 0, 0 }, segments = 20 }

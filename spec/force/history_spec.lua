@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What forces remember: kept by snapshots and through changes of the scene, written by
--- accepted steps only.
+-- What forces remember: snapshots and changes of the scene keep it, and only accepted steps write it.
 local arc = require "force.arc"
 local sw = require "softworld"
 local tools = require "physics.tools"
@@ -9,7 +8,7 @@ local function plastic(N)
   return arc.new{ N = N, force = { kind = "plastic", yield_moment = 0.01, hardening = 0.005 } }
 end
 
--- What the force does at a bent shape, bit by bit, and the work dissipated.
+-- Returns the force at a bent shape and the work dissipated, bit by bit.
 local function fingerprint(scene, wire)
   local list = { ("%a"):format(scene:energy().dissipated) }
   for _, f in ipairs(scene:evaluate(wire).plastic.force) do list[#list + 1] = ("%a"):format(f) end
@@ -33,7 +32,7 @@ local function bits(scene, wire)
 end
 
 describe("the memory of forces", function()
-  it("comes back with a snapshot, bit by bit", function()
+  it("is restored by a snapshot, bit by bit", function()
     for _, integrator in ipairs{ "tr-bdf2", "implicit-midpoint", "bdf2", "rk4", "velocity-verlet" } do
       local scene, wire = swinging()
       local dt = math.min(0.005, 0.2 * scene:stable_dt())
@@ -73,7 +72,7 @@ describe("the memory of forces", function()
     end
   end)
 
-  it("goes on after rejected steps as after small ones", function()
+  it("is the same after rejected steps as after small ones", function()
     local function ends(options)
       local scene, wire = swinging()
       options.duration = 0.4
@@ -107,7 +106,7 @@ describe("the memory of forces", function()
     local scene, wire = bent.scene, bent.wire
     tools.fine(scene:settle{ tolerance = 1e-12 })
     local tip, work = wire:position(arc.L), scene:energy().dissipated
-    -- on nodes, between them, so near that one is inserted, and a wide gripper
+    -- at a node, between nodes, so near a node that one is inserted; and a wide gripper
     for _, place in ipairs{ { s = 0.25 }, { s = 0.25 + 0.3 * arc.L / 12 }, { s = 0.26 },
       { s = 0.31, width = 0.1 }, { s = arc.L } } do
       local kind = place.width and "grip" or "clamp"
@@ -134,7 +133,7 @@ describe("the memory of forces", function()
     end, "shift of the end")
   end)
 
-  it("is gone with its force", function()
+  it("ends with its force", function()
     local bent = plastic(8)
     bent:sweep(2.5, 8)
     bent.last:release()
@@ -144,7 +143,7 @@ describe("the memory of forces", function()
     assert.is_nil(bent.scene:energy().dissipated)
   end)
 
-  it("is of each wire its own", function()
+  it("is separate for each wire", function()
     local scene = sw.scene{}
     local wires = {}
     for k = 1, 2 do

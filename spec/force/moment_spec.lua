@@ -33,7 +33,7 @@ describe("an end moment", function()
         errors[i] = off(p, math.sin(k) / k, (1 - math.cos(k)) / k)
         assert.is_true(errors[i] < k / n ^ 2, ("k = %g, n = %d: %g"):format(k, n, errors[i]))
       end
-      -- at once far below its bound the error may be of higher order or rounding
+      -- where the error is far below its bound from the start, it may be of higher order or rounding
       if errors[3] > 1e-6 then
         assert.is_true(math.log(errors[1] / errors[3]) / math.log(4) > 1.8)
       end

@@ -12,7 +12,7 @@ local function metal(options)
   return arc.new(options)
 end
 
--- One hinge of the law in a plane: moment at each curvature.
+-- The law of one hinge in a plane: returns the moment and the plastic curvature at each curvature.
 local function law()
   local p = 0
   return function(kappa)
@@ -45,7 +45,7 @@ describe("plastic bending", function()
     end
   end)
 
-  it("loses what its loop encloses and stores what hardening takes", function()
+  it("dissipates what its loop encloses and stores what hardening takes", function()
     local bent, exact, p = metal(), law(), nil
     bent:sweep(2, 8):sweep(-2, 16)
     local start = bent.scene:energy()
@@ -69,9 +69,9 @@ describe("plastic bending", function()
     assert.are.equal(0, bent.scene:energy().dissipated)
   end)
 
-  -- Laid round a mandrel of radius 1/kappa and let go: the wire keeps the curvature
-  -- (EI kappa - M_y) / (EI + H), but what hardening holds back, H times it, can be no more
-  -- than M_y. A free end has no hinge in its last half edge.
+  -- The wire is laid round a mandrel of radius 1/kappa and let go. It keeps the curvature (EI kappa - M_y)
+  -- / (EI + H), but H times that curvature, which hardening holds back, can be no more than M_y. A free end
+  -- has no hinge in its last half edge.
   it("springs back to the permanent curvature", function()
     for _, hardening in ipairs{ 0.002, H, 0.05 } do
       local bent = metal{ hardening = hardening }
@@ -87,13 +87,13 @@ describe("plastic bending", function()
     end
   end)
 
-  -- M = F (1 - x): beyond M_y the plastic curvature is (M - M_y) / H, and what the
-  -- end keeps is the integral of it times (1 - x).
+  -- M = F (1 - x). Beyond M_y the plastic curvature is (M - M_y) / H; the end keeps the integral of it
+  -- times (1 - x).
   it("keeps the deflection of a loaded end, second order in N", function()
     local F, hardening = 0.08, 50
     local a = 1 - 0.05 / F -- how far the wire yields
     local exact = (F / hardening) * (a - a ^ 2 + a ^ 3 / 3) - 0.05 / hardening * (a - a ^ 2 / 2)
-    -- the wire yields up to a node, so that meshes differ in their size only
+    -- the wire yields up to a node, so meshes differ only in their size
     tools.order_at_least(1.9, { 8, 16, 32, 64 }, function(N)
       local scene, wire, pull = loaded(N, { 0, 0, F }, hardening)
       pull:release()
@@ -103,7 +103,7 @@ describe("plastic bending", function()
   end)
 
   it("yields in both planes together", function()
-    -- small angles, so that planes stay apart; the return is radial in them
+    -- small angles keep the planes apart; the return is radial in them
     local bent = metal{}
     bent.force:release()
     local small, hard = 0.01, 1e-4
@@ -143,7 +143,7 @@ describe("plastic bending", function()
     end
   end)
 
-  it("tells what is wrong", function()
+  it("refuses wrong arguments", function()
     for _, args in ipairs{ {}, { yield_moment = 0 }, { yield_moment = -1 }, { yield_moment = "x" },
       { yield_moment = 1, hardening = -1 }, { yield_moment = 1, hardning = 1 } } do
       args.kind = "plastic"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Springs that yield: against their law computed by hand.
+-- Springs that yield, compared with their law computed by hand.
 local sw = require "softworld"
 
 local function near(expected, value, tolerance, what)
@@ -56,7 +56,7 @@ describe("springs that yield", function()
         near(p, plastic[1], 1e-12)
         near(work, scene:energy().dissipated, 1e-10, "work")
         near(work, object:energy().dissipated, 1e-10)
-        -- what is stored: in the spring, and in what hardened
+        -- stored energy: in the spring, and in hardening
         local energy = object:energy()
         near(0.5 * T * T / K, energy.stretch, 1e-10)
         near(0.5 * HARD * K * p * p, energy.plastic_springs, 1e-10)
@@ -64,7 +64,7 @@ describe("springs that yield", function()
     end)
   end
 
-  it("bear what the law says", function()
+  it("pull at a hold with the force of the law", function()
     local _, _, hand, stretch = bench()
     stretch(1.2)
     local T = model()(0.2)
@@ -78,7 +78,7 @@ describe("springs that yield", function()
     near(-K * YIELD, (stretch(1.2))[1], 1e-9)
   end)
 
-  it("are elastic below their limit, and others are always", function()
+  it("are elastic below their limit; springs without a limit always are", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local object = scene:particles{ positions = { 0, 0, 0, 1, 0, 0, 2, 0, 0 }, masses = 1,
       links = { { 1, 2, k = K, yield = 10 }, { 2, 3, k = K } } }
@@ -92,9 +92,9 @@ describe("springs that yield", function()
     assert.are.same({ 0, 0 }, plastic)
   end)
 
-  -- A mass falls onto the spring and swings until no swing yields any more: energy is conserved but
-  -- for what was dissipated.
-  it("take their work from the motion", function()
+  -- A mass falls onto the spring and swings until no swing yields any more. Energy is conserved except for
+  -- what was dissipated.
+  it("take their plastic work from the motion", function()
     local scene = sw.scene{}
     local object = scene:particles{ positions = { 0, 0, 0, 0, 0, -1 }, masses = 1,
       links = { { 1, 2, k = K, yield = YIELD, hardening = HARD } } }
@@ -109,7 +109,7 @@ describe("springs that yield", function()
     near(before.total, after.total + after.dissipated, 1e-3 * math.abs(before.total))
   end)
 
-  it("come back from snapshots as they were", function()
+  it("go on the same from snapshots", function()
     local scene, _, hand, stretch = bench()
     stretch(1.2)
     local snapshot = scene:snapshot()
@@ -131,10 +131,10 @@ describe("springs that yield", function()
     assert.is_true(scene:settle().ok)
     local force, strain = object:links()
     near(0, force[1], 1e-8)
-    near(plastic[1], strain[1], 1e-10) -- unloaded: as long as it has become
+    near(plastic[1], strain[1], 1e-10) -- unloaded: only plastic strain is left
   end)
 
-  it("are for particle wires too", function()
+  it("yield in wires made of particles too", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ model = "tube", EA = 60, EI = 0.02, mass_per_length = 0.1, radius = 0.05,
       from = { 0, 0, 0 }, to = { 1, 0, 0 } }

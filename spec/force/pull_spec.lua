@@ -37,7 +37,7 @@ describe("the force pull", function()
     t.share(before, scene:energy().total, 1e-3, "energy")
   end)
 
-  it("refuses what is no force and no place", function()
+  it("refuses wrong forces and stiffnesses", function()
     assert.error_matches(function() pulled { height = 1, force = 0, stiffness = 50 } end,
       "force = 0 N is not allowed")
     assert.error_matches(function() pulled { height = 1, force = 1, stiffness = -1 } end,

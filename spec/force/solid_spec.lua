@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Solid elements one by one: derivatives, what they must not feel, what homogeneous strains must
--- give exactly, and how they come back from inside out.
+-- Solid elements one by one: derivatives, invariance to moving and turning, exact stress of homogeneous
+-- strains, and return from inside out.
 local core = require "softworld.core"
 local tools = require "physics.tools"
 local near, share = tools.near, tools.share
@@ -108,7 +108,7 @@ describe("a solid element", function()
     tools.below(0, least, "some are inside out")
   end)
 
-  it("goes on smoothly where J is small", function()
+  it("has a smooth energy where J is small", function()
     local rest = corners(8, 0)
     local function squeezed(J) return mapped({ { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, J } }, rest) end
     local before = { core.solid(rest, MU, LAMBDA, squeezed(0.1 + 1e-9)) }
@@ -124,7 +124,7 @@ describe("a solid element", function()
     assert.is_true(energy < math.huge and tools.largest(g) < math.huge and tools.largest(H) < math.huge)
   end)
 
-  it("does not feel being moved and turned", function()
+  it("has no energy or force from being moved and turned", function()
     math.randomseed(4)
     for _, nodes in ipairs { 6, 8 } do
       local rest = corners(nodes, 0.3)
@@ -133,7 +133,7 @@ describe("a solid element", function()
           local energy, g = core.solid(rest, MU, LAMBDA, mapped(turn(axis, angle), rest))
           near(0, energy, 1e-13)
           near(0, tools.largest(g), 1e-12)
-          -- and turns its forces with it
+          -- its forces turn with it
           local x = moved(rest, 0.4)
           local E, force = core.solid(rest, MU, LAMBDA, x)
           local R = turn(axis, angle)
@@ -216,7 +216,7 @@ describe("a solid element", function()
     end
   end)
 
-  it("has a second derivative without negative eigenvalues when that is wanted", function()
+  it("has a second derivative without negative eigenvalues on request", function()
     math.randomseed(8)
     local negative = 0
     for n = 1, 24 do
@@ -231,9 +231,9 @@ describe("a solid element", function()
     tools.above(10, negative, "those that would have some")
   end)
 
-  it("bends as stretched bars do", function()
-    -- incompressible: d2W/dl2 of mu/2 (l^2 + 2/l) is mu (1 + 2/l^3), 3 mu at rest; elements are
-    -- nearly incompressible, and follow 1/l^2
+  it("bends with the stiffness of a stretched bar", function()
+    -- incompressible: d2W/dl2 of mu/2 (l^2 + 2/l) is mu (1 + 2/l^3), 3 mu at rest. The elements are nearly
+    -- incompressible, and their stiffness follows 1/l^2
     local rest, nu = corners(6, 0), 0.4999
     local mu, lambda = 0.5 / (1 + nu), nu / ((1 + nu) * (1 - 2 * nu))
     for _, l in ipairs { 0.7, 1, 1.3 } do
@@ -255,7 +255,7 @@ describe("a solid element", function()
     end
   end)
 
-  it("comes back when it is inside out", function()
+  it("returns to its shape from inside out", function()
     math.randomseed(9)
     for _, nodes in ipairs { 6, 8 } do
       for case = 1, 3 do
@@ -288,7 +288,7 @@ describe("a solid element", function()
     end
   end)
 
-  it("tells how far it may move", function()
+  it("reports how far it may move with J above its bound", function()
     math.randomseed(10)
     local less = 0
     for n = 1, 80 do

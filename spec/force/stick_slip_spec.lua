@@ -36,7 +36,7 @@ describe("stick-slip bending", function()
     end
   end)
 
-  it("loses 4 M_f (kappa_max - kappa_f) a length in a cycle", function()
+  it("loses 4 M_f (kappa_max - kappa_f) per length in a cycle", function()
     local bent = stranded()
     bent:sweep(1, 8):sweep(-1, 8)
     local start, area, last = bent.scene:energy(), 0, { -1, bent:moment() }
@@ -54,14 +54,14 @@ describe("stick-slip bending", function()
     tools.share(0.5 * M_F * KAPPA_F * arc.L, now.stick_slip, 1e-9, "energy in the strands")
   end)
 
-  it("costs nothing below the friction moment", function()
+  it("loses nothing below the friction moment", function()
     local bent = stranded()
     for _, kappa in ipairs{ 0.3, -0.3, 0.3 } do bent:sweep(kappa, 3) end
     assert.are.equal(0, bent.scene:energy().dissipated)
     tools.share(EI_STICK * 0.3, (bent:moment()), 1e-9, "moment")
   end)
 
-  it("acts in every plane alike", function()
+  it("acts the same in every plane", function()
     for _, a in ipairs{ 0, 0.7, 2.5, 4 } do
       local bent, exact = stranded(), law()
       bent:sweep(0.9, 3, nil, a):sweep(-0.9, 6, nil, a)
@@ -73,7 +73,7 @@ describe("stick-slip bending", function()
     end
   end)
 
-  it("brings a swinging wire to rest away from where it started straight", function()
+  it("takes energy from a swinging wire and leaves it bent", function()
     local bent = stranded()
     bent:sweep(1, 4)
     bent.last:release()

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Viscous bending: a moment in proportion to the rate of curvature.
+-- Viscous bending: a moment proportional to the rate of curvature.
 local sw = require "softworld"
 local tools = require "physics.tools"
 
@@ -13,7 +13,7 @@ local function wire_of(options)
   return scene, wire
 end
 
--- Heights and times of the largest deflections to one side.
+-- Returns the heights and times of the largest deflections to one side.
 local function peaks(scene, wire, duration, dt)
   local list, y = {}, {}
   for i = 1, math.ceil(duration / dt) do
@@ -38,7 +38,7 @@ describe("viscous bending", function()
       tools.fine(scene:settle())
       pull:release()
       local list = peaks(scene, wire, 9, 0.01)
-      -- the first one may still hold higher modes
+      -- the first peak may still hold higher modes
       local a, b = list[2], list[#list]
       local decrement = math.log(a[1] / b[1]) / (#list - 2)
       tools.share(ratio, decrement / (4 * math.pi ^ 2 + decrement ^ 2) ^ 0.5, 0.01, "damping ratio")
@@ -47,8 +47,8 @@ describe("viscous bending", function()
     end
   end)
 
-  -- The sum over hinges of eta / w (rate of the angle)^2, for a wire whose edges turn by
-  -- known rates in a plane, on top of any rotation of the whole.
+  -- The power is the sum over hinges of eta / w (rate of the angle)^2. The wire's edges turn by known rates
+  -- in a plane, on top of any rotation of the whole.
   it("takes eta / w times the square of each hinge's rate in a plane", function()
     local scene, wire = wire_of{ eta = 0.3, N = 7 }
     local x, v, angle, rate = { 0, 0, 0 }, { 0, 0, 0 }, {}, {}
@@ -94,7 +94,7 @@ describe("viscous bending", function()
     tools.share(-0.5 / (5 / 12 * 0.1) * 2 ^ 2, power, 1e-12, "power")
   end)
 
-  it("does not act at rest, where clamps that move count as standing", function()
+  it("does not act at rest, where moving clamps count as standing", function()
     local function droop(eta)
       local scene, wire = wire_of{ eta = eta }
       scene:gravity{ 0, 0, -1 }

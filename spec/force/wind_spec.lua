@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wind on wires: force against its formula, the slope at which a hanging wire comes to rest, gusts,
--- its work in the ledger, every model of wires.
+-- Wind on wires: force against its formula, slope of a hanging wire at rest, gusts, work in the ledger,
+-- every wire model.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -14,15 +14,15 @@ local function wire(scene, more)
   return scene:wire(args)
 end
 
--- Slope from the vertical at which the weight across the wire is the wind's force across it:
--- m g sin a = 1/2 rho d Cn (U cos a)^2. It is the same everywhere: the wire is straight.
+-- Returns the slope from the vertical at which the weight across the wire equals the wind's force across
+-- it: m g sin a = 1/2 rho d Cn (U cos a)^2. It is the same everywhere, so the wire is straight.
 local function slope(U, weight, d)
   local k = 0.5 * RHO * d * CN * U * U / weight
   return math.asin((-1 + (1 + 4 * k * k) ^ 0.5) / (2 * k))
 end
 
 describe("wind", function()
-  it("drags with its coefficients across and along the wire, by its speed relative to it", function()
+  it("has the drag of its coefficients across and along the wire, for the relative speed", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local w = wire(scene, { to = { 0.6, 0, 0.8 } })
     scene:force{ kind = "wind", on = w, velocity = { 3, 4, -2 }, normal = 1.1, tangential = 0.03,
@@ -45,7 +45,7 @@ describe("wind", function()
     end
   end)
 
-  -- Straight under any mesh: only the iterations' accuracy limits it.
+  -- The wire is straight on any mesh: only the accuracy of the iterations limits the slope.
   for _, U in ipairs{ 2, 4, 6 } do
     for _, segments in ipairs{ 7, 40 } do
       local name = ("blows a hanging wire to the formula's slope: %g m/s, %d segments"):format(U, segments)
@@ -64,7 +64,7 @@ describe("wind", function()
     end
   end
 
-  it("comes to the same in time, at steps of 20 ms and of 1 ms, beyond 45 degrees too", function()
+  it("gives the same slope in motion, with steps of 20 ms and 1 ms, beyond 45 degrees too", function()
     for _, case in ipairs{ { 6, 0.02 }, { 6, 0.001 }, { 8, 0.005 } } do
       local U, dt = case[1], case[2]
       local scene = sw.scene{ gravity = { 0, 0, -G } }
@@ -79,7 +79,7 @@ describe("wind", function()
   end)
 
   -- A free rod in a steady wind across it: v' = c (U - v)^2, so v = U c U t / (1 + c U t).
-  it("takes along what is free, second order in the step", function()
+  it("takes a free rod along, at second order in the step", function()
     local function speed(dt)
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local w = wire(scene, { model = "rod", EI = 1e-3, segments = 8 })
@@ -94,7 +94,7 @@ describe("wind", function()
     t.above(3.3, coarse / fine, "error by halving the step")
   end)
 
-  it("blows in gusts: their mean force is that of the mean square", function()
+  it("has in gusts the mean force of the mean square", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local w = wire(scene, { model = "rod", EI = 100, EA = 1e6, segments = 4 })
     local clamp = scene:clamp(w, { s = 0 })
@@ -109,7 +109,7 @@ describe("wind", function()
     t.share(RHO * R * CN * (25 + 4.5), sum / n, 5e-3, "mean force") -- (U + u sin)^2 means U^2 + u^2/2
   end)
 
-  it("is in the ledger: its work goes into motion, height and damping", function()
+  it("does the work in the ledger, which goes into motion, height and damping", function()
     local scene = sw.scene{ gravity = { 0, 0, -G } }
     local w = wire(scene, { segments = 20 })
     scene:pin(w, { s = 0 })
@@ -122,7 +122,7 @@ describe("wind", function()
     t.share(books.work.forces, explained, 5e-3, "energy and damping for work")
   end)
 
-  it("acts alike on every model of wires", function()
+  it("acts the same on every wire model", function()
     local lengths = {}
     for _, model in ipairs(sw.core.registry().models) do
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -143,7 +143,7 @@ describe("wind", function()
     local web = scene:particles{ positions = { 0, 0, 1, 0.1, 0, 1 }, masses = 0.1, radius = 0.01 }
     assert.error_matches(function() scene:force{ kind = "wind", on = web, velocity = { 1, 0, 0 } } end,
       "object of particles")
-    scene:force{ kind = "wind", velocity = { 1, 0, 0 } } -- passes it by where it is of the whole scene
+    scene:force{ kind = "wind", velocity = { 1, 0, 0 } } -- a wind on the whole scene passes it by
     t.fine(scene:run{ duration = 0.01 })
     for _, v in ipairs(scene:evaluate(web).wind.force) do t.near(0, v, 0, "force") end
   end)

@@ -56,7 +56,7 @@ local function check_derivatives(trajectory, t, h, tolerance)
     d.rate(pick "angular_velocity", t, h)) < tolerance * scale)
 end
 
--- A bend of the acceleration makes differences across it wrong by about h.
+-- Where the acceleration has a bend, differences across it are wrong by about h.
 local function smooth_near(trajectory, t, h)
   local a, b = trajectory:acceleration(t - 3 * h), trajectory:acceleration(t + 3 * h)
   local m = trajectory:acceleration(t)
@@ -126,7 +126,7 @@ local function check_law(law, case)
     end
   end)
 
-  it("is placed and delayed without a change of its own", function()
+  it("keeps its motion when it is placed and delayed", function()
     local q = d.turn({ 1, 0, 1 }, 0.8)
     local moved = trajectory:placed({ 1, 2, 3 }, q):delayed(0.25)
     local t = from + 0.37 * (to - from)

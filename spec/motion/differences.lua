@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Central differences of a trajectory's poses, to check its derivatives by.
+-- Central differences of a trajectory's poses, to check its derivatives.
 local differences = {}
 
 function differences.multiply(a, b)
@@ -15,14 +15,14 @@ function differences.norm(a)
   return math.sqrt(sum)
 end
 
---- Largest difference of two arrays of numbers.
+--- Returns the largest difference of two arrays of numbers.
 function differences.apart(a, b)
   local most = 0
   for i = 1, #a do most = math.max(most, math.abs(a[i] - b[i])) end
   return most
 end
 
---- Quaternion of a turn about an axis.
+--- Returns the quaternion of a turn about an axis.
 function differences.turn(axis, angle)
   local n, s = differences.norm(axis), math.sin(angle / 2)
   return { math.cos(angle / 2), s * axis[1] / n, s * axis[2] / n, s * axis[3] / n }
@@ -36,7 +36,7 @@ function differences.rate(f, t, h)
   return out
 end
 
---- Angular velocity from the rotations alone: 2 q' q*.
+--- Returns the angular velocity from the rotations alone: 2 q' q*.
 function differences.angular_velocity(rotation, t, h)
   local q = rotation(t)
   local function alike(at)

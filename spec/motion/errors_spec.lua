@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wrong arguments name the thing, the value, the unit and what was expected.
+-- Wrong arguments: the message names the thing, the value, the unit and what was expected.
 local core = require "softworld.core"
 
 local ways = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }
@@ -67,7 +67,7 @@ local wrong = {
   { { points = ways, speed = 1, step = 1e-3 }, "step has no use without func" },
 }
 
-describe("a wrong trajectory", function()
+describe("a trajectory", function()
   for i, case in ipairs(wrong) do
     it(("%d: %s"):format(i, case[2]), function()
       local before = core.allocated()
@@ -79,7 +79,7 @@ describe("a wrong trajectory", function()
     end)
   end
 
-  it("is no trajectory at all", function()
+  it("refuses what is no trajectory, and wrong calls", function()
     for _, value in ipairs { 3, "lay.csv", true, print } do
       if value ~= print then assert.has_error(function() core.trajectory(value) end) end
     end

@@ -22,7 +22,7 @@ describe("a function of time", function()
     assert.are.equal("callback", m:law())
   end)
 
-  it("is asked for times from 0 to its duration only", function()
+  it("is called with times from 0 to its duration only", function()
     local least, most = 1, 0
     local m = core.trajectory { duration = 2, start = 5, func = function(t)
       least, most = math.min(least, t), math.max(most, t)
@@ -37,7 +37,7 @@ describe("a function of time", function()
     assert.are.equal(11, #m:sample(11).t)
   end)
 
-  it("hands on the very value of an error", function()
+  it("passes on the value of an error unchanged", function()
     for _, value in ipairs { { code = 7 }, "text", 12, true, print } do
       local m = core.trajectory(function() error(value, 0) end)
       local fine, caught = pcall(m.position, m, 1)
@@ -51,7 +51,7 @@ describe("a function of time", function()
     assert.is_nil(caught)
   end)
 
-  it("says what is wrong with what it returned", function()
+  it("gets an error that says what is wrong with its result", function()
     local function message(...)
       local values = table.pack(...)
       local m = core.trajectory(function() return table.unpack(values, 1, values.n) end)
@@ -64,7 +64,7 @@ describe("a function of time", function()
     assert.matches("rotation from func%(0.25%)", message({ 1, 2, 3 }, 7))
   end)
 
-  it("may yield nothing, recurse to a limit and close its own trajectory", function()
+  it("must not yield or recurse without end, and may close its own trajectory", function()
     local m = core.trajectory(coroutine.yield)
     assert.has_error(function() coroutine.wrap(function() m:position(1) end)() end)
     m = core.trajectory(function(t) return m:position(t) end)
@@ -86,7 +86,7 @@ describe("a function of time", function()
     assert.are.same({ 3, 6, 0 }, p)
   end)
 
-  it("is let go with its trajectory", function()
+  it("is freed with its trajectory", function()
     local weak = setmetatable({}, { __mode = "k" })
     do
       local f = function() return { 0, 0, 0 } end

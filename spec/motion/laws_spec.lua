@@ -13,7 +13,7 @@ end
 local straight = { { 0, 0, 0 }, { 0.6, 0, 0 } }
 
 describe("linear", function()
-  it("goes at the speed given, from the first moment", function()
+  it("has the given speed from the first moment", function()
     local m = make { points = straight, speed = 0.2, law = "linear" }
     near(3, m:duration())
     near(0.2 * 1.3, m:position(1.3)[1])
@@ -63,7 +63,7 @@ describe("trapezoidal", function()
     end, "trajectory: duration = 4 s is too short for the acceleration; it takes at least 4.89898 s")
   end)
 
-  it("shares a duration out to several runs", function()
+  it("divides a duration among several legs", function()
     local m = make { points = { { 0, 0, 0 }, { 0.3, 0, 0 }, { 0.3, 0.1, 0 } }, stop = true, duration = 4,
       law = "trapezoidal" }
     near(0.3, m:position(3)[1])
@@ -87,7 +87,7 @@ describe("minimum-jerk", function()
     near(0.2, m:velocity(T / 2)[1])
   end)
 
-  it("takes longer where the acceleration asks for it", function()
+  it("takes longer to keep an acceleration limit", function()
     local m = make { points = straight, speed = 10, acceleration = 0.3 }
     near(math.sqrt(10 / math.sqrt(3) * 0.6 / 0.3), m:duration())
     near(0.3, m:acceleration(m:duration() * (0.5 - math.sqrt(3) / 6))[1])
@@ -125,7 +125,7 @@ describe("spline", function()
     near(0.25, most, 1e-8)
   end)
 
-  it("keeps an acceleration", function()
+  it("keeps within a given acceleration", function()
     local m, most = make { points = points, speed = 5, acceleration = 0.8, law = "spline" }, 0
     for i = 0, 100000 do most = math.max(most, d.norm(m:acceleration(m:duration() * i / 100000))) end
     assert.is_true(most <= 0.8)
@@ -142,7 +142,7 @@ end)
 describe("corners", function()
   local corner = { { 0, 0, 0 }, { 0.5, 0, 0 }, { 0.5, 0.5, 0 } }
 
-  it("are left and joined at the blend, 0.265 times it off the point at a right angle", function()
+  it("of a right angle are blended, 0.265 times the blend off the point", function()
     local m = make { points = corner, speed = 0.1, blend = 0.08, law = "linear" }
     near(0, d.apart(m:position(4.2), { 0.42, 0, 0 }))
     near(0, d.apart(m:position(5.8), { 0.5, 0.08, 0 }))
@@ -167,7 +167,7 @@ describe("corners", function()
     near(0.05 * 3 / 8 * math.sqrt(0.5), least, 1e-7)
   end)
 
-  it("are rested at where the path turns back", function()
+  it("come to rest where the path turns back", function()
     local m = make { points = { { 0, 0, 0 }, { 0, 0, -0.1 }, { 0, 0, 0 } }, speed = 0.1 }
     near(-0.1, m:position(m:duration() / 2)[3])
     near(0, d.norm(m:velocity(m:duration() / 2)))
@@ -203,7 +203,7 @@ describe("turning", function()
     end
   end)
 
-  it("goes round as often as it is told", function()
+  it("goes round as often as given", function()
     local m = make { points = { { 0, 0, 0 }, { 0, 0, 1 } }, turn = { axis = { 0, 0, 2 },
       angle = 9 * math.pi },
       speed = 0.5, law = "linear" }
@@ -220,7 +220,7 @@ describe("turning", function()
     near(0, d.apart(m:angular_velocity(2.5), { -1, 0, 0 }))
   end)
 
-  it("slows the move down where the angular speed asks for it", function()
+  it("slows the move down to keep an angular speed", function()
     local m = make { points = { { 0, 0, 0 }, { 0.1, 0, 0, rotation = { axis = { 0, 1, 0 }, angle = 1 } } },
       speed = 1, angular_speed = 0.5, law = "linear" }
     near(2, m:duration())
@@ -229,7 +229,7 @@ describe("turning", function()
 end)
 
 describe("a displacement", function()
-  it("begins at none and is added in world axes", function()
+  it("begins at zero and is added in world axes", function()
     local m = make { points = { { 0, 0, 0.1 } }, relative = true, duration = 1 }
     assert.is_true(m:relative())
     near(0, d.norm(m:position(0)))
@@ -247,7 +247,7 @@ describe("a displacement", function()
 end)
 
 describe("bulk samples", function()
-  it("are the single ones", function()
+  it("equal single samples", function()
     local m = make { points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } }, turn = { axis = { 1, 0, 0 },
       angle = 2 },
       duration = 2, start = 1 }

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A thin tube in pure bending flattens, by itself (Brazier 1927): case 20 of the reference data.
+-- A thin tube in pure bending flattens (Brazier 1927): case 20 of the reference data.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 local pi = math.pi
 
--- The flattening over r and the moment over EI kappa of an endless tube of any flatness, with a =
--- kappa r^2/wall and nu = 0: an inextensible ring of tangent angle theta(s), whose fibres at the
--- height y are strained by kappa y, makes 12 a^2 y^2 + (theta' - 1)^2 least on the whole (lengths in
--- r). With P' = 12 a^2 y, P = 0 at the bottom: theta'' = -P cos theta, y' = sin theta. A quarter of
--- it by shooting with Runge and Kutta's method. Brazier's a^2 and 1 - 1.5 a^2 are its first order.
+-- The flattening over r and the moment over EI kappa of an endless tube of any flatness, with a = kappa
+-- r^2/wall and nu = 0. The section is an inextensible ring of tangent angle theta(s), whose fibres at the
+-- height y are strained by kappa y; it minimises the integral of 12 a^2 y^2 + (theta' - 1)^2 (lengths in
+-- r). With P' = 12 a^2 y, P = 0 at the bottom: theta'' = -P cos theta, y' = sin theta. A quarter of it is
+-- found by shooting with Runge and Kutta's method. Brazier's a^2 and 1 - 1.5 a^2 are the first order.
 local function shoot(a, bend, height)
   local n = 200
   local h, v = pi / 2 / n, { 0, bend, -height, 0, 0 } -- theta, theta', y, P, integral of y^2
@@ -57,7 +57,7 @@ local function tube(particles, spacing)
   return scene, wire
 end
 
--- Bends the tube to kappa with no force along it: the ends are moved along by the secant method.
+-- Bends the tube to kappa without a force along it: the secant method finds the shift of the ends.
 local function bender(scene, wire)
   local a, b = scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = L })
   local shift = 0
@@ -88,19 +88,19 @@ local function radius_of(wire)
 end
 
 describe("a thin tube in pure bending", function()
-  it("is Brazier's to the first order, by an independent integration", function()
+  it("agrees with Brazier to first order in an independent integration", function()
     for _, a in ipairs{ 0.02, 0.05 } do
       local flat, moment = endless_tube(a)
       t.share(a ^ 2, flat, 1.3 * a ^ 2, "flattening")
       t.near(1 - 1.5 * a ^ 2, moment, 2 * a ^ 4, "moment")
     end
-    -- so that 5 % of the closed form is more than is right at 0.3, where it is a third of its way to
-    -- where the tube fails
+    -- at 0.3, Brazier's flattening is 9 % too small, so a tube that has it within 5 % there would be wrong
     t.share(1.0897 * 0.3 ^ 2, (endless_tube(0.3)), 1e-4, "flattening at 0.3")
   end)
 
-  -- Slices of r/2 of 32 particles had hoops of 0.06 of the wall's, wrinkled and lost 43 % of the moment.
-  it("is refused slices that would wrinkle, and has its moment with those advised", function()
+  -- Slices of r/2 with 32 particles had hoops of 0.06 of the wall's stiffness, wrinkled and lost 43 % of
+  -- the moment.
+  it("is refused with slices that would wrinkle, and has its moment with those advised", function()
     local ok, why = pcall(tube, 32)
     assert.is_false(ok)
     assert.matches("hoops of 0%.0%d+ of their wall's stiffness and would wrinkle when the tube is bent", why)
@@ -115,11 +115,11 @@ describe("a thin tube in pure bending", function()
     end
   end)
 
-  -- Its compressed side, less curved the flatter it is, buckles in short waves before Brazier's limit:
-  -- at a (1 - a^2) = (1 - 3 a^2)/sqrt 3, a = 0.381, where strains of kappa r (1 - a^2) are those of a
-  -- cylinder of the radius r/(1 - 3 a^2). Slices are a third and a quarter of the waves' length.
-  -- Without the wall's stiffness along the tube the shortest waves came first, at 0.13 with slices of r/4.
-  it("goes on to where its wall buckles, and kinks there", function()
+  -- Its compressed side is less curved the flatter it is, and buckles in short waves before Brazier's
+  -- limit: at a (1 - a^2) = (1 - 3 a^2)/sqrt 3, a = 0.381, where strains of kappa r (1 - a^2) are those of
+  -- a cylinder of the radius r/(1 - 3 a^2). Slices are a third and a quarter of the waves' length. Without
+  -- the wall's stiffness along the tube the shortest waves came first, at 0.13 with slices of r/4.
+  it("kinks where its wall buckles, and not before", function()
     for _, spacing in ipairs{ r / 2, 0.35 * r } do
       local scene, wire = tube(16, spacing)
       local bend, moment = bender(scene, wire)
@@ -130,13 +130,13 @@ describe("a thin tube in pure bending", function()
       assert.same({}, scene:events())
       assert.is_nil(scene:settle().kinked)
       if spacing < r / 2 then return end
-      -- a fifth further on: no more than the moment of before bends it, at one place
+      -- bent a fifth further, the tube bears no more than the moment before, and bends at one place
       local a, b = wire:min_bend_radius{ now = true }, bend(4.3)
       t.below(0.5 * moment, b, "moment of the kinked tube")
       t.below(0.2 * a, (wire:min_bend_radius{ now = true }), "radius at the kink")
       local told = scene:events()
       assert.are.equal("kink", told[1].kind)
-      -- of a kink that is folded further its walls' meeting is told too
+      -- a kink that is folded further also reports that its walls meet
       assert.is_true(#told == 1 or (#told == 2 and told[2].kind == "walls"))
       assert.are.equal(wire.name, told[1].object)
       assert.matches("^tube 'wire1' kinks at s = [%d.]+ m: it is bent by [%d.]+ 1/m and bears "
@@ -145,7 +145,7 @@ describe("a thin tube in pure bending", function()
     end
   end)
 
-  it("kinks in motion too, and is told once", function()
+  it("kinks in motion too, and reports it once", function()
     local scene, wire = tube(16)
     scene:force{ kind = "damping", on = wire, mass = 20 }
     scene:clamp(wire, { s = 0 })
@@ -160,12 +160,12 @@ describe("a thin tube in pure bending", function()
     t.below(1, told[1].first, "time")
   end)
 
-  it("flattens and loses its stiffness as it should", function()
+  it("flattens and loses stiffness as the integration says", function()
     local scene, wire = tube(16)
     local bend, R, skin = bender(scene, wire), radius_of(wire), wire:section(0).skin
     for _, a in ipairs{ 0.1, 0.2, 0.25, 0.3 } do
       local moment = bend(a * wall / r ^ 2)
-      -- the clamps keep the ends round, over r sqrt(r/wall), so that the middle has a little more
+      -- the clamps keep the ends round, over r sqrt(r/wall), so the middle is bent a little more
       local kappa = wire:curvature(L / 2)
       local there = kappa * r ^ 2 / wall
       local flat = 1 - (wire:width(L / 2, { 0, 0, 1 }) - 2 * skin) / (2 * R)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Clamps anywhere on a wire, put on and taken off while it moves, grips with a width.
+-- Clamps anywhere on a wire, put on and taken off while it moves, and grips with a width.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local cases = require "softworld.cases"
@@ -39,7 +39,7 @@ describe("a clamp", function()
     end
   end)
 
-  it("is where it is told to be, whatever the mesh", function()
+  it("holds exactly the given place, whatever the mesh", function()
     for _, s in ipairs{ 0.0031, 0.2, 0.2077, 0.5, 0.9999 } do
       local scene, wire = long(0, 50)
       local clamp = scene:clamp(wire, { s = s })
@@ -59,7 +59,7 @@ describe("a clamp", function()
     assert.is_true(x[3] < -0.9)
   end)
 
-  it("holds a grip's interval rigid and is exact from its faces on", function()
+  it("with a width (a grip) keeps its interval rigid and is exact outside", function()
     for _, width in ipairs{ 0.005, 0.02, 0.1 } do
       local scene, wire, p = long(0.3, 50)
       local grip = scene:grip(wire, { s = 0.3 - width / 2, width = width })
@@ -72,7 +72,7 @@ describe("a clamp", function()
     end
   end)
 
-  it("has the same nodes for a grip from whichever end arc length counts", function()
+  it("with a width has the same nodes from whichever end arc length counts", function()
     for _, s in ipairs{ 0.033, 0.23, 0.351, 0.449, 0.5, 0.578 } do
       for _, width in ipairs{ 0.005, 0.02, 0.13 } do
         local function nodes(place)
@@ -89,7 +89,7 @@ describe("a clamp", function()
     end
   end)
 
-  it("turns the wire with it: the stiffness of a beam between two clamps", function()
+  it("turns the wire with the stiffness of a beam between two clamps", function()
     for _, gap in ipairs{ 0.08, 0.1, 0.2, 0.5, 0.007, 0.019, 0.04, 0.06 } do
       local scene, wire, p = long(0.5, 50)
       scene:gravity{ 0, 0, 0 }
@@ -97,7 +97,7 @@ describe("a clamp", function()
       local angle = 1e-6
       b:pose((b:pose()), { math.cos(angle / 2), 0, math.sin(angle / 2), 0 })
       t.fine(scene:settle{ tolerance = 1e-15 })
-      -- second order in the number of edges between, which is at least four: 2.3 %
+      -- second order in the number of edges between the clamps, at least four: 2.3 %
       local tolerance = 0.025
       t.share(4 * p.EI / gap * angle, b:moment()[2], tolerance, ("near moment, gap %g"):format(gap))
       t.share(2 * p.EI / gap * angle, a:moment()[2], 2 * tolerance, ("far moment, %g"):format(gap))
@@ -105,7 +105,7 @@ describe("a clamp", function()
     end
   end)
 
-  it("of two close together leaves the free side alone", function()
+  it("close to another one leaves the free side alone", function()
     for _, gap in ipairs{ 0.006, 0.016, 0.02, 0.03, 0.05 } do
       local scene, wire, p = long(0.5, 50)
       local a, b = scene:clamp(wire, { s = 0.5 - gap }), scene:clamp(wire, { s = 0.5 })
@@ -158,8 +158,8 @@ describe("a clamp put on in mid-run", function()
       for i, u in ipairs(places) do before[i] = { c.wire:position(u), c.wire:velocity(u) } end
       c.scene:clamp(c.wire, { s = s })
       for i, u in ipairs(places) do
-        -- a node that moves along the curve: the cubic between nodes differs by h^3 = 8e-6
-        -- times the change of curvature, 1 or so
+        -- a node moves along the curve: the cubic between nodes differs by h^3 = 8e-6 times the change of
+        -- curvature, which is about 1
         t.below(1e-5, t.distance(before[i][1], c.wire:position(u)), "position changed by")
         t.below(2e-3, t.distance(before[i][2], c.wire:velocity(u)), "velocity changed by")
       end
@@ -176,7 +176,7 @@ describe("a clamp put on in mid-run", function()
     local tip = c.wire:velocity(1)
     local clamp = c.scene:clamp(c.wire, { s = 0.503 })
     local place = c.wire:position(0.503)
-    -- before the axial wave, at 792 m/s, is there to tell the tip
+    -- before the axial wave, at 792 m/s, reaches the tip
     t.fine(c.scene:run{ duration = 2e-4, dt = 2e-5 })
     t.below(1e-9, t.distance(place, c.wire:position(0.503)), "held point moved by")
     t.below(0.05, t.distance(tip, c.wire:velocity(1)), "tip's velocity changed by")
@@ -185,7 +185,7 @@ describe("a clamp put on in mid-run", function()
     assert.is_true(t.norm(clamp:force()) > 0)
   end)
 
-  it("never gives energy, and less and less is lost in stopping with finer meshes", function()
+  it("never adds energy, and loses less in stopping with finer meshes", function()
     local losses = {}
     for i, n in ipairs{ 25, 100 } do
       local c, scale = swinging(n)
@@ -202,7 +202,7 @@ describe("a clamp put on in mid-run", function()
     t.below(losses[1], losses[2], "loss at 100 segments")
   end)
 
-  it("at rest changes nothing but by the mesh's second order", function()
+  it("at rest shifts the tip by no more than the mesh's error", function()
     for _, s in ipairs{ 0.5, 0.5063, 0.991 } do
       local shifts = {}
       for i, n in ipairs{ 50, 200 } do
@@ -214,7 +214,7 @@ describe("a clamp put on in mid-run", function()
         shifts[i] = t.distance(tip, c.wire:position(1))
         clamp:release()
         t.fine(c.scene:settle())
-        -- what is left: a node that has moved
+        -- the rest: a node that has moved
         t.below(1e-5, t.distance(tip, c.wire:position(1)), "tip moved by, after the release")
       end
       t.below(1.5e-4, shifts[1], "tip moved by, 50 segments")
@@ -223,7 +223,7 @@ describe("a clamp put on in mid-run", function()
   end)
 
   -- A stub of a wire a hair longer than asked for must not stop the run.
-  it("holds the end where it is asked for a hair beside it", function()
+  it("holds the end if it is asked for a hair beside it", function()
     for _, hair in ipairs{ 0, 1e-8, 1e-6, 7e-5, 2e-4, 1e-3 } do
       local s = sw.scene{}
       local w = s:wire{ EA = 1e5, EI = 1e-3, GJ = 1e-3, mass_per_length = 0.02, radius = 1e-3,

@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps that are taken whole though wires move too fast in them are told of: by methods without an estimate
--- of their error, and of more than 32 wires. (Bundles: met_spec.)
+-- Whole steps in which wires move too fast are reported: with methods that have no error estimate, and with
+-- more than 32 wires. (Bundles: met_spec.)
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
--- Cables that hang from clamps; the first one is whipped by so much within 0.2 s. Its largest tension, and
--- what was told of coarse steps.
+-- Cables hang from clamps; the first one is whipped by o.by within 0.2 s. Returns the reports of coarse
+-- steps, and its largest tension.
 local function whipped(o)
   local scene, wire, hold, found = sw.scene{}, nil, nil, {}
   for i = o.count or 1, 1, -1 do
@@ -27,7 +27,7 @@ end
 
 describe("steps taken whole that are too long", function()
   for _, method in ipairs{ "implicit-euler", "bdf2" } do
-    it("are told of, with a step to compare with: " .. method, function()
+    it("are reported, with a step to compare with: " .. method, function()
       local found, most = whipped{ method = method, by = 0.2, dt = 0.02 }
       local _, fine = whipped{ by = 0.2, dt = 2.5e-4 }
       t.above(0.05, math.abs(most / fine - 1), "off by")
@@ -38,14 +38,14 @@ describe("steps taken whole that are too long", function()
     end)
   end
 
-  it("are told of where there are more than 32 wires, not of 32", function()
+  it("are reported for more than 32 wires, not for 32", function()
     local found = whipped{ by = 0.2, dt = 0.02, count = 33 }
     assert.is_true(#found >= 1)
     assert.is_truthy(found[1]:find("with more than 32 none is taken in parts", 1, true), found[1])
     assert.same({}, (whipped{ by = 0.2, dt = 0.02, count = 32 }))
   end)
 
-  it("are not told of where they are short enough, or asked for", function()
+  it("are not reported where they are short enough, or asked for", function()
     for _, method in ipairs{ "implicit-euler", "bdf2" } do
       assert.same({}, (whipped{ method = method, by = 0.01, dt = 0.002 }))
       assert.same({}, (whipped{ method = method, by = 0.2, dt = 0.02, parts = false }))

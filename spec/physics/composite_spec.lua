@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Composites whose parts slide on each other: bending against beams of the parts, friction along
--- the wire against Coulomb's law, and what must be kept.
+-- Composites whose parts slide on each other: bending is compared with beams of the parts, friction along
+-- the wire with Coulomb's law; also energy, momentum and snapshots.
 local sw = require "softworld"
 local tools = require "physics.tools"
 local near, share, below, above, fine = tools.near, tools.share, tools.below, tools.above, tools.fine
@@ -18,7 +18,7 @@ local function make(more, gravity)
   return scene, scene:wire(args)
 end
 
--- A cantilever; load(F) brings a force at its end into equilibrium and gives the deflection.
+-- A cantilever. load(F) finds the equilibrium under a force at its end and returns the deflection.
 local function cantilever(more)
   local scene, wire = make(more)
   local length, force = wire.length
@@ -37,8 +37,8 @@ local function stiffness(more)
   return F * wire.length ^ 3 / 3 / load(F)
 end
 
--- EI of the parts by themselves, and of a section that stays plane, bending towards the lattice's y
--- or, by symmetry of three and more cores, any direction.
+-- Returns EI of the parts by themselves, and of a section that stays plane. It bends towards the lattice's
+-- y or, by symmetry of three and more cores, in any direction.
 local function parts(wire)
   local c = wire:calibration()
   local slide, stick = c.shell.EI, c.shell.EI
@@ -49,7 +49,7 @@ local function parts(wire)
   return slide, stick
 end
 
--- Numbers of the shell's particles, and of the core's that is a line.
+-- Returns the numbers of the shell's particles, and those of a core that is a line.
 local function members(wire, ring)
   local n, shell, core = ring + 1, {}, {}
   for r = 0, wire.segments do
@@ -66,8 +66,8 @@ local function mean(list, numbers, k)
 end
 
 describe("a composite whose parts slide", function()
-  -- A clamp holds a whole section, and near it and the free end sections are not those of an endless
-  -- wire: of the length of 20 diameters these zones are a percent.
+  -- A clamp holds a whole section; near it and near the free end sections differ from those of an endless
+  -- wire. In a length of 20 diameters these zones are a percent.
   it("bends as its parts do, without friction", function()
     for _, more in ipairs { {}, { core = "radial" }, { cores = 3 }, { cores = 3, core = "radial" },
       { cores = 7 } } do
@@ -78,8 +78,8 @@ describe("a composite whose parts slide", function()
     end
   end)
 
-  -- What sticks is handed on within three slices, so that sections near the ends do not stay plane,
-  -- and shear of what holds cores adds to the deflection: 6 % at 10 to 20 diameters.
+  -- Sticking parts hand on their force within three slices, so sections near the ends do not stay plane,
+  -- and shear of what holds the cores adds to the deflection: 6 % at 10 to 20 diameters.
   it("bends as one section while it sticks", function()
     for _, cores in ipairs { 3, 7 } do
       local more = { cores = cores, friction = FRICTION, grip = 1e4, to = { 0.2, 0, 0 } }
@@ -90,8 +90,8 @@ describe("a composite whose parts slide", function()
     end
   end)
 
-  -- Once round the loop: the work of the load is what was dissipated. Trapezoids over 20 loads
-  -- each way miss a few thousandths of the loop; pressure lags by one load.
+  -- Once round the loop, the work of the load is what was dissipated. Trapezoids over 20 loads each way
+  -- miss a few thousandths of the loop; pressure lags by one load.
   it("dissipates the area of its loop", function()
     local load, scene, wire = cantilever { cores = 3, friction = FRICTION, grip = 1 }
     local slide, stick = parts(wire)
@@ -114,7 +114,7 @@ describe("a composite whose parts slide", function()
     go(-most, 40)
     local lost = scene:energy().dissipated - before
     share(work, lost, 0.02, "dissipated")
-    -- the loop has an area: of all that is stored at its end some percent
+    -- the loop has an area: some percent of all that is stored at its end
     above(0.01 * most * top, lost, "dissipated")
     -- between sliding and sticking
     local L = wire.length
@@ -122,9 +122,9 @@ describe("a composite whose parts slide", function()
     below(stick, most / top * L ^ 3 / 3, "EI at the end")
   end)
 
-  -- Both ends of the core are pinned and the shell is pushed along: it stays below friction * grip
-  -- * length, and above has the acceleration of the rest. Friction spread over the core stretches
-  -- it and makes waves, by a few percent of what has slid.
+  -- Both ends of the core are pinned and the shell is pushed along. It stays below friction * grip *
+  -- length; above, it is accelerated by the rest. Friction spread over the core stretches it and makes
+  -- waves, by a few percent of what has slid.
   it("slides at friction times grip times length", function()
     local grip, T = 50, 1e-3
     local most = FRICTION * grip * LENGTH
@@ -152,8 +152,8 @@ describe("a composite whose parts slide", function()
     end
   end)
 
-  -- Line forces on opposite sides, all along: what holds sliding parts across is as stiff as bonds
-  -- within a slice, but bonds are inclined too.
+  -- Line forces on opposite sides, all along. Across the wire, sliding parts are held as stiffly as by
+  -- bonds within a slice, but bonds are inclined too.
   it("resists squeezing as a bonded one does", function()
     for _, core in ipairs { "line", "radial" } do
       local function stiffness_across(bonded)
@@ -195,8 +195,8 @@ describe("a composite whose parts slide", function()
     end
   end)
 
-  -- Free flight after a blow that bends and slides: forces between parts are inner ones. That they have no
-  -- moment either is in spec/contract/forces_spec.lua.
+  -- Free flight after a blow that bends and slides: forces between parts are inner ones.
+  -- spec/contract/forces_spec.lua checks that they have no moment either.
   it("keeps momentum", function()
     local scene, wire = make { cores = 3, friction = FRICTION, grip = 2 }
     local force = scene:force { kind = "point", on = wire, s = 0.08, force = { 1, 0, 3 } }
@@ -214,13 +214,13 @@ describe("a composite whose parts slide", function()
     fine(scene:run { duration = 5e-3, dt = 1e-4, integrator = "implicit-midpoint" })
     local after = momentum()
     above(1e-9, scene:energy().dissipated, "dissipated")
-    for k = 1, 3 do -- how far iterations go
+    for k = 1, 3 do -- tolerance of the iterations
       near(before[k], after[k], 1e-9 * tools.norm(before), "momentum")
     end
   end)
 
-  -- The method has no damping of its own, so that friction is all that takes energy. A part of it,
-  -- of second order in the step, is in neither sum: the friction of a step acts at its middle.
+  -- The method has no damping of its own, so friction takes all the energy. A part of second order in the
+  -- step is in neither sum: the friction of a step acts at its middle.
   it("loses in free vibration what friction dissipates", function()
     local load, scene, _, release = cantilever { cores = 3, friction = FRICTION, grip = 10 }
     load(0.5)
@@ -240,7 +240,7 @@ describe("a composite whose parts slide", function()
     above(0.05 * before.total, last.dissipated - before.dissipated, "dissipated")
   end)
 
-  it("comes back from a snapshot bit by bit", function()
+  it("goes on to the same bits from a snapshot", function()
     local load, scene, wire = cantilever { cores = 3, friction = FRICTION, grip = 1 }
     load(0.1)
     local before = scene:snapshot()
@@ -270,7 +270,7 @@ describe("a composite whose parts slide", function()
     near(bent, wire:position(LENGTH)[3], 1e-4 * bent)
   end)
 
-  it("refuses what does not go together", function()
+  it("refuses parameters that do not go together", function()
     local function refused(more, ...)
       local ok, text = pcall(make, more)
       assert.is_false(ok)

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Cables that are drawn straight between two holds, by their fall or by a hold: the largest tension comes
--- from how little they sag, and is that of fine steps at coarse ones, too. Judged like other wires, by a
--- 10,000th of the length, 41 of 369 such runs were more than 10 % off at 20, 10 and 5 ms, most untold; now
--- 5 are.
+-- Cables that are drawn straight between two holds, by their fall or by a hold. The largest tension depends
+-- on how little they sag; at coarse steps it is that of fine steps. Judged like other wires, by a 10,000th
+-- of the length, 41 of 369 such runs were more than 10 % off at 20, 10 and 5 ms, most of them without a
+-- report. Judged more finely, 5 are.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
--- What the hold at the end does: how long [s], how far along the cable and up [of the length].
+-- Motion of the hold at the end: duration [s], ways along the cable and up [shares of the length].
 local ways = {
   ["falls into its holds"] = function() end,
   ["is let in"] = function(follow, move) follow(0.05, move(-0.006, 0)) end,
@@ -53,7 +53,7 @@ describe("a cable that", function()
     end
   end
 
-  it("is let in has it turned, with its ends swapped and other edges too", function()
+  it("is let in has that tension when turned, with swapped ends and other edges too", function()
     for _, case in ipairs{ { "GXL 0.5", 0.9 }, { "H07V-K 10", 0.5 } } do
       for _, o in ipairs{ { turned = 2 }, { swapped = true }, { segments = 41 },
         { segments = 63, turned = 4 } } do
@@ -66,7 +66,7 @@ describe("a cable that", function()
     end
   end)
 
-  it("falls into its holds has it with little damping, too", function()
+  it("falls into its holds has that tension with little damping, too", function()
     for _, case in ipairs{ { "GXL 1.5", 0.6 }, { "FLRY-B 10", 1.2 }, { "GXL 0.5", 0.9 } } do
       local o = { mass = 0.2, stiffness = 1e-4 }
       local fine = outcome("falls into its holds", case[1], case[2], { dt = 2.5e-4 }, o)
@@ -78,7 +78,7 @@ describe("a cable that", function()
   end)
 end)
 
--- What hangs all but straight and is carried slowly moves as one: whole steps do.
+-- A cable that hangs almost straight and is carried slowly moves as one: whole steps are enough.
 it("a straight cable that is carried takes whole steps", function()
   local scene = sw.scene{}
   local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.6, 0, 0 }, segments = 40 }

@@ -4,11 +4,11 @@ package.path = "./?.lua;" .. package.path
 local cases = require "softworld.cases"
 local t = require "spec.physics.tools"
 
--- EA that stretches the wire by less than a tenth of any mesh error looked at.
+-- EA so large that the wire stretches by less than a tenth of any mesh error here.
 local stiff = 1e9
 
--- gamma, tip error over L, relative error of the tip's drop over its reach, both at 50
--- segments: two to three times what a plain second-order rod reaches.
+-- gamma, tip error over L, relative error of the tip's drop over its reach, both at 50 segments: two to
+-- three times the errors of a plain second-order rod.
 local limits = { { 1, 2e-4, 0.0015 }, { 10, 7e-4, 0.0015 }, { 100, 2e-3, 0.006 },
   { 1000, 6e-3, 0.06 } }
 
@@ -43,7 +43,7 @@ describe("a wire drooping under its own weight", function()
     end
   end)
 
-  it("hangs its whole weight on the clamp, to rounding", function()
+  it("loads the clamp with its whole weight, to rounding", function()
     for _, gamma in ipairs{ 0.1, 10, 1000 } do
       local c = cases.droop{ gamma = gamma }
       t.fine(c.run())
@@ -92,7 +92,7 @@ describe("a wire drooping under its own weight", function()
     end
   end)
 
-  it("lets gravity point anywhere", function()
+  it("meets the elastica with gravity in any direction", function()
     local random = t.random(3)
     for _ = 1, 6 do
       local q = t.turn(random)
@@ -103,8 +103,8 @@ describe("a wire drooping under its own weight", function()
     end
   end)
 
-  it("bends the string model alike while hinges are small", function()
-    -- the string's linear hinge is soft by phi^2/8: 2e-4 at 50 segments and gamma 10
+  it("bends the same with the string model while hinge angles are small", function()
+    -- the string's linear hinge is too soft by phi^2/8: 2e-4 at 50 segments and gamma 10
     local c = cases.droop{ gamma = 10, model = "string", axial = stiff }
     t.fine(c.run())
     t.below(2e-3, c.error(), "tip error")
@@ -124,7 +124,7 @@ describe("a cantilever with an end load", function()
     end)
   end
 
-  it("is second order", function()
+  it("is second order in the segment's length", function()
     for _, load in ipairs{ 0.5, 1, 4, 10 } do
       t.order_at_least(1.8, { 25, 50, 100, 200 }, function(n)
         local c = cases.end_load{ load = load, segments = n, axial = stiff }
@@ -134,7 +134,7 @@ describe("a cantilever with an end load", function()
     end
   end)
 
-  it("takes an oblique load at any turn of the scene", function()
+  it("meets them in a turned scene", function()
     local random = t.random(11)
     for _ = 1, 4 do
       local c = cases.end_load{ load = 2, rotation = t.turn(random) }

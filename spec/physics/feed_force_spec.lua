@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Feeds by a force, and feeds with grippers.
+-- Feeds driven by a force, and feeds together with grippers.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -10,14 +10,14 @@ local g, mass, EI = 9.81, 0.03, 3e-3
 local w = mass * g
 
 describe("a feed with a force", function()
-  -- Falling against a brake B: x'' = g - B / (mass x), whose energy integral is exact.
+  -- A fall against a brake B: x'' = g - B / (mass x). Its energy integral is exact.
   it("lets wire fall as the formula says", function()
     local start = 0.5
     local brake = 0.5 * w * start
     local function speed_at(x)
       return math.sqrt(2 * (g * (x - start) - brake / mass * math.log(x / start)))
     end
-    local length, speed = start, 0 -- the same by Runge and Kutta
+    local length, speed = start, 0 -- the same by Runge-Kutta
     local h = 1e-4
     local function slope(x) return g - brake / (mass * x) end
     for _ = 1, 4000 do
@@ -42,7 +42,7 @@ describe("a feed with a force", function()
     end
   end)
 
-  it("with a limit holds until it slips, with just that force, and holds again", function()
+  it("with a limit holds, slips at exactly that force, and holds again", function()
     local scene = sw.scene {}
     local wire = scene:wire { EA = 1e5, EI = EI, mass_per_length = mass, radius = 0.002,
       from = { 0, 0, 0 }, to = { 0, 0, -0.5 }, segments = 25 }
@@ -57,7 +57,7 @@ describe("a feed with a force", function()
       if scene.time > 0.05 then t.share(-0.2, feed:drive_force(), 1e-6, "force") end
     end
     t.fine(scene:run { duration = 0.3, dt = 0.01 })
-    t.near(0.1, feed:fed(), 1e-5, "fed") -- the wire's stretch is below that
+    t.near(0.1, feed:fed(), 1e-5, "fed") -- the wire stretches by less
     t.near(0, feed:speed(), 1e-9, "speed")
     t.below(0.2 * (1 + 1e-6), math.abs(feed:drive_force()), "force at rest")
   end)
@@ -82,7 +82,8 @@ describe("feeding and handling", function()
     t.near(0.002, wire:position(wire.length)[3], 1e-4, "end on the table")
   end)
 
-  -- Two movers: what one pays out the other takes along; the wire between keeps its shape's family.
+  -- Two movers: the gripper takes along what the feed pays out, and the wire between keeps its kind of
+  -- shape.
   it("pays out what a gripper pulls away", function()
     local scene, wire, feed = sleeve(0.5, 25)
     local gripper = scene:gripper { name = "puller" }
@@ -102,12 +103,12 @@ describe("feeding and handling", function()
     assert.is_true(wire:position(0.39)[3] < sag) -- longer spans sag more
   end)
 
-  it("keeps forces where they are on the wire", function()
+  it("keeps a force at its place on the wire", function()
     local scene, wire, feed = sleeve(0.4, 20, { gravity = { 0, 0, 0 } })
     scene:force { kind = "point", on = wire, s = 0.2, force = { 0, 0, -0.01 } }
     feed:feed { length = 0.1, duration = 1 }
     t.fine(scene:run { duration = 1, dt = 0.05, quasistatic = true })
-    -- the place that was at 0.2 m is at 0.3 m from the guide
+    -- the place that was at 0.2 m is then 0.3 m from the guide
     t.share(0.01 * wire:position(0.3)[1], feed:moment()[2] * -1, 1e-4, "moment")
     t.near(0, wire:curvature(0.4), 1e-9, "beyond it")
   end)

@@ -24,8 +24,9 @@ local cantilevers = {
 local function length_of(gamma) return (gamma * EI / w) ^ (1 / 3) end
 
 describe("wire fed vertically down", function()
-  -- All of it moves at the feeding speed, in the guide too: no momentum is gained at the guide, whose
-  -- force is the weight outside. (Accelerating the wire from a spool at rest, mass v^2, is not the guide's.)
+  -- All of the wire moves at the feeding speed, in the guide too: no momentum is gained at the guide, so
+  -- its force is the weight outside. (The force mass v^2 that accelerates wire from a spool at rest is not
+  -- the guide's.)
   it("hangs on the guide with its growing weight and leaves at its speed", function()
     local scene, wire, feed
     scene = sw.scene {}
@@ -46,7 +47,7 @@ describe("wire fed vertically down", function()
     end
   end)
 
-  -- Speeding up, v^2 = 2 a x: the guide bears mass (g - a) per length.
+  -- Speeding up with v^2 = 2 a x: the guide bears mass (g - a) per length.
   it("bears less while it accelerates", function()
     local scene = sw.scene {}
     local wire = scene:wire { EA = 1e5, EI = EI, mass_per_length = mass, radius = 0.002,
@@ -78,7 +79,7 @@ describe("wire pushed out of a level sleeve", function()
       t.share(EI * curvature, -feed:moment()[2], 2e-4, "moment")
       t.share(-EI * curvature ^ 2 / 2, feed:drive_force(), 4e-4, "drive")
     end
-    t.above(60, wire.segments, "segments") -- of the size they had
+    t.above(60, wire.segments, "segments") -- of the initial size
   end)
 
   it("is second order in the mesh", function()
@@ -93,8 +94,8 @@ describe("wire pushed out of a level sleeve", function()
     end, "tip")
   end)
 
-  -- The work of the drive is all the energy that comes in: the force it is measured by is not the one
-  -- that balances the wire's weight and inertia, which has no component along the guide here.
+  -- The drive's work is all the energy that comes in. The drive's force is not the one that balances the
+  -- wire's weight and inertia, which has no component along the guide here.
   it("takes the drive's work and gives it back, without jumps of the moment", function()
     local function balance(n)
       local scene, _, feed = sleeve(0.2, n)
@@ -121,7 +122,7 @@ describe("wire pushed out of a level sleeve", function()
     t.below(8e-5, fine_jump, "jump of the moment with 20 segments")
   end)
 
-  it("comes back to where it was when it is drawn in and paid out again", function()
+  it("comes back to its place when it is drawn in and paid out again", function()
     local function round(n)
       local scene, wire, feed = sleeve(0.4, n)
       t.fine(scene:settle())
@@ -150,7 +151,7 @@ describe("wire fed in motion", function()
     return wire:position(wire.length), wire
   end
 
-  -- As long as no node comes out of the guide, and with 30 that do.
+  -- While no node comes out of the guide, and with 30 nodes that do.
   it("is second order in the time step", function()
     local function pay_out_a_little(dt)
       local scene, wire, feed = sleeve(0.4, 10)
@@ -189,7 +190,7 @@ describe("wire fed in motion", function()
   end)
 
   -- The guide's force, sampled at every step, has kinks where nodes come out; they fade with the mesh.
-  it("has hardly a jump in the guide's force", function()
+  it("has almost no jumps in the guide's force", function()
     local function jump(n)
       local scene, _, feed = sleeve(0.2, n)
       t.fine(scene:settle())
@@ -208,8 +209,8 @@ describe("wire fed in motion", function()
     t.below(0.012, fine, "jump over the weight, 80 segments")
   end)
 
-  -- Without weight everything goes with the guide, which moves across while it feeds.
-  it("leaves a moving guide with the velocities of both", function()
+  -- Without weight, all of the wire moves with the guide, which moves across while it feeds.
+  it("leaves a moving guide with the guide's velocity plus the feeding speed", function()
     local scene, wire, feed = sleeve(0.2, 20, { gravity = { 0, 0, 0 }, feed = { speed = 0.2 } })
     wire:set_velocity({ 0.2, 0.5, 0 })
     feed:follow { points = { { 0, 0, 0 }, { 0, 0.5, 0 } }, speed = 0.5, law = "linear" }
@@ -218,8 +219,8 @@ describe("wire fed in motion", function()
     t.below(1e-9, t.norm(feed:force()), "force")
   end)
 
-  -- A stiff wire that comes out of a guide which turns at omega: every bit of it is accelerated
-  -- across by 2 v omega, and inwards by omega^2 r.
+  -- A stiff wire comes out of a guide that turns at omega: every piece of it is accelerated across by 2 v
+  -- omega, and inwards by omega^2 r.
   it("bears Coriolis' force in a turning guide", function()
     local v, omega = 0.3, 2
     local scene = sw.scene { gravity = { 0, 0, 0 } }
@@ -235,7 +236,7 @@ describe("wire fed in motion", function()
       local along = force[1] * math.cos(angle) + force[2] * math.sin(angle)
       local across = force[2] * math.cos(angle) - force[1] * math.sin(angle)
       t.share(2 * mass * v * omega * L, across, 1e-3, "across")
-      -- of first order in the step where the acceleration changes, as all reactions of stiff wires
+      -- first order in the step where the acceleration changes, like all reactions of stiff wires
       t.share(-mass * omega ^ 2 * L ^ 2 / 2, along, 0.01, "inwards")
     end
   end)
@@ -250,8 +251,8 @@ describe("wire fed in motion", function()
     t.share(0.5 * 0.5 * wire.length, feed:force()[1], 1e-3, "force")
   end)
 
-  -- Far end, start and mid-wire are one thing seen from three sides.
-  it("is the same from every place of the wire", function()
+  -- A feed at the far end, at the start and in mid-wire must give the same.
+  it("is the same with the feed at any place of the wire", function()
     local function tip(from, to, segments, s, clamped)
       local scene = sw.scene {}
       local wire = scene:wire { EA = 1e5, EI = EI, mass_per_length = mass, radius = 0.002,
@@ -259,7 +260,7 @@ describe("wire fed in motion", function()
       local feed = scene:feed(wire, { s = s })
       local other = clamped and scene:clamp(wire, { s = 0 })
       t.fine(scene:settle())
-      if other then -- comes after with what goes out on the other side
+      if other then -- follows what goes out on the other side
         other:follow { points = { { 0, 0, 0 }, { -0.1, 0, 0 } }, duration = 1, relative = true }
       end
       feed:feed { length = 0.1, duration = 1 }
@@ -277,7 +278,7 @@ describe("wire fed in motion", function()
 end)
 
 describe("twist of fed wire", function()
-  -- The guide keeps the wire from turning: the angle between guide and clamp stays, over more length.
+  -- The guide keeps the wire from turning, so the angle between guide and clamp stays, over more length.
   for name, options in pairs { plain = {}, framed = { EI = { EI, 4e-3 }, normal = { 0, 1, 0 } } } do
     it("thins out while wire is paid out, " .. name, function()
       options.gravity = { 0, 0, 0 }
@@ -300,7 +301,7 @@ describe("twist of fed wire", function()
 end)
 
 describe("wire from a spool", function()
-  it("keeps the curvature it has from there", function()
+  it("keeps the curvature it has on the spool", function()
     local radius, before, after = 0.1, 0.1, 0.25
     local function off(n)
       local scene, points = sw.scene { gravity = { 0, 0, 0 } }, {}
@@ -315,7 +316,7 @@ describe("wire from a spool", function()
       t.fine(scene:run { duration = 1, dt = 0.05, quasistatic = true })
       t.near(0, feed:moment()[2], 1e-12, "moment") -- unloaded
       t.share(1 / radius, wire:curvature(0.02), 1e-4, "curvature")
-      t.share(-EI / radius ^ 2 / 2, feed:drive_force(), 2e-3, "drive") -- it was straightened inside
+      t.share(-EI / radius ^ 2 / 2, feed:drive_force(), 2e-3, "drive") -- the guide straightens it
       local a = wire.length / radius
       return t.distance({ radius * math.sin(a), 0, radius * (1 - math.cos(a)) },
         wire:position(wire.length))

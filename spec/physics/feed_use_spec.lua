@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a user can do to a feed: wrong input, running out of wire, snapshots, releasing,
--- changing the wire while it is fed.
+-- Using a feed: wrong input, running out of wire, snapshots, releasing, changing the wire while it is fed.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -21,7 +20,7 @@ local function refused(words, f, ...)
 end
 
 describe("a feed", function()
-  it("refuses what makes no sense, and changes nothing", function()
+  it("refuses arguments that make no sense, and changes nothing", function()
     local scene, wire, feed = make { speed = 0.1 }
     refused("speed = ", scene.feed, scene, wire, { s = 0.4, speed = 0 / 0 })
     refused("speed = inf m/s", scene.feed, scene, wire, { s = 0.4, speed = 1 / 0 })
@@ -56,7 +55,7 @@ describe("a feed", function()
     refused("has no length; holds of scene:feed have it", other.feed, other, { length = 1, speed = 1 })
   end)
 
-  it("is fed by processes only with what feeds", function()
+  it("is the only hold that p:feed accepts", function()
     local scene, wire, feed = make()
     local clamp = scene:clamp(wire, { s = 0.4 })
     scene:process(function(p)
@@ -69,7 +68,7 @@ describe("a feed", function()
     assert.are.equal(0, feed:fed())
   end)
 
-  it("tells its state and changes it", function()
+  it("reports its state and takes changes", function()
     local scene, wire, feed = make { s = 0, name = "spool", force_limit = 3 }
     assert.are.equal(3, feed:force_limit())
     feed:force_limit(nil)
@@ -93,7 +92,7 @@ describe("a feed", function()
     assert.are.equal(fed, feed:fed())
   end)
 
-  it("stops the run, all in order, when no wire is left to draw in", function()
+  it("stops the run in a valid state when no wire is left to draw in", function()
     for _, quasistatic in ipairs { false, true } do
       local scene, wire, feed = make { speed = -0.5 }
       refused("wire 'w' is drawn in up to its end", scene.run, scene,
@@ -114,12 +113,12 @@ describe("a feed", function()
     t.near(0.4 + feed:fed(), wire.length, 1e-12)
   end)
 
-  it("needs motion for a force", function()
+  it("with a force needs a run in motion", function()
     local scene = make { force = 1 }
     refused("needs motion", scene.run, scene, { duration = 1, quasistatic = true })
   end)
 
-  it("does not follow what is far too fast, and tells", function()
+  it("does not follow a speed that is far too high, and reports it", function()
     local scene = make { speed = 1e4 }
     local run = scene:run { duration = 1, dt = 0.01, max_steps = 200 }
     assert.are.equal("boolean", type(run.ok))
@@ -130,7 +129,7 @@ describe("a feed", function()
       run.reason)
   end)
 
-  it("is restored bit by bit", function()
+  it("goes on to the same bits from a snapshot", function()
     for _, options in ipairs { {}, { EI = { 3e-3, 4e-3 }, GJ = 2e-3, normal = { 0, 1, 0 } } } do
       for _, drive in ipairs { { speed = 0.13 }, { force = 0.02 }, { force_limit = 0.01, speed = 0.1 } } do
         local scene, wire, feed = make(drive, options)
@@ -200,7 +199,7 @@ describe("a feed", function()
     t.near(0, feed:force()[1] + other:force()[1], 1e-6, "no net force along")
   end)
 
-  it("carries plastic and viscous wires", function()
+  it("pays out plastic and viscous wires", function()
     local scene, wire, feed = make()
     scene:force { kind = "plastic", on = wire, yield_moment = 0.004, hardening = 1e-3 }
     scene:force { kind = "viscous_bend", on = wire, eta = 1e-4 }

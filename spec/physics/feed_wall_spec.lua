@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A feed with a force limit that pushes a cable against a tilted wall: it slips like a clutch, by as much
--- at all steps, and is neither driven back nor refused step after step.
+-- A feed with a force limit pushes a cable against a tilted wall. It slips like a clutch, by the same
+-- amount at all steps, and is neither driven back nor refused step after step.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -27,7 +27,7 @@ local function fed(cable, friction, dt)
 end
 
 describe("a feed that pushes a cable against a wall", function()
-  -- The column bears more than the limit: the wire stands, the drive slips.
+  -- The column bears more than the limit: the wire stands and the drive slips.
   it("slips at its limit", function()
     for _, dt in ipairs{ 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4 } do
       local m, what = fed("FLRY-B 10", 0.6, dt), (" at steps of %g s"):format(dt)
@@ -39,7 +39,7 @@ describe("a feed that pushes a cable against a wall", function()
     end
   end)
 
-  -- The wall's angle is beyond that of friction: the wire slides up and the drive slips no more.
+  -- The wall's angle is beyond that of friction: the wire slides up, and the drive slips no more.
   it("goes on where the wire gives way", function()
     for _, dt in ipairs{ 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4 } do
       local m, what = fed("GXL 1.5", 0.1, dt), (" at steps of %g s"):format(dt)
@@ -49,7 +49,7 @@ describe("a feed that pushes a cable against a wall", function()
     end
   end)
 
-  -- The wall holds the end, and the wire bows: at first against the limit.
+  -- The wall holds the end and the wire bows, at first against the limit.
   it("is not driven back where the end sticks", function()
     for _, dt in ipairs{ 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4 } do
       for _, friction in ipairs{ 0.3, 0.6 } do

@@ -26,7 +26,7 @@ describe("drag", function()
     t.share(-(m * 9.81 / 0.5) ^ 0.5, wire:velocity(0.3)[3], 1e-4, "terminal velocity, quadratic")
   end)
 
-  it("slows in the course of time as the closed forms say", function()
+  it("slows a wire as the closed forms say", function()
     local scene, wire, m = free{}
     wire:set_velocity{ 0, 2, 0 }
     scene:force{ kind = "drag", on = wire, linear = 0.1 }
@@ -41,7 +41,7 @@ describe("drag", function()
 end)
 
 describe("Rayleigh damping", function()
-  -- Ratio of damping of the cantilever's first mode from its decay over some periods.
+  -- Returns the damping ratio of the cantilever's first mode, from its decay over some periods.
   local function ratio(damping)
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = 1e9, density = 1200, radius = 0.002, segments = 20,
@@ -60,8 +60,7 @@ describe("Rayleigh damping", function()
       damping.by, damping.zeta = nil, nil
       scene:force(damping)
     end
-    -- from the energy after the third period, when the higher modes have gone, to that
-    -- after the tenth
+    -- from the energy after the third period, when the higher modes have died out, to that after the tenth
     local period = 2 * math.pi / omega
     t.fine(scene:run{ duration = 3 * period, dt = period / 400 })
     local before = scene:energy().total
@@ -77,7 +76,7 @@ describe("Rayleigh damping", function()
     t.share(0.02, ratio{ by = "stiffness", zeta = 0.02 }, 0.01, "damping ratio")
   end)
 
-  it("left out leaves almost none", function()
+  it("is almost zero if it is left out", function()
     t.below(5e-5, math.abs(ratio{}), "damping ratio of the method")
   end)
 
@@ -95,7 +94,7 @@ describe("Rayleigh damping", function()
 end)
 
 describe("dead loads", function()
-  it("at a point do as much as a line of the same sum when the wire is free", function()
+  it("at a point accelerate a free wire like a line of the same sum", function()
     local scene, wire, m = free{}
     scene:force{ kind = "line", on = wire, force = { 0, 0.01, 0 } }
     t.fine(scene:run{ duration = 1, dt = 0.01 })
@@ -106,7 +105,7 @@ describe("dead loads", function()
     t.share(0.01 / m, t.momentum(wire)[1] / (m * 0.6), 1e-9, "speed under a point force")
   end)
 
-  it("at a point between nodes bend as at the same place anywhere", function()
+  it("at a point between nodes bend a cantilever as beam theory says", function()
     -- small deflection of a cantilever under P at a: P a^2 (3 L - a)/(6 EI)
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ EA = 1e6, EI = 1, mass_per_length = 0.1, radius = 0.01,
@@ -123,7 +122,7 @@ describe("dead loads", function()
     end
   end)
 
-  it("as a line bend like weight", function()
+  it("along a line bend like weight", function()
     local c = cases.droop{}
     t.fine(c.run())
     local tip = c.wire:position(1)
@@ -134,7 +133,7 @@ describe("dead loads", function()
     t.below(1e-9, t.distance(tip, c.wire:position(1)), "tips differ by")
   end)
 
-  it("as a line are weight in motion, too", function()
+  it("along a line act like weight in motion, too", function()
     local weighed, loaded = cases.release{ segments = 20 }, cases.release{ segments = 20 }
     loaded.scene:gravity{ 0, 0, 0 }
     loaded.scene:force{ kind = "line", on = loaded.wire,
@@ -185,8 +184,8 @@ describe("a function as a force", function()
       for _, c in ipairs{ built, own } do
         t.fine(c.scene:run{ duration = 0.3, dt = method[2], integrator = method[1] })
       end
-      -- a function's force is iterated to a fixed point, the built-in one's step is done
-      -- after one linearised solve
+      -- a function's force is iterated to a fixed point; with the built-in one a step ends after one
+      -- linearised solve
       t.below(2e-5, t.distance(built.wire:position(1), own.wire:position(1)), method[1])
     end
   end)
@@ -224,7 +223,7 @@ describe("a wire thrown spinning without gravity", function()
       -- spin and energy are not invariants of TR-BDF2: second order in the step
       t.below(2e-4 * t.norm(l0), t.distance(l0, l), "spin changed by")
       t.near(e0, scene:energy().total, 2e-3 * e0, "energy")
-      -- its middle of mass flies straight on
+      -- its centre of mass flies straight on
       t.share(0.6 * m, t.norm(p) / t.norm{ 1, 2 + 8 * 0.1, -0.5 + 3 * 0.1 }, 1e-9, "mass")
     end)
   end

@@ -52,7 +52,7 @@ describe("an arc that hangs out of its plane", function()
     end)
   end
 
-  it("does so anyhow turned, as the case that is benchmarked", function()
+  it("has the same tip as the benchmark's case, turned in any way", function()
     local cases_of = require "softworld.cases"
     for _, options in ipairs{ {}, { rotation = { 0.5, 0.1, -0.3, 0.7 }, at = { 1, 2, 3 } },
       { gravity = { 3, -4, 2 }, weight = 5 } } do
@@ -75,7 +75,7 @@ end)
 describe("the 45-degree bend of Bathe and Bolourchi 1979", function()
   for _, case in ipairs{ { 300, 58.77968539, 22.24503474, 40.18828384 },
     { 600, 47.1512944, 15.68507816, 53.46859844 } } do
-    it("goes where an end force takes it: " .. case[1], function()
+    it("has the reference's tip under an end force: " .. case[1], function()
       local s = core.scene{ gravity = { 0, 0, 0 } }
       local w = s:wire{ EA = 1e7, EI = 1e7 / 12, GJ = 0.5e7 / 6, mass_per_length = 1, radius = 0.5,
         path = arc(25 * PI, PI / 4), segments = 50, rest = "path" }
@@ -109,7 +109,7 @@ describe("a strip on edge", function()
     end)
   end
 
-  it("finds its way out of the plane well above", function()
+  it("leaves its plane and finds a stable rest well above that weight", function()
     local _, w, s = strip(cases[2], 1.3 * cases[2][3])
     s:force{ kind = "point", on = w, s = 1, force = { 0, 0.05, 0 } }
     local r = fine(s:settle())
@@ -129,7 +129,7 @@ describe("a strip on edge", function()
     end
   end)
 
-  it("is told from a round wire by its two stiffnesses", function()
+  it("has two stiffnesses in wire.beam.EI", function()
     local s = core.scene{}
     local w = s:wire{ EA = 1e6, EI = { 4, 1 }, normal = { 0, 0, 1 }, GJ = 1, mass_per_length = 1,
       radius = 0.001, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
@@ -166,7 +166,7 @@ describe("a quarter circle that is let go", function()
   local tip = { { 0.25, 0.6039620852, 0.5746864788, -0.3925761022 },
     { 0.5, 0.146602, 0.146017, -0.829389 }, { 1, 0.565548, 0.461574, -0.554890 } }
 
-  it("swings in space as it should, keeping its energy", function()
+  it("swings in space like the reference and keeps its energy", function()
     local s = core.scene{}
     local w = s:wire{ E = 941760000, nu = 0.3, density = 1500, radius = 0.0025,
       path = arc(1, PI / 2), segments = 50, rest = "path" }
@@ -234,7 +234,7 @@ describe("a wire that is curved at rest", function()
     local w = s:wire{ EA = 1e5, EI = 1, GJ = 0.8, mass_per_length = 1, radius = 0.001,
       path = arc(1, 1), segments = 40, rest = "path" }
     s:clamp(w, { s = 0, direction = { 1, 0, 0 } })
-    fine(s:settle()) -- the chords' tangent at the clamp is not quite the one given
+    fine(s:settle()) -- the chords' tangent at the clamp differs a little from the given one
     local p = w:position(w.length)
     local f = s:force{ kind = "point", on = w, s = w.length, force = { 0.3, -0.4, 0.5 } }
     fine(s:settle())
@@ -244,7 +244,7 @@ describe("a wire that is curved at rest", function()
     below(1e-8, off(w:position(w.length), table.unpack(p)), "back")
   end)
 
-  it("does not care which way the world lies", function()
+  it("moves the same in a turned world", function()
     local q = { 0.5, -0.5, 0.1, (1 - 0.51) ^ 0.5 }
     local function turned(a)
       local u = { q[2], q[3], q[4] }
@@ -290,7 +290,7 @@ describe("a wire that is curved at rest", function()
 end)
 
 describe("the derivatives of a wire with frames", function()
-  -- at an equilibrium no spin is out of balance, and its force is a gradient
+  -- at an equilibrium all spins are in balance, and the force is a gradient
   it("agree with differences", function()
     local s = core.scene{ gravity = { 0, 0, -1 } }
     local w = s:wire{ EA = 1e4, EI = { 1, 3 }, GJ = 1.7, normal = { 0, 0.3, 1 },

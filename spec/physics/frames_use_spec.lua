@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Rods with material frames against rods without, and what is refused.
+-- Rods with material frames compared with rods without, and what is refused.
 local sw = require "softworld"
 local core = sw.core
 local tools = require "spec.physics.tools"
@@ -7,8 +7,8 @@ local tools = require "spec.physics.tools"
 local PI = math.pi
 local near, below, fine = tools.near, tools.below, tools.fine
 
--- Two values of EI that hardly differ choose the frames for a wire that does not need
--- them: the same numbers as from the twist of whole spans.
+-- Two values of EI that hardly differ choose the frames for a wire that does not need them. The results
+-- must be those of the twist of whole spans.
 describe("a straight round wire with frames", function()
   local function pair(make)
     local results = {}
@@ -54,7 +54,7 @@ describe("a straight round wire with frames", function()
     end)
   end)
 
-  it("adds up turns, shares them when grasped in the middle, and again when let go", function()
+  it("adds up turns, splits them when grasped in the middle, and evens them out when let go", function()
     local s = core.scene{ gravity = { 0, 0, 0 } }
     local w = s:wire{ EA = 1e6, EI = { 1, 1 + 1e-12 }, normal = { 0, 0, 1 }, GJ = 1e-3,
       mass_per_length = 1, radius = 0.001, from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 50 }
@@ -183,7 +183,7 @@ describe("a wire with frames", function()
     bad("EI", { EI = { 1, -1 } })
   end)
 
-  it("is refused by what does not know it", function()
+  it("is refused by explicit methods and plastic springs if it is curved at rest", function()
     local s = core.scene{}
     local w = s:wire{ EA = 1e5, EI = 1, GJ = 1, mass_per_length = 1, radius = 0.001,
       path = { { 0, 0, 0 }, { 0.5, 0.1, 0 }, { 1, 0, 0 } }, rest = "path" }

@@ -33,18 +33,18 @@ describe("a rod on a slope", function()
     end)
   end
 
-  it("slides alike with every implicit integrator and step", function()
+  it("slides the same with every implicit integrator and step", function()
     for _, integrator in ipairs{ "tr-bdf2", "sdirk2", "implicit-euler", "bdf2" } do
       for _, dt in ipairs{ 0.01, 0.002 } do
         local c = cases.incline{ angle = 20, friction = 0.3 }
         t.fine(c.run{ duration = 0.2, dt = dt, integrator = integrator })
-        -- the speed: distances differ by the method's first order in its first step
+        -- the speed is compared: distances differ by the method's first-order error in its first step
         t.share(c.exact.acceleration * 0.2, c.measured().speed, 0.01, integrator .. ": speed")
       end
     end
   end)
 
-  it("slides down any slope in space alike", function()
+  it("slides the same down any slope in space", function()
     local random = t.random(17)
     for _ = 1, 3 do
       local c = cases.incline{ angle = 20, friction = 0.3, rotation = t.turn(random),
@@ -55,7 +55,7 @@ describe("a rod on a slope", function()
   end)
 end)
 
--- What friction may be off by is measured by the wire's own forces, not by those of others.
+-- The error allowed in friction is measured by the wire's own forces, not by those of other wires.
 describe("a light rod in a scene with a stiff and heavy wire", function()
   local function scene_of(angle, friction)
     local c = cases.incline{ angle = angle, friction = friction }
@@ -74,7 +74,7 @@ describe("a light rod in a scene with a stiff and heavy wire", function()
     end)
   end
 
-  it("does so too when the heavy one lies on the same slope", function()
+  it("holds as it does alone when the heavy one lies on the same slope", function()
     local c = cases.incline{ angle = 10, friction = 0.3 }
     local slope = c.frame
     c.scene:wire{ EA = 1e6, EI = 10, mass_per_length = 5, radius = 0.01, from = slope.point(0, 0.3, 0.01),
@@ -97,7 +97,7 @@ describe("a rod pushed over a floor", function()
     end)
   end
 
-  it("comes to rest where braking says when the push ends", function()
+  it("comes to rest after v^2/(2 mu g) without a push", function()
     local c = cases.push{ force = 0, friction = 0.4 }
     c.wire:set_velocity{ 1, 0, 0 }
     local x = c.wire:position(0.5)[1]

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The generalized-alpha method beside what the contract measures of it (order, damping of what is too
--- fast): with forces that go by velocities, with moving holds, in turning and in rest.
+-- The generalized-alpha method with forces that depend on velocities, with moving holds and at rest. The
+-- contract measures its order and how it damps what is too fast.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -8,8 +8,8 @@ local t = require "spec.physics.tools"
 local METHOD = "generalized-alpha"
 
 describe("generalized-alpha", function()
-  -- Mass and velocity have factors of their own: a wrong one shows with damping. A string moved by
-  -- its end, with all kinds of damping; goal by tr-bdf2 at a sixteenth of the finer step.
+  -- Mass and velocity have separate factors; a wrong one shows with damping. A string is moved by its end,
+  -- with all kinds of damping; the goal is tr-bdf2 at a sixteenth of the finer step.
   it("is of second order with damping and a hold that moves", function()
     local function tip(method, dt)
       local scene = sw.scene{}
@@ -28,7 +28,7 @@ describe("generalized-alpha", function()
     t.near(2, math.log(one / two, 2), 0.15, "order")
   end)
 
-  -- A free fall is solved exactly by any method of second order; so is weight at rest.
+  -- Any method of second order solves a free fall exactly, and weight at rest.
   it("falls and hangs exactly", function()
     local scene = sw.scene{}
     local wire = scene:wire{ E = 5e7, density = 1500, radius = 0.0025, from = { 0, 0, 0 }, to = { 1, 0, 0 } }
@@ -43,9 +43,9 @@ describe("generalized-alpha", function()
     t.share(weight, pin:force()[3], 1e-6, "weight on the pin")
   end)
 
-  -- 1 s of a released cantilever in steps of 2 ms. What is too fast loses a fifth in each step,
-  -- with tr-bdf2 all of it.
-  it("changes the energy of what swings by less than tr-bdf2", function()
+  -- 1 s of a released cantilever in steps of 2 ms. Motion that is too fast loses a fifth in each step, with
+  -- tr-bdf2 all of it.
+  it("changes the energy of a swinging wire by less than tr-bdf2", function()
     local function change(method)
       local scene = sw.scene{}
       local wire = scene:wire{ EA = 60, EI = 0.02, GJ = 0.02, mass_per_length = 0.1, radius = 0.005,

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Grippers with real pads: what they press and hold is checked against Coulomb's law (reference
--- case 10a), the plates of case 11b, and the statics of a wire lifted from a table (case 09).
+-- Grippers with real pads. What they press and hold is checked against Coulomb's law (reference case 10a),
+-- the plates of case 11b, and the statics of a wire lifted from a table (case 09).
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -25,7 +25,7 @@ local function run(scene, dt)
   return result
 end
 
--- In a scene without gravity the pads close on a wire's middle; then(p, gripper, wire).
+-- Closes pads on a wire's middle in a scene without gravity, then calls body(p, gripper, wire, scene).
 local function grasped(args, pads, wire, body)
   local scene = new_scene()
   wire = new_wire(scene, wire)
@@ -44,7 +44,7 @@ end
 
 describe("jaws", function()
   it("reach a force and keep it", function()
-    -- in-step control is to 0.1 % of the force; the last of ten trials is taken as it is
+    -- control within the step is to 0.1 % of the force; the last of ten trials is taken as it is
     for _, wire in ipairs{ {}, { model = "radial", body = "solid", E = 5e6 }, { model = "tube", E = 5e6 } } do
       grasped({ force = 4 }, nil, wire, function(p, g)
         local state = g:state()
@@ -54,7 +54,7 @@ describe("jaws", function()
           p:wait(0.02)
           t.share(4, g:state().squeeze, 0.004, "force per finger")
         end
-        local normal = g:state().normal -- edges press aslant, so that it may be a little more
+        local normal = g:state().normal -- edges press aslant and may add a little
         t.above(8 * 0.996, normal, "sum of both")
         t.below(8 * (wire.model and 1.2 or 1.004), normal, "sum of both")
         t.near(0, g:force()[2], 0.02, "the pads' forces balance")
@@ -62,7 +62,7 @@ describe("jaws", function()
     end
   end)
 
-  it("go to an opening, or stop there where a force is too much", function()
+  it("go to an opening, or stop where the force limit is reached", function()
     grasped({ distance = 2 * r - 2e-4 }, nil, { model = "radial", body = "solid", E = 5e6 }, function(_, g)
       local state = g:state()
       assert.equal("rests", state.jaws)
@@ -84,9 +84,9 @@ describe("jaws", function()
 end)
 
 describe("a solid section between pads", function()
-  it("pushes back as plates that stick (case 11b)", function()
-    -- quadratic finite elements, nu = 0.3, approach over diameter: force over E R; 48 x 6 particles
-    -- have them within 3 %
+  it("pushes back as between plates that stick (case 11b)", function()
+    -- quadratic finite elements, nu = 0.3: approach over diameter, force over E R. 48 x 6 particles are
+    -- within 3 % of them
     local E, R, L = 1e6, 0.01, 0.001
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ model = "radial", body = "solid", particles = 48, layers = 6, E = E, nu = 0.3,
@@ -107,8 +107,8 @@ describe("a solid section between pads", function()
   end)
 end)
 
--- Pull the wire through the pads by its end, slowly; the pull and what friction allows, averaged
--- over the last part, in which it slides.
+-- Pulls the wire slowly through the pads by its end. Returns the pull and the normal forces, averaged over
+-- the last part, in which the wire slides.
 local function pull(force, pads, wire, way)
   local pulled, allowed, n = 0, 0, 0
   local _, g = grasped({ force = force }, pads, wire, function(p, g, w, scene)
@@ -126,19 +126,19 @@ end
 
 describe("friction of pads", function()
   it("gives mu times the normal forces when the wire is pulled out", function()
-    -- mean of the pull over a second of sliding; the pads were told a force of 5 N each
+    -- means over a second of sliding; the pads were given a force of 5 N each
     local force, normal = pull(5, { friction = 0.4 }, {}, 0.004)
     t.share(0.4 * normal, force, 0.005, "pull against normal forces")
     t.share(0.4 * 2 * 5, force, 0.005, "pull against what the pads were told")
   end)
 
-  it("does so also after slip that spreads from one end of the pads", function()
-    -- soft: it is drawn thinner and slips first where it leaves the pads
+  it("gives mu times the normal forces after slip that spreads from one end, too", function()
+    -- a soft wire: it is drawn thinner and slips first where it leaves the pads
     local force, normal = pull(4, { friction = 0.3 }, { model = "radial", body = "solid", E = 2e7 }, 0.006)
     t.share(0.3 * normal, force, 0.005, "pull against normal forces")
   end)
 
-  it("is each finger's own, and each touch knows how far it slid", function()
+  it("is set for each finger; each touch records how far it slid", function()
     local gone
     local _, g = grasped({ force = 5 }, { friction = { 0.2, 0.6 } }, nil, function(p, hand, w, scene)
       local pulled = scene:clamp(w, { s = w.length })
@@ -153,20 +153,20 @@ describe("friction of pads", function()
         t.below(gone * 1.05, touch.slid, "slid")
       end
     end)
-    t.share(gone, g:state().slip, 0.3, "slip") -- it went on for a fifth of the time
+    t.share(gone, g:state().slip, 0.3, "slip") -- it slides on for a fifth of the time
     local ok, message = pcall(g.scene.gripper, g.scene, { pads = { friction = { 0.1 } } })
     assert.is_false(ok)
     assert.is_truthy(message:find("friction has 1 values; it must have one, or one for each of 2", 1, true))
   end)
 
-  it("is less where it slides, when that is told", function()
-    -- stiff, so that all of it begins to slide at once
+  it("is less while the wire slides, if kinetic_friction is given", function()
+    -- stiff, so that the whole wire begins to slide at once
     local force, normal, g = pull(5, { friction = 0.5, kinetic_friction = 0.3 }, { E = 2e10 }, 0.004)
     t.share(0.3 * normal, force, 0.03, "pull while it slides") -- it sticks again now and then
     t.above(0.45 * 10, g:over(nil, nil, { window = 0 }).peak_force, "pull before it slid")
   end)
 
-  -- The wire hangs from the pads alone; its weight over what they allow.
+  -- The wire hangs from the pads alone. share: its weight over what they can hold.
   local function hang(share, mu, time, model)
     local scene = new_scene{ 0, 0, -9.81 }
     local wire = new_wire(scene, { model = model, body = model and "solid", to = { 0, 0, -0.1 } })
@@ -190,7 +190,7 @@ describe("friction of pads", function()
     return result, g
   end
 
-  it("holds 0.95 of what it can for 100 s, and not 1.02 of it", function()
+  it("holds 0.95 of what it can for 100 s, but not 1.02 of it", function()
     for _, model in ipairs{ false, "radial" } do
       local held = hang(0.95, 0.5, model and 5 or 100, model or nil)
       t.near(0, held.drift, 5e-6, "drift")
@@ -214,15 +214,15 @@ describe("friction of pads", function()
 end)
 
 describe("a wire lifted from a table (case 09)", function()
-  -- Of the part that hangs free between the table and any point of it: M^2 / (2 EI) = w y - V sin
-  -- theta, with the height y over where the wire lies and the vertical force V there; with a level end
-  -- this is M = sqrt(2 w h EI).
+  -- For the part that hangs free between the table and any point of it: M^2 / (2 EI) = w y - V sin theta,
+  -- with the height y over the lying wire and the vertical force V at the point. With a level end this is M
+  -- = sqrt(2 w h EI).
   local l, h, radius, density = 0.15, 0.075, 0.0025, 1500
   local w = density * 9.81 * math.pi * radius ^ 2
   local EI, L, width = w * l ^ 3, 5 * l, 0.02
 
   for _, approach in ipairs{ "imposed", "plates", "mixed" } do
-    it("loads the gripper as it must: " .. approach, function()
+    it("loads the gripper as statics says: " .. approach, function()
       local scene = sw.scene{}
       scene:obstacle{ shape = "plane", friction = 0 }
       local wire = scene:wire{ E = 4 * EI / (math.pi * radius ^ 4), nu = 0.3, density = density,
@@ -238,7 +238,7 @@ describe("a wire lifted from a table (case 09)", function()
       local s = L - 1.5 * width -- a little outside the pads
       local M, expected = t.lifted(g, wire, s, w, EI)
       t.share(expected, M, 0.01, "moment")
-      if approach == "imposed" then -- level at the pads' face: the table's own row, h/l = 0.5
+      if approach == "imposed" then -- level at the pads' face: the row h/l = 0.5
         local face = g:moment{ at = wire:position(L - width) }[2] + w * width * width / 2
         t.share((2 * w * h * EI) ^ 0.5, face, 0.01, "moment at the face")
         t.share(1.66280521 * w * l, g:force()[3] - w * width, 0.01, "force at the face")
@@ -317,7 +317,7 @@ describe("fingers", function()
     end)
   end)
 
-  it("map their pressure", function()
+  it("report a map of their pressure", function()
     grasped({ force = 3 }, nil, { model = "radial", body = "solid", E = 5e6 }, function(_, g)
       local map, sum = g:pressure_map{ cell = { 0.004, 0.002 } }, 0
       for _, c in ipairs(map) do
@@ -333,9 +333,9 @@ describe("fingers", function()
   end)
 end)
 
-describe("moving with the wire", function()
-  it("takes the impulse that the wire gets", function()
-    -- gravity off: the momentum a free wire has is the gripper's impulse on it
+describe("a gripper that moves a wire", function()
+  it("reports the impulse that the wire gets", function()
+    -- gravity is off: the momentum of the free wire is the gripper's impulse on it
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     scene:force{ kind = "damping", stiffness = 1e-3 }
     local wire = new_wire(scene, { to = { 0.05, 0, 0 } })

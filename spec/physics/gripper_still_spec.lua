@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Jaws that obey a force where nothing moves: in quasi-static runs, and when a scene settles.
+-- Jaws that keep a force where nothing moves: in quasi-static runs, and when a scene settles.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -32,7 +32,7 @@ local function run(scene, body, dt)
   return t.fine(scene:run{ dt = dt or 0.02, quasistatic = true })
 end
 
--- Rows of the gripper's series from a time on: time, opening, squeeze.
+-- Returns the rows of the gripper's series from a time on: time, opening, squeeze.
 local function rows(g, from)
   local series, list = g:series(), {}
   for i, at in ipairs(series.t) do
@@ -42,7 +42,7 @@ local function rows(g, from)
 end
 
 describe("jaws in a quasi-static run", function()
-  it("meet the force at every pose, not faster than they can", function()
+  it("meet the force at every pose, and never move faster than their speed", function()
     for _, args in ipairs{ {}, section } do
       local scene, wire = new_scene(args)
       local g, held = new_gripper(scene), nil
@@ -69,7 +69,7 @@ describe("jaws in a quasi-static run", function()
     end
   end)
 
-  it("open as far as those of a run in motion that has come to rest", function()
+  it("have the opening of a run in motion that has come to rest", function()
     for _, args in ipairs{ {}, section, { model = "tube", E = 5e6 } } do
       local opening = {}
       for _, still in ipairs{ false, true } do
@@ -86,7 +86,7 @@ describe("jaws in a quasi-static run", function()
         t.share(4, g:state().squeeze, 1e-3, "force")
         opening[#opening + 1] = g:state().opening
       end
-      -- each force may be off by 0.1 % of 4 N; the softest of these gives way by 0.1 mm for 4 N
+      -- each force may be off by 0.1 % of 4 N; the softest wire gives way by 0.1 mm under 4 N
       t.near(opening[1], opening[2], 2e-7, "opening")
     end
   end)
@@ -111,7 +111,7 @@ describe("jaws in a quasi-static run", function()
     t.above(0.03, wire:position(0)[3], "lifted")
   end)
 
-  it("load the gripper as they must when a wire is lifted from a table (case 09)", function()
+  it("load the gripper as statics says when a wire is lifted from a table (case 09)", function()
     -- of the part that hangs free: M^2 / (2 EI) = w y - V sin theta, see gripper_spec
     local l, h, radius, density = 0.15, 0.075, 0.0025, 1500
     local w = density * 9.81 * math.pi * radius ^ 2
@@ -130,8 +130,8 @@ describe("jaws in a quasi-static run", function()
     t.share(expected, M, 0.01, "moment")
   end)
 
-  it("do not lift what has no friction, and lose what slips", function()
-    for _, row in ipairs{ { 0, 4 }, { 0.6, 0.04 } } do -- the second allows 0.7 of the weight
+  it("do not lift a wire without friction, and lose one that slips", function()
+    for _, row in ipairs{ { 0, 4 }, { 0.6, 0.04 } } do -- the second row holds 0.7 of the weight
       local scene, wire = new_scene()
       local g = new_gripper(scene, { friction = row[1] })
       run(scene, function(p)
@@ -161,7 +161,7 @@ describe("jaws in a quasi-static run", function()
     t.near(r, wire:position(0.025)[3], 0.1 * r, "lies on the table")
   end)
 
-  it("tell of what they cannot do as in motion", function()
+  it("report what they cannot do, as in motion", function()
     local scene, wire = new_scene{ E = 2e6 }
     local g, why = new_gripper(scene), nil
     run(scene, function()
@@ -183,7 +183,7 @@ describe("jaws in a quasi-static run", function()
     assert.equal("rests", g:state().jaws) -- told to stay
   end)
 
-  it("stop at a force that is allowed", function()
+  it("stop at a given force limit", function()
     local scene, wire = new_scene(section)
     local g = new_gripper(scene)
     run(scene, function()
@@ -213,8 +213,8 @@ describe("jaws in a quasi-static run", function()
 end)
 
 describe("settling between jaws", function()
-  it("goes on with the force that they hold with", function()
-    -- in motion, jaws count as holding when they have first met the force, before all is at rest
+  it("keeps the force that the jaws hold with", function()
+    -- in motion, jaws count as holding once they have met the force, before all is at rest
     local scene = sw.scene{}
     scene:obstacle{ shape = "plane", friction = 0.3 }
     scene:force{ kind = "damping", mass = 8, stiffness = 2e-3 }
@@ -235,7 +235,7 @@ describe("settling between jaws", function()
     t.near(settled, g:state().opening, 1e-9, "opening, settled again")
   end)
 
-  it("leaves jaws where they are that hold nothing yet", function()
+  it("leaves jaws in place that hold nothing yet", function()
     local scene, wire = new_scene()
     local g = new_gripper(scene)
     g:grasp(wire, { s = 0.1, approach = "plates", force = 4 })

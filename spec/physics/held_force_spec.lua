@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Forces of clamps, pins, feeds, joins and ties of real cables that swing, land and stop: the same at all
--- steps and by all methods, and as large as the cable's tension beside them. A method's last stage has up to
--- five times the axial force of an edge that turns (sdirk2 at each step, tr-bdf2 for tenths of a second after
--- a blow); tension was read out as it should be, what held the cable was not, and nothing told.
+-- Forces of clamps, pins, feeds, joins and ties on real cables that swing, land and stop. They are the same
+-- at all steps and with all methods, and as large as the cable's tension beside them. A method's last stage
+-- has up to five times the axial force of an edge that turns (sdirk2 at each step, tr-bdf2 for tenths of a
+-- second after a blow). Tension was corrected for that, the forces of holds were not.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -16,7 +16,7 @@ local function damped(scene, cable, from, to, segments)
 end
 
 describe("what holds a cable that swings", function()
-  -- From level. The edge at the pin pulls along its middle, 7.5 mm on: 3 % less at most.
+  -- The cable starts level. The edge at the pin pulls along its middle, 7.5 mm on: 3 % less at most.
   it("bears its tension, by all methods and steps", function()
     for _, cable in ipairs{ "GXL 1.5", "H07V-K 10" } do
       for _, integrator in ipairs{ "tr-bdf2", "sdirk2", "implicit-euler" } do
@@ -49,9 +49,9 @@ describe("what holds a cable that swings", function()
     end
   end)
 
-  -- A tie pulls along it: beside the first edge's tension its place, half an edge heavy, has its own weight
-  -- and the shear of the first edges: 0.03 of the cable's weight on average, 0.08 by sdirk2 at 10 ms.
-  -- That was 18 where the tie turns on another cable: a solve had it slack, its end had it taut.
+  -- A tie pulls along itself. Its place, half an edge heavy, has its own weight and the shear of the first
+  -- edges besides the first edge's tension: 0.03 of the cable's weight on average, 0.08 with sdirk2 at 10
+  -- ms. It was 18 where the tie turns on another cable: a solve had the tie slack, its end had it taut.
   local function hung(kind)
     local scene = sw.scene{}
     local wire, weight, link
@@ -74,7 +74,7 @@ describe("what holds a cable that swings", function()
   end
 
   for _, kind in ipairs{ "point", "wire" } do
-    it("pulls at its tie as hard as it is pulled, by methods of two stages: " .. kind, function()
+    it("pulls at its tie with the cable's tension, by methods of two stages: " .. kind, function()
       for _, integrator in ipairs{ "tr-bdf2", "sdirk2" } do
         for _, dt in ipairs{ 0.01, 2e-3, 5e-4 } do
           local scene, wire, weight, force = hung(kind)
@@ -90,7 +90,7 @@ describe("what holds a cable that swings", function()
     end)
   end
 
-  it("bears at its join the same by both methods of two stages", function()
+  it("bears the same at a join, by both methods of two stages", function()
     local forces = {}
     for _, integrator in ipairs{ "tr-bdf2", "sdirk2" } do
       local scene, _, weight, force = hung "join"
@@ -134,8 +134,8 @@ describe("the force of a guide or a clamp", function()
     end
   end
 
-  -- A guide that pays out while it draws back, as in a laying: both stop, the guide softly and the wire at
-  -- once. The wire on the table slides with all its momentum, which the first edge's tension takes up.
+  -- A guide pays out while it draws back, as in laying. Both stop, the guide softly and the wire at once.
+  -- The wire on the table slides on with all its momentum, which the first edge's tension takes up.
   it("and the tension, where a feed stops at once, are the same at all steps", function()
     for _, cable in ipairs{ "FLRY-B 0.5", "GXL 0.5", "H07V-K 10" } do
       fine_and({ 0.02, 0.005, 0.002, 0.00025 }, function(dt)
@@ -153,15 +153,15 @@ describe("the force of a guide or a clamp", function()
         end)
         t.fine(scene:run{ dt = dt })
         local stop = feed:over(1.45)
-        t.above(0.8 * wire:max_tension(), stop.peak_force, "force beside tension") -- was a third
+        t.above(0.8 * wire:max_tension(), stop.peak_force, "force beside tension") -- a third with a fault
         return { force = stop.peak_force, tension = wire:max_tension() }
       end)
     end
   end)
 
-  -- A connector pushed at a wall: the cable bears a few hundred newtons for a millisecond, then buckles.
-  -- It was up to 80 % off at 10 and 20 ms. (Half a millisecond is an odd one out: 310 N where all others
-  -- from 20 to 0.1 ms have 238 to 243.)
+  -- A connector is pushed at a wall: the cable bears a few hundred newtons for a millisecond, then buckles.
+  -- The force was up to 80 % off at 10 and 20 ms. Steps of half a millisecond are an exception: 310 N,
+  -- where all others from 20 to 0.1 ms have 238 to 243 N.
   it("and of the wall, where a feed pushes a cable at it, are the same at all steps", function()
     for _, cable in ipairs{ "FLRY-B 0.5", "GXL 1.5", "FLRY-B 10" } do
       for _, angle in ipairs{ -0.13, 0.06 } do
@@ -183,7 +183,7 @@ describe("the force of a guide or a clamp", function()
     end
   end)
 
-  -- The brake obeys its force: while the cable swings on the peg, too.
+  -- The brake keeps its force, also while the cable swings on the peg.
   it("is that of its brake, where a cable is drawn out over a peg", function()
     for _, cable in ipairs{ "FLRY-B 0.5", "GXL 1.5", "FLRY-B 10" } do
       fine_and({ 0.02, 0.01, 0.005 }, function(dt)
@@ -199,7 +199,8 @@ describe("the force of a guide or a clamp", function()
           p:wait(0.8)
         end)
         t.fine(scene:run{ dt = dt })
-        -- it sank in by 0.3 to 0.8 mm while it slid, and 5 mm in a random scene: let out too slowly
+        -- a wire that is let out too slowly sank in by 0.3 to 0.8 mm while it slid, and by 5 mm in a random
+        -- scene
         t.below(1e-4, (scene:penetration()), ("penetration at %g s"):format(dt))
         return { force = feed:over(0.3).peak_force, drawn = hand:over(0.3).peak_force }
       end)
@@ -208,7 +209,7 @@ describe("the force of a guide or a clamp", function()
 end)
 
 describe("clamp:over", function()
-  it("adds up weight times time, and peaks as by hand", function()
+  it("gives weight times time, and the weight as mean and peak", function()
     local scene = sw.scene{}
     local wire, weight = damped(scene, "GXL 1.5", { 0, 0, 0 }, { 0, 0, -0.2 }, 10)
     local clamp = scene:clamp(wire, { s = 0, name = "top" })
@@ -227,7 +228,7 @@ describe("clamp:over", function()
     t.share(weight, clamp:over().peak_force, 2e-3, "kept after release")
   end)
 
-  it("tells wrong arguments", function()
+  it("refuses wrong arguments", function()
     local scene = sw.scene{}
     local clamp = scene:clamp(damped(scene, "GXL 1.5", { 0, 0, 0 }, { 0.2, 0, 0 }, 10), { s = 0 })
     t.fine(scene:run{ duration = 0.01 })

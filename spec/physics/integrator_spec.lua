@@ -5,8 +5,8 @@ local sw = require "softworld"
 local cases = require "softworld.cases"
 local t = require "spec.physics.tools"
 
--- A coarse, soft wire, all of whose waves the steps resolve: unresolved ones lower every
--- implicit method's order.
+-- A coarse, soft wire whose waves are all resolved by the steps. Unresolved waves lower the order of every
+-- implicit method.
 local function soft() return cases.release{ segments = 5, axial = 400 } end
 
 local function tip_after(integrator, dt)
@@ -22,7 +22,7 @@ for _, method in ipairs(sw.core.registry().integrators) do
   if method.adaptive then adaptive[#adaptive + 1] = method end
 end
 
--- The slope of the logarithms of errors over those of steps, of the last two numbers of steps.
+-- Returns the slope of log error over log step, from two numbers of steps.
 local function measured_order(method, goal, numbers)
   local errors = {}
   for i, n in ipairs(numbers) do errors[i] = t.distance(goal, (tip_after(method.name, 0.4 / n))) end
@@ -57,12 +57,12 @@ describe("the order in the time step is what the registry says, of", function()
     end)
   end
 
-  it("gsl-rk8pd, as good as rounding at any stable step", function()
+  it("gsl-rk8pd, exact to rounding at a stable step", function()
     local goal = reference("lumped", "gsl-rk8pd", 0.4 / 1600)
     t.below(1e-14, t.distance(goal, (tip_after("gsl-rk8pd", 0.4 / 400))), "difference")
   end)
 
-  it("methods of both kinds", function()
+  it("methods of both kinds: at least 5 implicit, 8 explicit ones", function()
     t.above(4.5, #implicit, "implicit ones")
     t.above(7.5, #explicit, "explicit ones")
   end)
@@ -101,7 +101,7 @@ describe("the energy of a released wire under", function()
     end
   end)
 
-  it("sdirk2 and bdf2 falls more", function()
+  it("sdirk2 and bdf2 falls by less than 2 %", function()
     for _, integrator in ipairs{ "sdirk2", "bdf2" } do
       local e = change(integrator, 0.005)
       t.above(-0.02, e, integrator)
@@ -139,12 +139,12 @@ describe("the stability limit of", function()
     for _, method in ipairs(implicit) do
       local c = cases.cord{}
       t.fine(c.run{ duration = 1, dt = 0.02, integrator = method.name })
-      -- axial waves through one linearised solve a step: conserved to a thousandth
+      -- axial waves with one linearised solve a step: conserved to a thousandth
       t.below(1.001, c.growth(), method.name)
     end
   end)
 
-  it("is what scene:stable_dt() says, a little on the safe side", function()
+  it("is what scene:stable_dt() says, within 0.1 %", function()
     local c = cases.cord{}
     t.share(c.exact.leapfrog, c.scene:stable_dt(), 0.001, "stable_dt")
   end)
@@ -203,8 +203,8 @@ describe("a run", function()
     local one, two = cases.release{ segments = 20 }, cases.release{ segments = 20 }
     t.fine(one.scene:run{ duration = 0.5, dt = 0.01 })
     for _ = 1, 5 do t.fine(two.scene:run{ duration = 0.1, dt = 0.01 }) end
-    -- times add up differently in the last digits; a rounding error of a step, 1e-16
-    -- of a metre, grows with the stiffness ratio, and differs between builds
+    -- times add up differently in the last digits; a step's rounding error, 1e-16 of a metre, grows with
+    -- the stiffness ratio and differs between builds
     t.below(1e-11, t.largest_difference((one.wire:positions()), (two.wire:positions())), "difference")
   end)
 

@@ -17,8 +17,8 @@ local function circle(radius, count)
 end
 
 describe("a rigid join", function()
-  -- Two halves joined end to end are the same equations as one wire, up to the stretch of the
-  -- join, 1e-2 of a segment's, and the angle law of its hinge beyond second order.
+  -- Two halves joined end to end have the equations of one wire, except for the stretch of the join, 1e-2
+  -- of a segment's, and the angle law of its hinge beyond second order.
   local function halves(s, more, turned)
     local a = wire(s, { 0, 0, 0 }, { 0.25, 0, 0 }, 20, more)
     local from, to = { 0.25, 0, 0 }, { 0.5, 0, 0 }
@@ -54,11 +54,11 @@ describe("a rigid join", function()
   end
 
   for _, integrator in ipairs{ "tr-bdf2", "sdirk2", "bdf2", "implicit-euler", "implicit-midpoint" } do
-    it("and in motion, with " .. integrator, function()
+    it("makes one wire of two halves in motion, with " .. integrator, function()
       local one, two = sw.scene{}, sw.scene{}
       local w, b = whole(one), halves(two)
       for _, s in ipairs{ one, two } do
-        -- whole steps: parts would be those of a wire's length
+        -- whole steps: parts (substeps) would depend on the length of a wire
         assert.is_true(s:run{ duration = 0.3, dt = 2e-3, integrator = integrator, parts = false }.ok)
       end
       for i = 1, 3 do assert.is_near(w:position(0.5)[i], b:position(0.25)[i], 1e-6) end
@@ -66,7 +66,7 @@ describe("a rigid join", function()
     end)
   end
 
-  it("tells the force and moment it puts on its ends", function()
+  it("reports the force and moment on its ends", function()
     local s = sw.scene{}
     local b, join = halves(s)
     s:settle()
@@ -78,12 +78,12 @@ describe("a rigid join", function()
       local x = 0.5 * (b:position((k - 1) / 80)[1] + b:position(k / 80)[1]) - b:position(0)[1]
       sum = sum + MASS * G * x / 80
     end
-    -- the hinge's moment is that of the middle between both half edges: at the node
+    -- the hinge's moment belongs to the middle between both half edges: to the node
     assert.is_near(sum, math.abs(moment[2]), 1e-3 * sum)
   end)
 
-  -- A corner, free or not, in small deflections: for a cantilever of length L and, at its end
-  -- and an angle to it, a branch of length h with a force P across it at the tip, by beam theory.
+  -- A corner in small deflections, by beam theory: a cantilever of length L and, at its end and at an angle
+  -- to it, a branch of length h with a force P across its tip.
   local L, h, P = 0.3, 0.2, 1e-7
   for _, degrees in ipairs{ 4, 20, 45, 90, 110, 150, 174 } do
     it(("bends like a corner of %d degrees"):format(degrees), function()
@@ -105,7 +105,7 @@ describe("a rigid join", function()
     end)
   end
 
-  -- A branch in mid-wire: both sides bear its moment in halves; second order in the mesh.
+  -- A branch in mid-wire: each side bears half of its moment; second order in the mesh.
   it("hands a branch's moment to both sides of a trunk", function()
     local function turn_of(segments)
       local s = sw.scene{ gravity = { 0, 0, 0 } }
@@ -155,7 +155,7 @@ describe("a rigid join", function()
     assert.is_near(2 / math.pi - 0.5, (b0 - b1) / unit, 2e-3)
   end)
 
-  it("keeps momentum, angular momentum and energy of what flies", function()
+  it("keeps momentum, angular momentum and energy of flying wires", function()
     local s = sw.scene{ gravity = { 0, 0, 0 } }
     local t = wire(s, { 0, 0, 0 }, { 0.3, 0, 0 }, 30)
     local b = wire(s, { 0.15, 0, 0 }, { 0.15, 0.1, 0.1 }, 14)
@@ -187,7 +187,7 @@ describe("a rigid join", function()
     local p1, l1 = motion()
     for k = 1, 3 do
       assert.is_near(p0[k], p1[k], 1e-6 * 0.2 * 0.02)
-      -- by lumped masses and of second order in time
+      -- with lumped masses, second order in time
       assert.is_near(l0[k], l1[k], 5e-3 * math.sqrt(l0[1] ^ 2 + l0[2] ^ 2 + l0[3] ^ 2))
     end
     assert.is_true(s:energy().total <= e0 * (1 + 1e-6))

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Joins in a scene: what goes with them, and what is refused.
+-- Joins in a scene: contact, release, snapshots, error bars, and what is refused.
 local sw = require "softworld"
 local joined = require "spec.physics.joined"
 
@@ -16,7 +16,7 @@ describe("joins in a scene", function()
     return t, b, c, join
   end
 
-  it("leave what touches elsewhere to wire_contact and obstacles", function()
+  it("leave contact elsewhere to wire_contact and obstacles", function()
     local s = sw.scene{}
     local _, b, c, join = harness(s)
     s:wire_contact{ friction = 0.2 }
@@ -56,7 +56,7 @@ describe("joins in a scene", function()
     for i = 1, 3 do assert.are.equal(there[i], b:position(0.2)[i]) end
   end)
 
-  it("made after a snapshot go with it", function()
+  it("made after a snapshot are taken back when it is restored", function()
     local s = sw.scene{}
     local w = wire(s, { 0, 0, 0 }, { 0.3, 0, 0 }, 20)
     local v = wire(s, { 0.3, 0, 0 }, { 0.5, 0, 0 }, 20)
@@ -71,7 +71,7 @@ describe("joins in a scene", function()
     assert.is_near(-0.5 * G * 0.01, v:position(0)[3], 1e-4)
   end)
 
-  it("are meshed anew for error bars", function()
+  it("are remeshed for error bars", function()
     local s = sw.scene{}
     local function make(segments)
       local a = wire(s, { 0, 0, 0 }, { 0.25, 0, 0 }, segments)
@@ -84,7 +84,7 @@ describe("joins in a scene", function()
     local run = s:settle{ tolerance = { { name = "tip", value = 1e-4, unit = "m",
       of = function() return a:position(0.25)[3] end } } }
     assert.is_true(run.ok, run.reason)
-    -- by the same, finely
+    -- the same on a fine mesh
     local fine = sw.scene{}
     s = fine
     local exact = make(200)
@@ -109,7 +109,7 @@ describe("joins in a scene", function()
     one:clamp(w, { s = 0 })
     one:clamp(w, { s = 1.2 })
     one:settle()
-    -- the joins stretch by 11 hundredths of a segment's, of 96
+    -- the joins stretch by 11 hundredths of a segment's stretch, of 96 segments
     assert.is_near(w:position(0.6)[3], chain[6]:position(0.1)[3], 5e-6)
   end)
 

@@ -4,8 +4,8 @@
 -- 2007, Phys. Rev. Lett. 99, 164301).
 local core = require "softworld.core"
 
--- A rod of 1 m whose ends come together by 0.3 m while one is turned: it hockles, and coils
--- up. Returns tension and torque at the end.
+-- A rod of 1 m whose ends are brought together by 0.3 m while one is turned: it hockles and coils up.
+-- Returns tension and torque at the end, and EI.
 local function coil(segments, turns, r)
   local E = 1e8
   local B = E * math.pi * r ^ 4 / 4
@@ -42,7 +42,7 @@ local function tension_for(M, B, R)
 end
 
 describe("a twisted rod that coils around itself", function()
-  it("has tension and torque that go together as in a plectoneme", function()
+  it("has the tension and torque of a plectoneme", function()
     local errors = {}
     for i, n in ipairs{ 100, 200 } do
       local T, M, B = coil(n, 8, 0.0015)
@@ -107,7 +107,7 @@ local function knot(h, friction)
 end
 
 describe("a loose overhand knot", function()
-  it("is pulled as the asymptotic theory says, the better the thinner the wire", function()
+  it("needs the pull of the asymptotic theory, more exactly so the thinner the wire", function()
     -- F h^2/B = eps^4/2 without friction, to leading order in eps: finite eps adds about
     -- 1.4 eps, so 20 % at eps = 0.15 and 30 % at 0.21
     local thick, eps1 = knot(0.002, 0)
@@ -119,10 +119,10 @@ describe("a loose overhand knot", function()
     assert.is_true(ratio2 > 1 and ratio2 < 1.27 and ratio2 < ratio1 - 0.05, ratio2)
   end)
 
-  it("presses on itself with the theory's force, and is that much harder to pull with friction",
+  it("presses on itself with the theory's force, and friction adds mu times that to the pull",
     function()
-      -- to leading order the normal forces sum up to 0.492 (B/R^2)/eps; pulled by d, the
-      -- strands slide by d along each other: friction adds mu times the sum
+      -- to leading order the normal forces add up to 0.492 (B/R^2)/eps. When the knot is pulled by d, the
+      -- strands slide by d along each other, so friction adds mu times the sum
       local smooth, eps, pressed = knot(0.001, 0)
       local sigma = pressed / eps ^ 3
       assert.is_true(sigma > 0.492 and sigma < 0.492 + 4 * eps, sigma)

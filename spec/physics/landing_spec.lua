@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What falls on things, at coarse steps and at fine ones: cables that land all but level, a stiff rod whose
--- other end slaps down after the first, tubes of particle rings, whose sections throw them back. Spread
--- over a step, bend radii were up to 2.6 times those of fine steps, forces half of them.
+-- Wires that fall on things, at coarse and at fine steps: cables that land almost level, a stiff rod whose
+-- second end slaps down after the first, tubes of particle rings, whose sections throw them back. When
+-- blows were spread over a step, bend radii were up to 2.6 times those of fine steps, and forces half of
+-- them.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -13,14 +14,14 @@ local function damped(scene, wire)
   return wire
 end
 
--- Largest tension and bend radius, peak force on the obstacle, of a run.
+-- Returns a run's largest tension, smallest bend radius and peak force on the obstacle.
 local function result(scene, wire, duration, dt)
   t.fine(scene:run{ duration = duration, dt = dt })
   return { tension = (wire:max_tension()), radius = (wire:min_bend_radius()),
     force = scene:find "o":over().peak_force }
 end
 
-describe("a cable that lands all but level", function()
+describe("a cable that lands almost level", function()
   for _, case in ipairs{ { "GXL 1.5", 0.01 }, { "GXL 1.5", 0.02 }, { "FLRY-B 10", 0.01 },
     { "FLRY-B 10", 0.02 } } do
     it(("bends as with fine steps: %s, %g m higher at its end"):format(case[1], case[2]), function()
@@ -35,7 +36,7 @@ describe("a cable that lands all but level", function()
   end
 end)
 
--- What they fall on, a wire of a soft or a stiff material, and how long.
+-- What the wire falls on, the wire's ends [m], the duration [s].
 local things = {
   table = { { shape = "plane" }, { 0, 0, 0.08 }, { 0.25, 0, 0.12 }, 0.3 },
   peg = { { shape = "cylinder", radius = 0.01, length = 0.2, rotation = across, at = { 0.03, 0, 0.05 } },
@@ -64,7 +65,7 @@ describe("a tube of particle rings", function()
     end)
   end
 
-  it("does so when it is stiff", function()
+  it("falls on a table and a peg as with fine steps when it is stiff", function()
     for _, name in ipairs{ "table", "peg" } do
       t.same_at({ 0.02, 0.01, 0.005 }, function(dt) return falls(things[name], "tube", 1e8, dt) end, 5e-4,
         { radius = 0.1, force = 0.1 })

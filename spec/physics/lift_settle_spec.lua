@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How many iterations it takes to settle a wire that is lifted off a frictionless table: about as
--- many on a fine mesh as on a coarse one, with the reference's figures (case 09).
+-- Iterations to settle a wire that is lifted off a frictionless table: about as many on a fine mesh as on a
+-- coarse one, with the figures of the reference (case 09).
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local cases = require "softworld.cases"
 local t = require "spec.physics.tools"
 
-local MOST = 20 -- a pose
+local MOST = 20 -- per pose
 local kinds = { "pinned", "horizontal" }
 
 describe("settling a wire that is lifted from a frictionless table", function()
@@ -33,7 +33,7 @@ describe("settling a wire that is lifted from a frictionless table", function()
   end
 end)
 
--- A wire of six lengths on a frictionless plane; l: its length (EI/w)^(1/3).
+-- A wire of six lengths l = (EI/w)^(1/3) on a frictionless plane.
 local function lying(o)
   local g = 9.81
   local s = sw.scene{ gravity = o.gravity }
@@ -64,7 +64,7 @@ local function settle(c, note)
   return r
 end
 
--- What a lifted end has to bear whatever the way it came: the elastica's own first integrals.
+-- Checks the load on a lifted end, which does not depend on the way there: the elastica's first integrals.
 local function bears(c, clamp, kind, h, note)
   local P = clamp:force()[3]
   if kind == "pinned" then
@@ -75,7 +75,7 @@ local function bears(c, clamp, kind, h, note)
   end
 end
 
--- Sideways only by a clamp: about a pin the wire would swing, which nothing resists on the table.
+-- Sideways only with a clamp: about a pin the wire would swing, which nothing resists on the table.
 local ways = {
   straight = function(k, l) return 0, 0, 0.25 * k * l end,
   oblique = function(k, l, kind)
@@ -84,7 +84,7 @@ local ways = {
   back = function(k, l) return -0.2 * k * l, 0, 0.25 * k * l end,
 }
 
-describe("settling takes no more iterations", function()
+describe("settling takes no more iterations for a wire", function()
   for _, nodes in ipairs{ 6, 25, 100 } do
     for _, kind in ipairs(kinds) do
       local note = ("%s, %d nodes per length"):format(kind, nodes)
@@ -153,8 +153,8 @@ describe("settling takes no more iterations", function()
   end
 end)
 
--- Nodes that are off the table by rounding of a path. Which touches press is found by a search that
--- does not depend on it; without that it took 110 to 250 iterations, or 10, as rounding had it.
+-- The nodes are off the table by the rounding of a path. The search for the touches that press does not
+-- depend on it. Without that search it took 110 to 250 iterations, or 10, as rounding decided.
 describe("settling a lifted wire whose nodes are knocked about by 1 nm", function()
   local function knocked(nodes, kind, seed)
     local g, l, m, radius = 9.81, 0.1, 0.03, 0.001

@@ -39,7 +39,7 @@ describe("a wire lifted from a table", function()
   end)
 
   it("is second order on average over the lift-off's place in its segment", function()
-    -- l = 5 m, so that sinking in by micrometres is nothing beside the height
+    -- l = 5 m, so that sinking in by micrometres is nothing compared with the height
     for _, kind in ipairs{ "pinned", "horizontal" } do
       for _, h in ipairs{ 0.1, 0.5, 2 } do
         t.order_at_least(1.8, { 25, 50, 100, 200 }, function(n)
@@ -55,7 +55,7 @@ describe("a wire lifted from a table", function()
     end
   end)
 
-  it("leaves the weight to the table and the end together", function()
+  it("carries a part of the weight at its end", function()
     local c = cases.lift{ hold = "pinned", h = 0.5 }
     local plane = c.scene:obstacle{ shape = "sphere", radius = 0.01, at = { 9, 9, 9 } }
     t.fine(c.run())
@@ -65,7 +65,7 @@ describe("a wire lifted from a table", function()
     t.below(c.weight * c.wire.length, m.P, "end force")
   end)
 
-  it("does not mind which way gravity and the table point", function()
+  it("has the same end force in a turned scene", function()
     local random = t.random(13)
     local usual = cases.lift{ hold = "horizontal" }
     t.fine(usual.run())

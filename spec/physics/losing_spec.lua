@@ -1,9 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- When did pads lose a wire that was drawn out of them?
+-- The time at which pads lose a wire that is drawn out of them.
 local sw = require "softworld"
 local mm = sw.units.mm
 
---- Time of the event, and of the first step after the grasp in which the pads press on nothing [s].
+--- Returns the time of the event, and of the first step after the grasp in which the pads press on nothing
+-- [s].
 local function lost(dt, reaction)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0.3 }, to = { 0.5, 0, 0.3 } }
@@ -29,7 +30,7 @@ local function lost(dt, reaction)
 end
 
 describe("pads that lose a wire", function()
-  it("tell the time of the step in which they do", function()
+  it("report the time of the step in which they do", function()
     for _, dt in ipairs{ 0.03, 0.01, 0.003 } do
       local told, seen = lost(dt)
       assert.equal(seen, told)
@@ -37,7 +38,7 @@ describe("pads that lose a wire", function()
     end
   end)
 
-  it("are told of at once where slips call a function", function()
+  it("call the function for slips at once", function()
     local times = {}
     local told, seen = lost(0.01, function(hand, event)
       if event.kind == "lost" then times[#times + 1] = { event.time, hand:state().squeeze } end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that are meshes of particles on tables, slopes and walls. Sections have sides and corners:
--- a wire lies on a side, an eighth of them lower than its radius, and rolls as a prism does.
+-- Wires made of meshes of particles on tables, slopes and walls. Sections have sides and corners: a wire
+-- lies on a side, lower than its radius, and rolls like a prism.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local meshes = require "spec.physics.meshes"
@@ -8,16 +8,16 @@ local t = require "spec.physics.tools"
 
 local R, G = meshes.radius, 9.81
 
--- Eight sides, turned so that one is level: this way the wire neither rocks nor rolls.
+-- Eight sides, turned so that one is level: the wire then neither rocks nor rolls.
 local LEVEL = { 0, math.cos(math.pi / 8), math.sin(math.pi / 8) }
 
--- How far the middle of a section is above what it lies on, lowest and highest over all models: a
--- side of springs' octagon is 0.93 R off, a corner of springs' voxels 1.06 R.
+-- Bounds for the height of a section's middle over the ground, for all models: a side of the springs'
+-- octagon is 0.93 R from the middle, a corner of the springs' voxels 1.06 R.
 local LOWEST, HIGHEST = 0.92 * R, 1.07 * R
 
 describe("a mesh on a table", function()
   for _, model in ipairs(meshes.all) do
-    it("carries its weight there, as " .. model[1], function()
+    it("presses on it with its weight, as " .. model[1], function()
       local l = 0.16
       local scene, wire = meshes.scene(model, { gravity = { 0, 0, -G }, from = { 0, 0, R },
         to = { l, 0, R } })
@@ -29,12 +29,12 @@ describe("a mesh on a table", function()
       local z = wire:position(l / 2)[3]
       assert.is_true(z > LOWEST and z < HIGHEST, ("z = %g R"):format(z / R))
       t.fine(scene:run{ duration = 0.1, dt = 5e-3 })
-      -- what still moves does so by accelerations below a thousandth of g
+      -- the remaining motion has accelerations below a thousandth of g
       t.share(-weight, table_:force()[3], 1e-3, "force on the table, in motion")
     end)
   end
 
-  it("comes to rest there when dropped", function()
+  it("comes to rest when dropped", function()
     for _, model in ipairs{ meshes.all[1], meshes.all[4] } do
       local l = 0.16
       local scene, wire = meshes.scene(model, { gravity = { 0, 0, -G }, normal = LEVEL,
@@ -43,15 +43,15 @@ describe("a mesh on a table", function()
       t.fine(scene:run{ duration = 1.5, dt = 5e-3 })
       local z = wire:position(l / 2)[3]
       assert.is_true(z > LOWEST and z < HIGHEST, ("z = %g R"):format(z / R))
-      -- some of it may still ring
+      -- the mesh may still ring
       t.below(0.02, t.norm(wire:velocity(l / 2)), "speed [m/s]")
       t.share(-wire.beam.mass_per_length * l * G, table_:force()[3], 0.1, "force on the table")
     end
   end)
 
-  -- A solid section is made with a corner 2.7 % below its radius, in the table. It is let out at 5 mm/s.
+  -- A solid section begins with a corner 2.7 % of its radius inside the table. It is let out at 5 mm/s.
   for _, how in ipairs{ "made", "remodelled", "remodelled in part" } do
-    it("is not thrown by it when " .. how .. " there", function()
+    it("is not thrown by the table when " .. how .. " there", function()
       for _, E in ipairs{ 2e7, 1e9 } do
         local scene, r = sw.scene{}, 1e-3
         scene:obstacle{ shape = "plane", friction = 0.4 }
@@ -65,7 +65,7 @@ describe("a mesh on a table", function()
         end
         for _ = 1, 12 do
           t.fine(scene:run{ duration = 0.005, dt = 0.005 })
-          -- rest is at 0.027 r; a step at 5 mm/s is 0.025 r more at most
+          -- at rest the height is 0.027 r; a step at 5 mm/s adds at most 0.025 r
           t.below(0.055 * r, wire:position(20 * r)[3] - r, "height of the middle")
           t.below(0.055 * r, wire:position(0)[3] - r, "height of an end")
         end
@@ -73,10 +73,10 @@ describe("a mesh on a table", function()
     end)
   end
 
-  -- In a step the fall gains g h = 0.1 m/s and closes g h^2/2 = 0.5 mm: a landing that gave some of
-  -- that back would hop like that for ever.
+  -- In a step the fall gains g h = 0.1 m/s and covers g h^2/2 = 0.5 mm. A landing that gives some of that
+  -- back hops for ever.
   for _, friction in ipairs{ 0, 0.4 } do
-    it("does not hop there in long steps, with friction " .. friction, function()
+    it("does not hop in long steps, with friction " .. friction, function()
       local l = 0.16
       for _, model in ipairs{ meshes.all[1], meshes.all[3], meshes.all[4] } do
         local scene, wire = meshes.scene(model, { gravity = { 0, 0, -G }, normal = LEVEL,
@@ -96,7 +96,8 @@ describe("a mesh on a table", function()
   end
 end)
 
--- On a slope of 20 degrees along x, friction a multiple of what just holds it.
+-- A mesh on a slope of 20 degrees along x; friction is `factor` times what just holds it. Also returns the
+-- acceleration of a sliding wire.
 local function slope(model, factor)
   local a, l = math.rad(20), 0.12
   local mu = factor * math.tan(a)
@@ -121,7 +122,7 @@ describe("a mesh along a slope", function()
       scene, wire, a = slope(model, 0.98)
       local v = wire:velocity(0.06)[1]
       t.fine(scene:run{ duration = 0.5, dt = 5e-3 })
-      -- a is 2 % of what friction has: 5e-4 of friction is 2.5 % of a
+      -- a is 2 % of the acceleration that friction gives: 5e-4 of friction is 2.5 % of a
       t.share(0.5 * a, wire:velocity(0.06)[1] - v, 0.025, "speed gained")
     end)
   end
@@ -131,7 +132,7 @@ describe("a mesh across a slope", function()
   local a = math.rad(15)
 
   it("stays on its side where the slope is less than half a corner", function()
-    -- 22.5 degrees of eight sides
+    -- half a corner of eight sides: 22.5 degrees
     local l = 0.06
     local scene, wire = meshes.scene(meshes.all[1], { gravity = { 0, 0, -G * math.cos(a) },
       from = { 0, 0, R }, to = { 0, l, R }, normal = { math.cos(math.pi / 8), 0, math.sin(math.pi / 8) } })
@@ -143,7 +144,7 @@ describe("a mesh across a slope", function()
     t.near(x, wire:position(l / 2)[1], 0.01 * R, "x")
   end)
 
-  it("rolls as a prism of as many sides: each one that comes down takes some of the speed", function()
+  it("rolls like a prism: each side that comes down takes some of the speed", function()
     local sides, l, T = 16, 0.06, 0.4
     local model = { "", { model = "tube", particles = sides } }
     local scene, wire = meshes.scene(model, { from = { 0, 0, R }, to = { 0, l, R } })
@@ -162,15 +163,15 @@ describe("a mesh across a slope", function()
     local energy = run:ledger()
     t.below(0.01, energy.gained / energy.play, "energy made")
     assert.equal(0, energy.accepted.count)
-    -- about the corner that comes down angular momentum is kept: speeds are in the ratio keep; so
-    -- v^2 loses (1 - keep^2) of itself with each side and x = ln cosh(sqrt(accel k) T)/k
+    -- angular momentum about the corner that comes down is kept, so speeds are in the ratio keep. v^2 loses
+    -- the share 1 - keep^2 with each side, and x = ln cosh(sqrt(accel k) T)/k
     local accel = G * math.sin(a) / (1 + inertia)
     local keep = (inertia + math.cos(2 * math.pi / sides)) / (inertia + 1)
     local k = (1 - keep ^ 2) / (2 * 2 * R * math.sin(math.pi / sides))
     local z = math.sqrt(accel * k) * T
     local way = math.log((math.exp(z) + math.exp(-z)) / 2) / k
-    -- 12 sides go by: that they are steps, and that the corners are round and soft (0.1 R), shows;
-    -- measured 1 % at 2.5 ms, 6 % at 1 ms, 2 % at 0.5 ms
+    -- 12 sides come down. The formula smooths these steps and leaves out that corners are round and soft
+    -- (0.1 R). Measured: 1 % off at 2.5 ms, 6 % at 1 ms, 2 % at 0.5 ms
     t.share(way, wire:position(l / 2)[1] - x, 0.15, "way")
     t.below(0.9 * 0.5 * accel * T ^ 2, wire:position(l / 2)[1] - x, "way, of that of a round wire")
   end)
@@ -198,7 +199,7 @@ describe("a wire over two walls", function()
     return wire
   end
 
-  it("lies alike whatever its model", function()
+  it("has the same shape whatever its model", function()
     local rod = lay{ model = "rod", segments = 250 }
     for _, model in ipairs{ { model = "string", segments = 100 }, { model = "rod" }, { model = "tube" },
       { model = "radial" }, { model = "radial", body = "solid" }, { model = "composite", core = "line" } } do
@@ -207,7 +208,7 @@ describe("a wire over two walls", function()
         local s = 0.25 * k / 20
         most = math.max(most, t.distance(wire:position(s), rod:position(s)))
       end
-      -- measured 0.2 to 0.45 mm, most of it sections that lie lower or higher than round ones
+      -- measured 0.2 to 0.45 mm, mostly because sections lie lower or higher than round ones
       t.below(1e-3, most, (model.body or "") .. model.model .. " differs from the rod by")
     end
   end)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that are meshes of particles, in motion: release, flight, and what no wire survives.
+-- Wires that are meshes of particles, in motion: release, flight, and mistreatment.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local cases = require "softworld.cases"
@@ -8,7 +8,8 @@ local t = require "spec.physics.tools"
 
 local L, R = meshes.length, meshes.radius
 
--- Let go level under gamma = 10: tips every 0.05 s, the change of energy over what gravity gives.
+-- Lets a wire go from level under gamma = 10. Returns the tips every 0.05 s, the change of energy over what
+-- gravity gives, and the beam.
 local function release(model, dt)
   local scene, wire = meshes.scene(model)
   local b = wire.beam
@@ -26,13 +27,13 @@ end
 describe("a released mesh", function()
   -- 0.5 s here are 0.93 s of case 03, by sqrt(L/g)
   for _, model in ipairs(meshes.few) do
-    it("swings as a rod does, as " .. model[1], function()
+    it("swings like a rod, as " .. model[1], function()
       local tips, gained, b = release(model, 5e-3)
       local rod = release({ "rod", { model = "rod", segments = 100, EA = b.EA, EI = b.EI, GJ = b.GJ } }, 1e-3)
       local sum = 0
       for k = 1, 10 do sum = sum + t.distance(tips[k], rod[k]) ^ 2 / 10 end
-      -- a wire this thick is up to 0.4 % off at rest already (mesh_statics_spec), which the whip of
-      -- its end makes twice as much: measured 0.9 % (composite with a line) to 0.2 % (voxels)
+      -- at rest a wire this thick is already up to 0.4 % off (mesh_statics_spec); the whip of its end
+      -- doubles that: measured 0.9 % (composite with a line) to 0.2 % (voxels)
       t.below(0.01 * L, sum ^ 0.5, "tip error, root of mean square")
       -- TR-BDF2 at 5 ms: 1.7e-4, a quarter of that at 2.5 ms
       t.below(1e-3, math.abs(gained), "energy drift")
@@ -42,13 +43,13 @@ describe("a released mesh", function()
   it("follows the reference of case 03, as tube", function()
     local c = cases.release{ gamma = 10, model = "tube", segments = 0 }
     t.fine(c.run{ dt = 0.01 })
-    -- a rod of 50 segments is asked for 1.5e-3 to 0.5 s and 5e-3 to 1 s; measured 2.2e-3 to 1 s
+    -- the limits of a rod of 50 segments: 1.5e-3 to 0.5 s and 5e-3 to 1 s; measured 2.2e-3 to 1 s
     t.below(1.5e-3, c.largest(0.5), "tip error to 0.5 s [m]")
     t.below(5e-3, c.largest(1), "tip error to 1 s [m]")
   end)
 end)
 
--- A short bent and twisted wire, let go of at rest in a scene without gravity.
+-- A short bent and twisted wire, released at rest in a scene without gravity.
 local function bent(model, changes)
   local l = 0.2
   local c = { to = { l, 0, 0 } }
@@ -71,8 +72,8 @@ describe("a free mesh", function()
       local now = wire:particles()
       for i = 1, #x do
         local g = ({ 1, -2, -9.81 })[(i - 1) % 3 + 1]
-        -- every implicit step of second order is exact for it; what is left is rounding, of
-        -- coordinates of 0.2 m over shortest springs of some millimetres
+        -- every implicit step of second order is exact for this; the rest is rounding, of coordinates of
+        -- 0.2 m over springs of some millimetres
         if math.abs(now[i] - x[i] - g * 0.02) > 1e-10 then
           t.near(x[i] + g * 0.02, now[i], 1e-10, model[1])
         end
@@ -89,26 +90,26 @@ describe("a free mesh", function()
       t.fine(scene:run{ duration = 0.01, dt = 5e-5, integrator = "implicit-midpoint" })
       local p1, l1 = t.momentum(wire)
       local m = wire.beam.mass_per_length * wire.length
-      -- sums of forces within are zero to rounding, each stage is solved to 1e-9 or so
+      -- inner forces add up to zero, to rounding; each stage is solved to 1e-9 or so
       t.below(1e-9 * m, t.distance(p0, p1), "momentum of " .. model[1])
-      -- read off the middles of sections, without the sections' own: R^2/4 over L^2/12 = 0.75 % of
-      -- it each way, and all of what spins about the axis. That forces within have no moment to
-      -- rounding is in contract/forces_spec.
+      -- read from the middles of sections, so the sections' own spin is missing: R^2/4 over L^2/12 = 0.75 %
+      -- of it each way, and all of the spin about the axis. contract/forces_spec checks that inner forces
+      -- have no moment, to rounding
       t.below(0.05 * t.norm(l0), t.distance(l0, l1), "angular momentum of " .. model[1])
-      -- 12 % of waves along the wire at 2e4 rad/s and more, which steps of 50 us hardly resolve; ten
-      -- times as long ones: 3 %
+      -- 12 % of the energy is in waves along the wire at 2e4 rad/s and more, which steps of 50 us hardly
+      -- resolve; with steps ten times as long the error is 3 %
       t.below(3e-3, math.abs(scene:energy().total / before - 1), "energy of " .. model[1])
     end
   end)
 
-  it("does not mind to spin", function()
+  it("spins about its axis like a rigid body", function()
     for _, model in ipairs(meshes.few) do
       local scene, wire = meshes.scene(model, { to = { 0.2, 0, 0 } })
       wire:set_velocity({ 0, 0, 0 }, { 20, 0, 0 }, { 0, 0, 0 }) -- about its axis
       local e = scene:energy()
       local b = wire.beam
-      -- half of m r^2/2 of a solid wire; particles of the surface have more of it, those of a mesh
-      -- whose surface is 0.9 R from its middle less
+      -- the energy of a solid wire; meshes with particles on the surface have more, those whose surface is
+      -- 0.9 R from the middle have less
       local solid = 0.5 * 0.5 * b.mass_per_length * 0.2 * R ^ 2 * 20 ^ 2
       t.below(2 * solid, e.kinetic, "energy of spin of " .. model[1])
       t.above(0.5 * solid, e.kinetic, "energy of spin of " .. model[1])
@@ -121,12 +122,12 @@ describe("a free mesh", function()
         t.near(c * x[i + 1] - s * x[i + 2], now[i + 1], 1e-3 * R, "y of " .. model[1])
         t.near(s * x[i + 1] + c * x[i + 2], now[i + 2], 1e-3 * R, "z of " .. model[1])
       end
-      -- what a step of 0.025 rad is off by, squared: 6e-4
+      -- the error of a step of 0.025 rad, squared: 6e-4
       t.share(e.total, scene:energy().total, 1e-3, "energy of " .. model[1])
     end
   end)
 
-  it("comes to the same at half the step, and to it with explicit steps", function()
+  it("converges at second order, to the result of explicit steps", function()
     local function tip(options)
       local scene, wire = meshes.scene(meshes.all[1], { gravity = { 0, 0, -20 } })
       scene:clamp(wire, { s = 0 })
@@ -139,7 +140,7 @@ describe("a free mesh", function()
     local coarse, half = t.distance(tip{ dt = 8e-3 }, fine), t.distance(tip{ dt = 4e-3 }, fine)
     t.above(3, coarse / half, "error over that at half the step")
     t.below(1e-4 * L, half, "error at 4 ms")
-    -- steps of 0.25 ms, and waves along the wire, which these damp
+    -- differences: steps of 0.25 ms, and waves along the wire, which these steps damp
     t.below(1e-5 * L, t.distance(fine, tip{ integrator = "velocity-verlet" }), "explicit end")
     t.below(1e-4 * L, t.distance(fine, tip{ tolerance = 1e-6, dt = 0.02 }), "end with a tolerance")
   end)
@@ -152,7 +153,7 @@ local function finite(wire)
   return true
 end
 
--- What cannot go well goes on with finite numbers, or stops with a reason and gives none.
+-- Checks that a run ends with finite numbers, or stops with a reason and gives no numbers.
 local function survives(scene, wire, result, what)
   if result.ok then
     assert.is_true(finite(wire), what .. ": not finite")
@@ -167,14 +168,14 @@ local function survives(scene, wire, result, what)
 end
 
 describe("a mesh that is maltreated", function()
-  it("is twisted by ten turns", function()
+  it("goes on, or fails with a reason, when it is twisted by one or ten turns", function()
     for _, model in ipairs(meshes.few) do
       local l = 0.16
       local scene, wire = meshes.scene(model, { to = { l, 0, 0 } })
       local a, b, beam = scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = l }), wire.beam
-      -- lines of springs slip through one another again and again, in short steps
+      -- other meshes get one turn: their springs slip through one another again and again, in short steps
       local turns = (model[1] == "tube" or model[1] == "radial solid") and 10 or 1
-      -- the first quarter of a turn at strains of 5 % round the surface
+      -- 0.5 rad first, at strains of 5 % round the surface
       b:pose({ l, 0, 0 }, { axis = { 1, 0, 0 }, angle = 0.5 })
       t.fine(scene:settle())
       t.share(beam.GJ * 0.5 / l, b:moment()[1], 0.05, "torque of " .. model[1])
@@ -188,7 +189,7 @@ describe("a mesh that is maltreated", function()
     end
   end)
 
-  it("is bent to a ring as tight as its own thickness", function()
+  it("goes on, or fails with a reason, when it is bent to a ring as tight as its thickness", function()
     for _, model in ipairs(meshes.few) do
       local l = 2 * math.pi * 2 * R
       local scene, wire = meshes.scene(model, { to = { l, 0, 0 } })
@@ -203,7 +204,7 @@ describe("a mesh that is maltreated", function()
     end
   end)
 
-  it("is squeezed to 60 % between plates, and springs back", function()
+  it("is squeezed to 60 % between plates and springs back, or fails with a reason", function()
     for _, model in ipairs(meshes.few) do
       local scene, wire = meshes.scene(model, { from = { 0, 0, 0 }, to = { 0.04, 0, 0 } })
       -- corners of a solid's eight sides stand out by 8 % of R
@@ -227,7 +228,7 @@ describe("a mesh that is maltreated", function()
     end
   end)
 
-  it("turned inside out by its clamps comes back, or says that it cannot", function()
+  it("turned inside out by its clamps comes back, or reports that it cannot", function()
     for _, model in ipairs(meshes.few) do
       for _, way in ipairs{ "settle", "run" } do
         local l = 0.06
@@ -257,7 +258,7 @@ describe("a mesh that is maltreated", function()
     end
   end)
 
-  it("torn apart by steps too long for it says so", function()
+  it("torn apart by explicit steps that are too long reports it", function()
     local scene, wire = meshes.scene(meshes.all[1], { to = { 0.2, 0, 0 } })
     scene:clamp(wire, { s = 0 })
     wire:set_velocity{ 0, 0, 1 }

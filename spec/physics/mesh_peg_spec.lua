@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Solid meshes that are pulled over pegs: no step makes energy, and the peg feels what it feels of a rod.
+-- Solid meshes pulled over pegs: no step makes energy, and the peg bears the same force as from a rod.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local G, r, L = 9.81, 0.004, 0.12
 
--- A wire that hangs over a peg along y, its right end drawn to the side from the start. turn: of the
--- section about its axis [rad]; shift: of the whole wire along itself [m].
+-- A wire hangs over a peg along y; its right end is drawn to the side from the start. turn: of the section
+-- about its axis [rad]; shift: of the whole wire along itself [m].
 local function over(o)
   local scene = sw.scene{ gravity = { 0, 0, -G } }
   scene:force{ kind = "damping", mass = o.damping or 5, stiffness = 1e-3 }
@@ -30,7 +30,7 @@ describe("a solid mesh pulled over a peg", function()
       local run = t.fine(scene:run{ duration = 0.4, dt = dt })
       local energy = run:ledger()
       assert.equal(0, energy.accepted.count)
-      -- what each step is allowed for its own error adds up to half of this at most
+      -- the errors allowed to single steps add up to half of this at most
       t.below(1e-3, energy.gained / energy.play, "energy made")
     end)
   end
@@ -53,8 +53,8 @@ describe("a solid mesh pulled over a peg", function()
     end
     for _, k in ipairs{ 2, 4 } do
       for i = 1, 3 do
-        -- of the weight; sections of eight sides lie up to 0.03 r lower and pass corner by corner:
-        -- measured 0.9 % along, 1.4 % up, and 3.3 % up where they are turned and shifted
+        -- shares of the weight; sections of eight sides lie up to 0.03 r lower and pass corner by corner:
+        -- measured 0.9 % along, 1.4 % up, and 3.3 % up if turned and shifted
         t.near(forces[k - 1][i], forces[k][i], 0.04 * weight, "force on the peg " .. i)
       end
     end

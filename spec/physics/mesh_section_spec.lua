@@ -7,20 +7,20 @@ local t = require "spec.physics.tools"
 
 local R, E = 0.01, 1e6
 
--- Quadratic finite elements, neo-Hookean, nu = 0.3, plates that stick: approach over diameter,
--- line force over E R. Frictionless plates have 1 % less; sticking ones leave nothing loose.
+-- Quadratic finite elements, neo-Hookean, nu = 0.3, plates that stick: approach over diameter, line force
+-- over E R. Frictionless plates have 1 % less; sticking plates leave no motion undetermined.
 local solid = { { 0.05, 0.03478504828 }, { 0.1, 0.08485878573 }, { 0.2, 0.2240633922 },
   { 0.3, 0.4279565997 } }
--- The same, nu = 0.4, with a bonded core of 0.7 R that has 10 E and nu = 0.3, frictionless.
+-- The same for nu = 0.4 with a bonded core of 0.7 R that has 10 E and nu = 0.3, frictionless.
 local composite = { { 0.01, 0.009962264458 }, { 0.02, 0.02559981177 }, { 0.05, 0.09731707676 },
   { 0.1, 0.286466611 }, { 0.15, 0.5592745038 } }
--- The same of a tube with inner radius 0.7 R, frictionless.
+-- The same for a tube of inner radius 0.7 R, frictionless.
 local tube = { { 0.05, 0.002121184817 }, { 0.1, 0.004049114355 }, { 0.2, 0.007463310733 },
   { 0.3, 0.01079826821 } }
 
---- Two slices of a wire between plates; line forces over E R at the approaches of the rows.
--- With own, approaches count from the particles instead of the wire's radius: what a mesh does by
--- itself, without where its surface is said to be.
+--- Puts two slices of a wire between plates. Returns line forces over E R at the approaches of the rows.
+-- With own, approaches count from the particles instead of the wire's radius: the mesh by itself, without
+-- the definition of its surface.
 local function squeeze(model, rows, length, friction, own)
   local p = { radius = R, segments = 2, from = { 0, 0, 0 }, to = { length, 0, 0 } }
   for k, v in pairs(model) do p[k] = v end
@@ -63,13 +63,13 @@ describe("a solid section between plates", function()
     return args
   end
 
-  it("has the exact force within 3 %, of 48 x 6 particles", function()
+  it("has the exact force within 3 % with 48 x 6 particles", function()
     compare(round{ model = "radial", particles = 48, layers = 6 }, solid, 0.001, 0.03)
   end)
 
-  it("has it within 10 %, of 12 voxels across and of 16 x 4 particles", function()
-    -- Particles meet the plates one pair after the other: with a corner first 16 x 4 are up to 12 %
-    -- too soft, with a side first up to 5 % too stiff. The mean does not depend on how it lies.
+  it("has the exact force within 10 % with 12 voxels across and with 16 x 4 particles", function()
+    -- Particles meet the plates one pair after the other: 16 x 4 are up to 12 % too soft with a corner
+    -- first, up to 5 % too stiff with a side first. The mean does not depend on how the section lies.
     compare(round{ model = "cubic", across = 12 }, solid, 0.002, 0.1)
     local coarse = round{ model = "radial", particles = 16, layers = 4 }
     for i, force in ipairs(squeeze(coarse, solid, 0.002, 5, true)) do
@@ -86,7 +86,7 @@ describe("a solid section between plates", function()
     end
   end)
 
-  it("has its order of magnitude at default resolution", function()
+  it("has the exact force's order of magnitude at default resolution", function()
     -- eight sides meet plates with a corner or a flat first: measured 59 % too much at 5 %, -25
     -- to 9 % beyond; voxels -22 to 4 %
     local forces = squeeze(round{ model = "radial" }, solid, 0.01)
@@ -95,10 +95,10 @@ describe("a solid section between plates", function()
     for i, force in ipairs(forces) do t.share(solid[i][2], force, 0.3, "force") end
   end)
 
-  it("resists also of springs", function()
+  it("resists if it is made of springs", function()
     for _, model in ipairs{ "radial", "cubic" } do
       local forces = squeeze({ model = model, E = E, nu = 0.3, density = 1000 }, solid, 0.008)
-      -- springs are fitted to EA, EI and GJ; what the section then has is not the material's
+      -- springs are fitted to EA, EI and GJ; the section's stiffness that follows is not the material's
       for i, force in ipairs(forces) do
         t.above(0.02 * solid[i][2], force, ("force at %g %% of %s"):format(100 * solid[i][1], model))
         t.below(4 * solid[i][2], force, ("force at %g %% of %s"):format(100 * solid[i][1], model))
@@ -108,7 +108,7 @@ describe("a solid section between plates", function()
 end)
 
 describe("a section of core and shell between plates", function()
-  -- so little friction that it is 0.1 % of the force, but leaves nothing loose
+  -- friction is 0.1 % of the force here, but leaves no motion undetermined
   local SLIPPERY = 0.01
 
   local function cable(args)
@@ -117,17 +117,17 @@ describe("a section of core and shell between plates", function()
     return args
   end
 
-  it("has the exact force within 3 %, of 60 particles and 3 + 3 layers", function()
+  it("has the exact force within 3 % with 60 particles and 3 + 3 layers", function()
     local model = cable{ particles = 60, core_layers = 3, layers = 3 }
-    -- measured 2.1, -0.1, -0.1, 0.4 and 2.5 % with plates that stick, which settle at once and push
-    -- up to 2.5 % more; slippery ones, 2.0, -0.2, -0.5, -0.9 and 0.1 %
+    -- measured 2.1, -0.1, -0.1, 0.4 and 2.5 % with sticking plates, which settle at once and push up to 2.5
+    -- % more; with slippery ones 2.0, -0.2, -0.5, -0.9 and 0.1 %
     for i, force in ipairs(squeeze(model, composite, 0.001)) do
       t.share(composite[i][2], force, 0.03, ("force at %g %%"):format(100 * composite[i][1]))
     end
   end)
 
-  it("has it within 3 % from 5 % on, of 48 particles, with a corner or a flat to the plates", function()
-    -- within 1 %; contact of the first per cents is narrower than two particles: 9 % off
+  it("has the exact force within 3 % from 5 % on with 48 particles, corner or flat first", function()
+    -- measured within 1 %; in the first per cents the contact is narrower than two particles: 9 % off
     local rows = { composite[3], composite[4], composite[5] }
     for _, turn in ipairs{ 0, math.pi / 48 } do
       local model = cable{ particles = 48, core_layers = 3, layers = 3,
@@ -138,9 +138,9 @@ describe("a section of core and shell between plates", function()
     end
   end)
 
-  it("has its order of magnitude at default resolution", function()
-    -- twelve sides meet plates with a corner or a flat first: measured -2, -34, -11 % and -2, 7, 3 %
-    -- of plates at the true approach; the mean of both is what does not depend on how it lies
+  it("has the exact force's order of magnitude at default resolution", function()
+    -- twelve sides meet the plates with a corner or a flat first: measured -2, -34, -11 % and -2, 7, 3 %
+    -- with plates at the true approach; the mean of both does not depend on how the section lies
     local rows, sum = { composite[3], composite[4], composite[5] }, { 0, 0, 0 }
     for i, force in ipairs(squeeze(cable{}, rows, 0.01, SLIPPERY, true)) do
       t.share(rows[i][2], force, 0.25, ("force of the particles at %g %%"):format(100 * rows[i][1]))
@@ -154,8 +154,8 @@ describe("a section of core and shell between plates", function()
     end
   end)
 
-  -- The same places and the same forces as of one mesh: parts only differ in name.
-  it("is a solid section where both are of one material", function()
+  -- The places and forces are those of one mesh: the parts differ only in name.
+  it("equals a solid section where both parts are of one material", function()
     local rows = { { 0.05, 0 }, { 0.1, 0 }, { 0.2, 0 } }
     local one = squeeze({ model = "radial", body = "solid", E = E, nu = 0.3, density = 1000, particles = 24,
       layers = 4 }, rows, 0.002)
@@ -169,25 +169,25 @@ describe("a tube's section between plates", function()
   local ri = 0.7
   local EA, EI = E * math.pi * R ^ 2 * (1 - ri ^ 2), E * math.pi / 4 * R ^ 4 * (1 - ri ^ 4)
 
-  it("is near the exact one, of voxels", function()
+  it("has the exact force within 25 % with voxels", function()
     -- 14 voxels across leave two in the wall: elements of first order, too stiff in bending
     compare({ model = "cubic", body = "solid", section = "annulus", inner = ri * R, across = 14,
       EA = EA, EI = EI, GJ = EI / 1.3, nu = 0.3, mass_per_length = 0.1 }, tube, 0.002, 0.25)
   end)
 
-  it("has the stiffness that is asked for, of a ring of springs, and stays between the plates", function()
+  it("has the given stiffness with a ring of springs, and stays between the plates", function()
     local per_approach = tube[2][2] * E / 0.2 -- line force over approach at 10 % [Pa]
     local rows = { { 0.005, per_approach * 0.01 / E }, { 0.1, 0 }, { 0.2, 0 }, { 0.3, 0 } }
     local forces = squeeze({ model = "tube", core = false, particles = 16, EA = EA, EI = EI,
       GJ = EI / 1.3, mass_per_length = 0.1, squeeze = per_approach }, rows, 0.004)
     t.share(rows[1][2], forces[1], 0.05, "force at 0.5 %") -- linear, but for 0.5 % of shape
-    -- links buckle inwards from 10 % on: the force then is of order of the tube's only
+    -- links buckle inwards from 10 % on; beyond, the force only has the tube's order of magnitude
     for i = 2, 4 do t.above(1e-3, forces[i], ("force at %g %%"):format(100 * rows[i][1])) end
   end)
 end)
 
 describe("a hollow tube pressed flat", function()
-  it("says that its walls meet, for they do not touch each other", function()
+  it("reports that its walls meet, because they do not touch each other", function()
     local r, wall, length = 0.01, 0.001, 0.03
     local EI, outer = math.pi * r ^ 3 * 1e7 * wall, r + 1.3e-3
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
@@ -206,8 +206,8 @@ describe("a hollow tube pressed flat", function()
       plates[2]:pose{ length / 2, 0, half + 0.01 }
       t.fine(scene:settle())
       told = scene:events()[1]
-      -- the middles of the walls are a skin inside of the plates where they lie on them, and may come
-      -- nearer only where they have folded inwards
+      -- where the walls lie on the plates, their middles are a skin inside them; they come nearer only
+      -- where they have folded inwards
       if half > outer - r + 3 * wall then assert.is_nil(told) end
     end
     assert.equal(1, #scene:events())
@@ -219,8 +219,8 @@ describe("a hollow tube pressed flat", function()
 end)
 
 describe("a free mesh without weight between plates", function()
-  it("is not thrown out of them where nothing else holds it", function()
-    -- six directions without stiffness, in which rounding decides
+  it("is not thrown out, although nothing else holds it", function()
+    -- six directions have no stiffness, so rounding decides there
     for _, model in ipairs{ { model = "tube" }, { model = "cubic" }, { model = "radial", body = "solid" } } do
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local p = { E = E, density = 1000, radius = R, from = { -0.02, 0, 0 }, to = { 0.02, 0, 0 } }
@@ -245,7 +245,7 @@ describe("a free mesh without weight between plates", function()
 end)
 
 describe("plane strain", function()
-  it("is for straight wires, and says what is wrong with it", function()
+  it("refuses wrong arguments", function()
     local scene = sw.scene{}
     local wire = scene:wire{ model = "tube", E = E, density = 1000, radius = R, from = { 0, 0, 0 },
       to = { 0.1, 0, 0 } }
@@ -273,7 +273,7 @@ describe("plane strain", function()
     end
   end)
 
-  it("pulls it elsewhere when it is told to, and refuses wires that lie across", function()
+  it("moves a wire to a given place, and refuses wires that lie across", function()
     local scene = sw.scene{ gravity = { 0, 0, 0 } }
     local wire = scene:wire{ E = E, density = 1000, radius = R, from = { 1, 0, 0 }, to = { 1.1, 0, 0 } }
     assert.error_matches(function()
@@ -287,7 +287,7 @@ describe("plane strain", function()
       "at is required where it acts on several wires")
   end)
 
-  it("carries what loads a wire along itself", function()
+  it("carries a load along the wire", function()
     local scene = sw.scene{ gravity = { 9.81, 0, 0 } }
     local wire = scene:wire{ model = "tube", E = E, density = 1000, radius = R, from = { 0, 0, 0 },
       to = { 0.1, 0, 0 } }

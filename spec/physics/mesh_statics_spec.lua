@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that are meshes of particles, at rest, against the beam that they are calibrated to. Wires
--- are short and thick (length over diameter 25), with as many slices as the models choose.
+-- Wires that are meshes of particles at rest, compared with the beam that they are calibrated to. Wires are
+-- short and thick (length over diameter 25), with the number of slices that the models choose.
 package.path = "./?.lua;" .. package.path
 local meshes = require "spec.physics.meshes"
 local t = require "spec.physics.tools"
 
 local L, R = meshes.length, meshes.radius
 
--- Of a length, force or moment. What a thick wire has besides its beam: at a clamp sections keep
--- their shape, which elements there make up for to 0.2 %, and strains of R/bend radius, up to 7 %
+-- Tolerance of lengths, forces and moments [-]. A thick wire differs from its beam: at a clamp sections
+-- keep their shape, which the elements there compensate to 0.2 %; and strains of R/bend radius, up to 7 %
 -- here, meet springs and elements that are not quite linear.
 local BEAM = 5e-3
 
@@ -38,7 +38,7 @@ local function drooped(model, gamma, changes)
   return wire, clamp, scene
 end
 
--- Of a rod that droops likewise: curvature times L at arc length s.
+-- Returns curvature times L at arc length s of a rod that droops in the same way.
 local rods = {}
 local function rod_moment(gamma, s)
   rods[gamma] = rods[gamma] or drooped({ "rod", { model = "rod", segments = 200 } }, gamma)
@@ -57,7 +57,7 @@ describe("a cantilever that is a mesh:", function()
           t.fine(scene:settle())
           t.below(BEAM, off(wire, row, L), "tip error")
           t.share(row[4] * EI / L, -clamp:moment()[2], BEAM, "clamp moment")
-          -- forces are read off the last linear solve
+          -- forces are read from the last linear solve
           t.near(P, clamp:force()[3], 1e-9 * P, "clamp force")
           t.share(P * wire:position(L)[1], -clamp:moment()[2], 1e-6, "moment of the load")
           force:release()
@@ -71,8 +71,8 @@ describe("a cantilever that is a mesh:", function()
           local weight = wire.beam.mass_per_length * L * gravity_of(wire, row[1])
           t.near(weight, clamp:force()[3], 1e-9 * weight, "weight on the clamp")
           t.share(row[4] * wire.beam.EI / L, -clamp:moment()[2], BEAM, "clamp moment")
-          -- the curvature of sections is EI times the moment but near the clamp: 5 % softer or
-          -- stiffer sections at large strains (a hundredth here) are the most that is seen
+          -- away from the clamp a section's curvature is the moment over EI; at large strains sections are
+          -- up to 5 % softer or stiffer, which shows by a hundredth here at most
           local moment = rod_moment(row[1], 0.2 * L)
           t.share(moment, wire:curvature(0.2 * L) * L, 0.01, "curvature times L")
         end
@@ -97,7 +97,7 @@ describe("a cantilever that is a mesh:", function()
         end
       end)
 
-      it("answers alike at half the spacing", function()
+      it("droops the same at half the spacing", function()
         local row = droops[2]
         local first = drooped(model, row[1])
         local wire = drooped(model, row[1], { segments = 2 * first.segments })
@@ -107,7 +107,7 @@ describe("a cantilever that is a mesh:", function()
     end)
   end
 
-  it("is within 0.5 % of its beam at a length of 20 diameters, as it comes", function()
+  it("is within 0.5 % of its beam at a length of 20 diameters, with default meshes", function()
     local l = 40 * R
     local solids = {}
     for _, nu in ipairs{ 0, 0.2, 0.45, 0.49 } do
@@ -128,7 +128,7 @@ describe("a cantilever that is a mesh:", function()
       b:release()
       scene:force{ kind = "point", on = wire, s = l, force = { 0, 0, -0.05 * beam.EI / l ^ 2 } }
       t.fine(scene:settle())
-      -- P l^3/(3 EI), of a large deflection less by 9e-5 of it (0.036 P^2)
+      -- P l^3/(3 EI); a large deflection is less by 9e-5 of it (0.036 P^2)
       t.share(0.05 / 3 * l, -wire:position(l)[3], BEAM, "tip of " .. model[1])
     end
   end)
@@ -138,13 +138,13 @@ describe("a cantilever that is a mesh:", function()
       local usual = drooped(model, 10):position(L)
       for _, E in ipairs{ 1e5, 1e7, 1e9 } do
         local wire = drooped(model, 10, { E = E })
-        -- calibration to 1e-9, and settling, which ends with shifts of 1e-9 m
+        -- errors: calibration to 1e-9, and settling, which ends with shifts of 1e-9 m
         t.below(1e-7 * L, t.distance(usual, wire:position(L)), ("tip moved, E = %g"):format(E))
       end
     end
   end)
 
-  it("bends alike in every direction in space", function()
+  it("bends the same in every direction in space", function()
     local random = t.random(4)
     for _, model in ipairs(meshes.few) do
       for _ = 1, 3 do
@@ -165,14 +165,14 @@ describe("a cantilever that is a mesh:", function()
         for k = 1, 3 do
           along, down = along + (p[k] - at[k]) * d[k], down + (p[k] - at[k]) * across[k]
         end
-        -- the section stands at any turn about the axis; sections of four or eight sides bend alike
-        -- about all axes but for the clamp and large strains
+        -- the section stands at any turn about the axis; sections of four or eight sides bend the same
+        -- about all axes, except for the clamp and large strains
         t.below(BEAM, ((along / L - droops[2][2]) ^ 2 + (down / L + droops[2][3]) ^ 2) ^ 0.5, model[1])
       end
     end
   end)
 
-  it("does not mind where it is, with the section turned along", function()
+  it("does not depend on where it is, with the section turned along", function()
     local random = t.random(9)
     for _, model in ipairs(meshes.few) do
       local function tip(q, at)
@@ -217,7 +217,7 @@ describe("a flat mesh", function()
         local force = scene:force{ kind = "point", on = wire, s = L, force = { 0, k == 1 and P or 0,
           k == 2 and P or 0 } }
         t.fine(scene:settle())
-        -- P L^3/(3 EI), of a large deflection 1 % less squared; with shear of w^2/L^2 and the clamp
+        -- P L^3/(3 EI); the bound covers large deflection, shear of w^2/L^2 and the clamp
         t.share(0.1 / 3 * L, wire:position(L)[k + 1], 0.01, ("EI%d of %s"):format(k, body))
         t.near(0, wire:position(L)[4 - k], 1e-4 * L, "across")
         force:release()
@@ -226,8 +226,8 @@ describe("a flat mesh", function()
   end)
 end)
 
--- Energy of rounding: of coordinates of a metre in springs (1e-16 m squared, times EA over a slice),
--- and of the terms of each element's energy, which are of the size of E V times the strain's rounding.
+-- Energy that rounding makes: coordinates of a metre in springs (1e-16 m squared, times EA over a slice),
+-- and the terms of each element's energy, which have the size of E V times the strain's rounding.
 local function nothing(wire)
   return 1e-16 * wire.beam.EA * wire.length
 end
@@ -243,7 +243,7 @@ describe("a mesh without load", function()
   for _, model in ipairs(meshes.few) do
     it("keeps the shape it is drawn in, as " .. model[1], function()
       if model[2].core == "line" then
-        -- three particles in a row do not know which way they are bent
+        -- three particles in a row do not define a direction of bending
         local ok, message = pcall(meshes.scene, model, { path = arc, rest = "path" })
         assert.is_false(ok)
         assert.truthy(message:find("core = 'radial' or 'cubic'", 1, true), message)
@@ -251,7 +251,7 @@ describe("a mesh without load", function()
       end
       local scene, wire = meshes.scene(model, { path = arc, rest = "path" })
       local x = wire:particles()
-      local bent = wire.beam.EI / R1 ^ 2 * L / 2 -- energy of a straight one that is bent to it
+      local bent = wire.beam.EI / R1 ^ 2 * L / 2 -- energy of a straight one bent to it
       t.below(1e-12 * bent, math.abs(scene:energy().total), "energy")
       t.fine(scene:run{ duration = 0.02, dt = 0.01 })
       t.below(1e-12, t.largest_difference(x, (wire:particles())), "particles moved")
@@ -264,7 +264,7 @@ describe("a mesh without load", function()
       local scene, wire = meshes.scene(model, { rest_twist = 2 })
       scene:clamp(wire, { s = 0 })
       local drawn = scene:energy().total
-      -- of sections as drawn: those of voxels warp only when they may
+      -- sections are as drawn; those of voxels warp only when they may
       t.share(wire.beam.GJ * 4 * L / 2, drawn, 0.1, "energy as drawn")
       t.fine(scene:settle())
       t.below(1e-12 * drawn, math.abs(scene:energy().total), "energy")
@@ -278,7 +278,7 @@ describe("a mesh without load", function()
     end)
   end
 
-  it("is what is drawn straight in any direction", function()
+  it("has no energy if it is drawn straight in any direction", function()
     local random = t.random(2)
     for _, model in ipairs(meshes.few) do
       local at = { random(), random(), random() }
@@ -288,7 +288,7 @@ describe("a mesh without load", function()
     end
   end)
 
-  it("is nothing to a turn of the whole", function()
+  it("has no energy, tension or curvature after the whole is turned", function()
     for _, model in ipairs(meshes.few) do
       local scene, wire = meshes.scene(model)
       local grip = scene:grip(wire, { s = L / 2, width = L })
@@ -312,11 +312,10 @@ describe("a mesh between clamps", function()
         b:pose({ rho * math.sin(phi), 0, rho * (1 - math.cos(phi)) }, { axis = { 0, -1, 0 }, angle = phi })
         t.fine(scene:settle())
       end
-      -- R/r = 3 % of strain outside, and sections that the clamps keep round: measured 1.4 % of
-      -- the solid
+      -- the strain outside is R/r = 3 %, and the clamps keep sections round: measured 1.4 % for the solid
       t.share(wire.beam.EI / r, t.norm(b:moment()), 0.02, "moment of " .. model[1])
       t.share(1 / r, wire:curvature(L / 2), 0.01, "curvature of " .. model[1])
-      -- the stiffer ends keep the rest from being a circle: 5.4 % of EI/r^2 of the solid
+      -- the stiffer ends keep the wire from being a circle: 5.4 % of EI/r^2 for the solid
       t.near(0, t.norm(a:force()), 0.08 * wire.beam.EI / r ^ 2, "force of " .. model[1])
     end
   end)

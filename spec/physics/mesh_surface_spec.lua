@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Where the surface of a solid mesh is. Its particles reach further out than the wire's radius, so
--- that as a beam it is as stiff as the wire; what touches it meets the wire's own radius.
+-- The surface of a solid mesh. Its particles reach further out than the wire's radius, so that as a beam it
+-- is as stiff as the wire. Whatever touches it meets the wire's own radius.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -15,7 +15,7 @@ local function make(scene, args)
 end
 
 describe("the surface of a solid mesh", function()
-  it("is the wire's own, in the mean of all directions, and so is the picture's", function()
+  it("is at the wire's radius on average over all directions, and so is its outline", function()
     for _, args in ipairs{ { model = "radial" }, { model = "radial", particles = 24, layers = 3 },
       { model = "cubic" }, { model = "cubic", across = 8 }, { model = "composite" },
       { model = "radial", from = { 0.1, 0.2, 0.3 }, to = { 0.12, 0.17, 0.35 } } } do
@@ -39,7 +39,7 @@ describe("the surface of a solid mesh", function()
     end
   end)
 
-  it("lies on tables, boxes and edges by its radius", function()
+  it("lies on tables, boxes and edges at its radius", function()
     for _, obstacle in ipairs{ { shape = "plane" },
       { shape = "box", size = { 0.2, 0.1, 0.02 }, at = { 0.04, 0, -0.01 } },
       { shape = "box", size = { 0.01, 0.1, 0.02 }, at = { 0.04, 0, -0.01 } } } do
@@ -49,7 +49,7 @@ describe("the surface of a solid mesh", function()
       obstacle.friction = 0.3
       scene:obstacle(obstacle)
       t.fine(scene:settle())
-      -- a side of 24 is 0.9 % nearer than a corner, both half of that from the mean
+      -- a side of 24 is 0.9 % nearer than a corner; both are half of that from the mean
       t.near(R, wire:position(0.02)[3], 0.006 * R, obstacle.shape)
     end
   end)

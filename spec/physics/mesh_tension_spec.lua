@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Tension of meshes of stiff cables that move: springs that a step turns by a few hundredths of a radian have
--- lengths that are off by more than they are stretched.
+-- Tension of meshes of stiff cables in motion. When a step turns springs by a few hundredths of a radian,
+-- the errors of their lengths are larger than their stretch.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 
--- A cable that hangs from a clamp which shakes it within 0.4 s: the largest tension of the run, and that in
--- its middle at the end [N].
+-- A cable hangs from a clamp that shakes it for 0.4 s. Returns the largest tension of the run, and the
+-- tension in its middle at the end [N].
 local function shaken(args, dt)
   local scene = sw.scene{}
   args.name, args.from, args.to = "w", { 0, 0, 0 }, { 0, 0, -0.1 }

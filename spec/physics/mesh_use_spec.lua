@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Using wires that are meshes of particles: what is refused and how it is told, snapshots, running
--- out of memory, Ctrl-C.
+-- Using wires that are meshes of particles: refusals and their messages, snapshots, running out of memory,
+-- Ctrl-C.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local program = require "host.program"
@@ -11,7 +11,7 @@ local core = sw.core
 local NAN = 0 / 0
 local TUBE = { "tube", { model = "tube" } }
 
--- A wire of 0.2 m; text: what the error says.
+-- Checks that a mesh is refused. text: what the error says.
 local function refused(model, changes, text)
   local ok, message = pcall(meshes.scene, { model, { model = model } }, changes)
   assert.is_false(ok, model .. ": not refused: " .. text)
@@ -67,7 +67,7 @@ describe("a mesh is refused", function()
     it(("for %s (%s)"):format(row[1], row[2]), function() refused(row[2], with(row[3]), row[4]) end)
   end
 
-  it("for what is no number", function()
+  it("for values that are no numbers", function()
     for _, key in ipairs{ "E", "density", "radius", "spacing", "squeeze", "particles", "segments",
       "rest_twist" } do
       refused("tube", with{ [key] = NAN }, key)
@@ -141,7 +141,7 @@ describe("a mesh does not go with", function()
 end)
 
 describe("a mesh", function()
-  it("prints what it is, also when it is gone", function()
+  it("prints what it is, also after its scene is closed", function()
     local scene, wire = meshes.scene(TUBE, { to = { 0.2, 0, 0 }, name = "hose" })
     assert.truthy(tostring(wire):find("wire 'hose': 0.2 m, ", 1, true), tostring(wire))
     local x, s = wire:particles()
@@ -166,7 +166,7 @@ describe("a mesh", function()
       local scene, wire = meshes.scene(TUBE, { to = { 0.1, 0, 0 }, gravity = { 0, 0, -9.81 } })
       scene:clamp(wire, { s = 0 })
       t.fine(scene:run{ duration = 1e-3, dt = 0.4 * scene:stable_dt(), integrator = method })
-      -- g t^2/2 of a free end, no bend has come there
+      -- g t^2/2 of a free end that no bend has reached
       t.near(-9.81 * 0.5e-6, wire:position(0.1)[3], 1e-7, method)
     end
     local scene, wire = meshes.scene(TUBE, { to = { 0.2, 0, 0 }, gravity = { 0, 0, -9.81 } })
@@ -225,7 +225,7 @@ describe("a mesh", function()
   end)
 end)
 
-describe("a mesh without memory", function()
+describe("a mesh that runs out of memory", function()
   after_each(function() core.fail_allocation(0) end)
 
   local small = { model = "tube", particles = 3, segments = 3, E = 1e7, density = 1e3, radius = 0.01,

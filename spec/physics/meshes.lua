@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the specs of wires that are meshes of particles share: the models, and a short thick wire,
--- so that slices are few.
+-- Shared by the specs of wires that are meshes of particles: the models, and a short thick wire, so that
+-- slices are few.
 local sw = require "softworld"
 
 local meshes = {}
 
--- Every model at its defaults, and what of it makes another mesh; core_E is in units of E.
+-- Every model at its defaults, and variants that make another mesh; core_E is in units of E.
 meshes.all = {
   { "tube", { model = "tube" } },
   { "hollow tube", { model = "tube", core = false } },
@@ -21,13 +21,13 @@ meshes.all = {
   { "composite solid", { model = "composite", body = "solid", core_nu = 0.3, nu = 0.4 }, core_E = 5 },
 }
 
--- One of each kind, for what costs more.
+-- One of each kind, for costly specs.
 meshes.few = { meshes.all[1], meshes.all[3], meshes.all[4], meshes.all[5], meshes.all[6],
   meshes.all[7], meshes.all[12] }
 
 meshes.length, meshes.radius, meshes.E, meshes.density = 0.5, 0.01, 1e7, 1200 -- L/d = 25
 
---- Adds a wire of 0.5 m by 20 mm along x that is such a mesh; changes go over all.
+--- Adds a wire of 0.5 m by 20 mm along x that is such a mesh; `changes` override everything else.
 function meshes.wire(scene, model, changes)
   local p = { E = meshes.E, density = meshes.density, radius = meshes.radius, from = { 0, 0, 0 },
     to = { meshes.length, 0, 0 } }
@@ -42,7 +42,7 @@ function meshes.wire(scene, model, changes)
   return scene:wire(p)
 end
 
---- A scene with such a wire; gravity 0 unless changes.gravity says.
+--- Returns a scene with such a wire; gravity is 0 unless changes.gravity gives it.
 function meshes.scene(model, changes)
   local c = {}
   for k, v in pairs(changes or {}) do c[k] = v end

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Cables that strike each other: the same results at all steps. Steps in which wires touched each other were
--- taken whole, and no blow was followed: tensions were up to 44 % off at 20 ms, bend radii 2.8 times too
--- large, nothing told. More wires than six are a bundle, whose steps are taken whole; it is told.
+-- Cables that strike each other have the same results at all steps. When steps with touching wires were
+-- taken whole, no blow was followed: tensions were up to 44 % off at 20 ms, bend radii 2.8 times too large,
+-- without a report. More than six touching wires are a bundle: its steps are taken whole, which is
+-- reported.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -26,7 +27,7 @@ local function swept(s, one, two)
   return { a, b }, 0.7
 end
 
--- One that lies on a table is lifted by its end from under another one.
+-- A cable that lies on a table is lifted by its end from under another one.
 local function lifted(s, one, two)
   s:obstacle{ shape = "plane", friction = 0.3 }
   local a = damped(s, one, { 0, 0, 0.004 }, { 0.5, 0, 0.004 }, 50)
@@ -35,7 +36,7 @@ local function lifted(s, one, two)
   return { a, b }, 1
 end
 
--- Three fall across each other on a table.
+-- Three cables fall across each other on a table.
 local function dropped(s, one, two)
   s:obstacle{ shape = "plane", friction = 0.3 }
   local wires = {}
@@ -54,7 +55,7 @@ local function outcome(build, one, two, options)
   local run, out = t.fine(scene:run(options)), {}
   for k, wire in ipairs(wires) do
     local got = wire:get()
-    -- half the weight and a radius of 300 wire radii besides: less is of no interest
+    -- half the weight and a radius of 300 wire radii are added: smaller loads do not count
     out["tension" .. k] = wire:max_tension() + 0.5 * 9.81 * got.mass_per_length * got.length
     out["bend" .. k] = 1 / wire:min_bend_radius() + 1 / (300 * got.radius)
   end
@@ -65,8 +66,8 @@ end
 local PAIRS = { { "GXL 1.5", "H07V-K 10" }, { "GXL 0.5", "GXL 1.5" }, { "FLRY-B 10", "soft" },
   { "soft", "GXL 1.5" } }
 
--- Of the fine value [-]. Cables that fall roll off each other, and even the finest steps differ by 10 % in
--- tension; so does what the first one, which lies below, bends to. What the others bend to does not.
+-- Limits, as shares of the fine value [-]. Cables that fall roll off each other: even the finest steps
+-- differ by 10 % in tension, and in the bend of the first cable, which lies below. The other bends agree.
 local BOTH = { tension1 = 0.1, tension2 = 0.1, bend1 = 0.1, bend2 = 0.1 }
 local cases = { { "one is swept by the other", swept, BOTH },
   { "one is lifted from under the other", lifted, BOTH },
@@ -84,7 +85,7 @@ describe("two cables:", function()
   end
 end)
 
--- Cables crosswise over each other fall on a table.
+-- Cables crosswise over each other fall on a table. Returns the reports of coarse steps.
 local function told(count, dt)
   local s = sw.scene{}
   s:obstacle{ shape = "plane", friction = 0.3 }
@@ -103,14 +104,14 @@ local function told(count, dt)
 end
 
 describe("a bundle", function()
-  it("of more than six wires says that its steps are coarse", function()
+  it("of more than six wires reports that its steps are coarse", function()
     local found = told(8, 0.01)
     assert.is_true(#found >= 1)
     assert.is_truthy(found[1]:find("for 7 wires and more that touch each other", 1, true), found[1])
     assert.is_truthy(found[1]:find "compare them with those of dt = [%d.e-]+ s$", found[1])
   end)
 
-  it("does not where they are fine, nor do six wires", function()
+  it("reports nothing with fine steps, or of six wires", function()
     assert.same({}, told(8, 2.5e-4))
     assert.same({}, told(6, 0.01))
   end)

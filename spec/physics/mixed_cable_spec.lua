@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Mixed grips of real cables, which are far stiffer along their axis than their section shears. The rod that
--- stood for the pads bent between them as no mesh would, and when these took it back the mesh was torn by up
--- to 0.16 mm beside them: ten times the energy in play, and the run failed at every step.
+-- Mixed grips of real cables, which are far stiffer along their axis than their section is in shear. When
+-- the rod that stood for the pads bent between them as no mesh would, the mesh that took over again was
+-- torn by up to 0.16 mm beside the pads: ten times the energy in play, and the run failed at every step.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
--- Lifted, swung to a side and let go.
+-- The cable is lifted, swung to a side and let go.
 local function carried(cable, length, at, width, hardness)
   local scene = sw.scene{}
   scene:obstacle{ shape = "plane", friction = 0.3 }
@@ -35,7 +35,8 @@ describe("a cable in a mixed grip", function()
       local kinds = {}
       for _, e in ipairs(hand.events) do
         kinds[#kinds + 1] = e.kind
-        -- a rod and a mesh differ by how a section bends under the load, a thin cable by a tenth of its lift
+        -- rod and mesh differ in how a section bends under the load: for a thin cable by a tenth of its
+        -- lift
         t.below(0.15 * weight * 0.2, math.abs(e.energy), e.kind .. ": energy made")
       end
       assert.same({ "frozen", "thawed" }, kinds)

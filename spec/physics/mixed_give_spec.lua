@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A frozen grip gives way like the squeezed wire between the pads that it stands for: what a force or a
--- moment some diameters away moves and turns the wire by is the same before and after.
+-- A frozen grip gives way like the squeezed wire between the pads that it stands for: a force or a moment
+-- some diameters away moves and turns the wire by the same amount before and after freezing.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -8,8 +8,8 @@ local t = require "spec.physics.tools"
 local r, L, tip = 0.003, 0.1, 0.1 -- the pads end at 0.04: 10 diameters to the tip
 local soft, stiff = { E = 2e7, nu = 0.4 }, { E = 1e9, nu = 0.3 }
 
--- A weightless wire between pads that squeeze it by a share of its diameter, not frozen yet. whole:
--- all of it is a mesh; else only near the pads.
+-- A weightless wire between pads that squeeze it by a share of its diameter, not frozen yet. whole: all of
+-- it is a mesh; otherwise only the part near the pads.
 local function squeezed(material, share, whole, length)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ E = material.E, nu = material.nu, density = 1200, radius = r, from = { 0, 0, 0 },
@@ -47,8 +47,8 @@ local function inverse(A)
   return B
 end
 
--- What unit forces and moments on the end move and turn it by: the inverse of what small motions of a
--- clamp there take, x y z and about x y z.
+-- Returns how far unit forces and moments on the end move and turn it: the inverse of the reactions to
+-- small motions of a clamp there, along x y z and about x y z.
 local function compliance(scene, clamp, at)
   local K, before, way = {}, scene:snapshot(), 1e-6
   for k = 1, 6 do
@@ -89,19 +89,19 @@ describe("a frozen grip", function()
         t.fine(scene:settle())
         assert.equal("rod", wire.model)
         local rod = compliance(scene, clamp, wire:position(tip))
-        -- Rods held at the pads' face were off by 2 (twist) to 27 % (deflection along the pads); held further
-        -- in by what turns along the pads need, alike in all directions, by up to 14 % (deflection) and
-        -- 4.6 % (turn) towards the pads, 4.4 % (twist). Condensed: 0.24 0.34 1.2 0.001 0.04 0.13 % at
-        -- most, in this order. The 1.2 % are at 5 %, where the give along the pads is largest: what it is
-        -- more than that towards them is all at the clamp.
+        -- Measured: 0.24 0.34 1.2 0.001 0.04 0.13 % at most, in this order. The 1.2 % are at a squeeze of 5
+        -- %, where the give along the pads is largest: its excess over the give towards them is all at the
+        -- clamp. Rods held at the pads' face were off by 2 (twist) to 27 % (deflection along the pads).
+        -- Rods held further in, as turns along the pads need and alike in all directions, were off by up to
+        -- 14 % (deflection) and 4.6 % (turn) towards the pads, and 4.4 % (twist).
         local allowed = { 0.003, 0.005, 0.02, 0.001, 0.002, 0.002 }
         for k, way in ipairs(ways) do t.share(mesh[k][k], rod[k][k], allowed[k], way) end
-        -- a force turns, a moment deflects: 0.1 and 0.4 %
+        -- a force also turns, and a moment also deflects: measured 0.1 and 0.4 %
         t.share(mesh[2][6], rod[2][6], 0.005, "deflection by a moment, towards the pads")
         t.share(mesh[3][5], rod[3][5], 0.008, "deflection by a moment, along the pads")
       end)
 
-      it("does so where only the surroundings of the pads were a mesh, " .. name, function()
+      it("gives way the same where only the part near the pads was a mesh, " .. name, function()
         local scene, wire, g = squeezed(material, share, false, 0.12)
         local function moved(k, force, couple)
           local x, before = {}, scene:snapshot()
@@ -126,7 +126,7 @@ describe("a frozen grip", function()
         local mesh = all()
         g:freeze()
         local rod = all()
-        -- 1.9 % of the stretch are where the mesh passes into its line, which the rod has not
+        -- 1.9 % of the stretch are where the mesh passes into its line, which the rod does not have
         local allowed = { 0.02, 0.005, 0.02, 0.004, 0.004 }
         for k, way in ipairs{ ways[1], ways[2], ways[3], ways[6], ways[5] } do
           t.share(mesh[k], rod[k], allowed[k], way)
@@ -144,8 +144,8 @@ describe("a frozen grip", function()
       local x = wire:particles()
       g:freeze()
       t.fine(scene:settle())
-      -- the squeezed wire is up to 2 % longer between the pads and beside them; left there, that would
-      -- be 1.7e-3 of EA as tension
+      -- the squeezed wire is up to 2 % longer between the pads and beside them; if it stayed so, the
+      -- tension would be 1.7e-3 of EA
       t.below(2e-6 * EA, math.abs(clamp:force()[1]), "force on the clamp")
       t.below(2e-6 * EA, math.abs(wire:tension(0.03)), "tension between the pads")
       g:thaw()
@@ -173,7 +173,7 @@ describe("a frozen grip", function()
     end
   end)
 
-  it("is softer about one axis by an energy whose derivatives are exact", function()
+  it("has an energy, softer about one axis, whose derivatives are exact", function()
     local scene, wire, g = squeezed(soft, 0.05, false, 0.12)
     g:freeze()
     local x, shift = wire:positions(), {}

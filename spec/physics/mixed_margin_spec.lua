@@ -1,14 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The margin of a frozen grip: how much of what the pads could bear, forces and moments together, the
--- rigid grip bears in their place.
+-- The margin of a frozen grip: the load on the rigid grip over the most that the pads could bear, forces
+-- and moments together.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local r, mu, force, width, s = 0.003, 0.3, 20, 0.02, 0.03
 
--- A weightless wire held near its end, by the pads or frozen; each step adds a dead force at an arm's length
--- from the pads and is looked at when the wire rests again. what: gripper, wire -> 1 to stop.
+-- A weightless wire is held near its end, by pads or by a frozen grip. Each step adds a dead force at a
+-- distance `arm` from the pads and calls look(gripper, wire, step) when the wire rests again; look returns
+-- true to stop.
 local function load(frozen, by, arm, steps, look)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ E = 1e9, nu = 0.3, density = 1200, radius = r, from = { 0, 0, 0 },
@@ -34,8 +35,8 @@ local function load(frozen, by, arm, steps, look)
   return g, wire, touches
 end
 
--- What a load in the pads' plane is of the most that touches can resist, as the limit surface has it:
--- the largest value over motions (x, z, turn) of its power over theirs, by trying.
+-- Returns a load in the pads' plane over the largest that the touches can resist (limit surface): the
+-- largest ratio of the load's power to that of friction over all motions (x, z, turn), found by trying.
 local function in_plane(touches, f, m)
   local sum, cx, cz, size = 0, 0, 0, 0
   for _, touch in ipairs(touches) do
@@ -76,11 +77,11 @@ local function in_plane(touches, f, m)
 end
 
 describe("the margin of a frozen grip", function()
-  it("is the force along the pads over friction where there is no moment", function()
+  it("equals the force along the pads over friction where there is no moment", function()
     load("for good", { 2, 0, 0 }, 0.06, 3, function(g, _, k)
       local state = g:state()
-      t.share(2 * mu * force, state.most, 5e-3, "friction of both pads") -- their force is met to 0.1 %
-      -- both pads do not press quite alike: 6e-4 without any load
+      t.share(2 * mu * force, state.most, 5e-3, "friction of both pads") -- jaws meet it to 0.1 %
+      -- the forces of both pads differ a little: 6e-4 without any load
       t.near(2 * k / state.most, state.margin, 1e-3, ("at %d N"):format(2 * k))
     end)
   end)
@@ -98,8 +99,8 @@ describe("the margin of a frozen grip", function()
     end
   end)
 
-  it("tells what the pads will not hold, where the force alone does not", function()
-    -- by pads: turned by more than 3 degrees they have lost it
+  it("exceeds 1 where the pads lose the wire, which the force alone does not show", function()
+    -- held by pads, a wire turned by more than 3 degrees is lost
     local lost
     load(false, { 0, 0, 0.1 }, 0.06, 13, function(_, wire, k)
       local angle = (wire:position(s + width / 2)[3] - wire:position(s - width / 2)[3]) / width
@@ -115,7 +116,7 @@ describe("the margin of a frozen grip", function()
     end)
     assert.is_truthy(g.frozen)
     assert.is_truthy(lost and at)
-    -- 1.1 N both: within one step of the load
+    -- 1.1 N in both cases: within one step of the load
     t.near(lost, at, 0.1001, "force at which the pads lose it")
     t.below(1.1, margin, "margin then")
     t.below(0.1, friction, "the force over friction then")
@@ -132,9 +133,9 @@ describe("the margin of a frozen grip", function()
     t.below(1e-4, g:state().slip, "slip")
   end)
 
-  it("lets moments towards the pads lift one edge of them, no more", function()
-    -- sum N_i |x_i| of pads that press evenly is N width/4, and friction helps at the lever of the height:
-    -- by mu N height/2, an eighth of it. Pads that press more at their edges bear more.
+  it("is 1 at the moment that lifts one edge of the pads", function()
+    -- For pads that press evenly sum N_i |x_i| is N width/4. Friction helps at the lever of the height, by
+    -- mu N height/2, an eighth of it. Pads that press more at their edges bear more.
     local most
     load("for good", { 0, 1, 0 }, 0.06, 3, function(g, _, k) most = k * 1 * 0.06 / g:state().margin end)
     t.above(2 * force * width / 4, most, "moment at a margin of 1")

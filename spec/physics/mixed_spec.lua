@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The mixed grasp against plates all the way: a wire is squeezed, lifted, carried and laid down.
+-- The mixed grasp, compared with plates all the way: a wire is squeezed, lifted, carried and laid down.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local r, L, width, force = 0.003, 0.24, 0.02, 20
 
--- A frictionless table, so that what is compared does not depend on the way there.
+-- The table is frictionless, so results do not depend on the way there.
 local function new_scene()
   local scene = sw.scene{}
   scene:obstacle{ name = "table", shape = "plane", friction = 0 }
@@ -17,7 +17,7 @@ local function new_scene()
   return scene, wire, g
 end
 
--- The two-plate test; freeze: nil = in the usual way, false = never. Returns what was seen on the way.
+-- The two-plate test. freeze: nil = as usual, false = never. Returns what was recorded on the way.
 local function carry(freeze)
   local scene, wire, g = new_scene()
   local seen = { g = g, wire = wire, scene = scene }
@@ -60,7 +60,7 @@ describe("a mixed grasp", function()
     assert.equal("rod", mixed.wire.model) -- as it was before
   end)
 
-  it("has force, moment, shape and section as by plates within 2 %", function()
+  it("has the force, moment, shape and section of plates within 2 %", function()
     for _, when in ipairs{ "lifted", "carried" } do
       local a, b = mixed[when], plates[when]
       t.share(b.force[3], a.force[3], 0.02, when .. ": force")
@@ -73,8 +73,8 @@ describe("a mixed grasp", function()
     end
   end)
 
-  it("costs far less to carry", function()
-    -- told in benchmarks as a ratio; here only that it is less, by much more than noise
+  it("costs less than a quarter to carry", function()
+    -- benchmarks give the ratio; this bound only leaves room for noise
     t.below(plates.cost / 4, mixed.cost, "computing time per simulated second")
   end)
 
@@ -89,11 +89,11 @@ describe("a mixed grasp", function()
           from = { 0, 0, thick }, to = { long, 0, thick } }
         local g = scene:gripper{ pads = { opening = 3 * thick, friction = 0.6, width = wide } }
         local weight = wire.beam.mass_per_length * long * 9.81
-        scene:process(function(p) -- pads whose force squeezes it by some per cent
+        scene:process(function(p) -- the pads' force squeezes it by some per cent
           g:grasp(wire, { s = long / 2, approach = "mixed", force = 0.0176 * E * thick * wide })
           g:move{ by = { 0, 0, long / 2 }, duration = 0.5 }
           p:wait(0.5)
-          t.share(weight, g:force()[3], 0.02, "weight") -- what still swings
+          t.share(weight, g:force()[3], 0.02, "weight") -- the wire still swings
         end)
         local run = t.fine(scene:run{ dt = 0.01 })
         assert.equal("frozen", g.events[1].kind)
@@ -102,7 +102,7 @@ describe("a mixed grasp", function()
     end
   end)
 
-  it("goes on with its force in the first step after a switch, in full motion", function()
+  it("keeps its force in the first step after a switch, in full motion", function()
     local scene, wire, g = new_scene()
     local mass = wire.beam.mass_per_length * L
     scene:process(function()
@@ -123,15 +123,16 @@ describe("a mixed grasp", function()
     end)
     t.fine(scene:run{ dt = 0.001 })
     for k, name in ipairs{ "frozen", "thawed" } do
-      -- 1 % of it, and what swinging ends change in a step of 1 ms
+      -- 1 %, plus what swinging ends change in a step of 1 ms
       t.near(seen[k][1], seen[k][2], 0.02 * mass * 9.81, name .. ": force in motion")
     end
   end)
 
   it("keeps mass and momentum across the switches", function()
     local mass
-    -- In the middle of a move, where the wire is fast: force at the gripper two steps after each switch,
-    -- of which the first ones are made. The first step, which begins anew, is off by up to 2 %.
+    -- In the middle of a move, where the wire is fast: the force at the gripper two steps after each
+    -- switch. Only the first `switches` switches are made. The first step after a switch begins anew and is
+    -- off by up to 2 %.
     local function ride(switches)
       local scene, wire, g = new_scene()
       local seen = {}
@@ -155,7 +156,7 @@ describe("a mixed grasp", function()
     end
     local none, once = ride(0), ride(1)
     local both, g = ride(2)
-    -- against the same time without the switch: swinging ends change it by 2 % a step
+    -- compared with the same instant without the switch: swinging ends change the force by 2 % a step
     t.near(none[1], once[1], 0.01 * mass * 9.81, "frozen: force in motion")
     t.near(once[2], both[2], 0.01 * mass * 9.81, "thawed: force in motion")
     for i = 1, 2 do
@@ -167,11 +168,11 @@ describe("a mixed grasp", function()
           t.near(e.before[part][k], e.after[part][k], 1e-9 * scale, e.kind .. ": " .. part .. " momentum")
         end
       end
-      t.above(0.3 * mass * 0.1, math.abs(e.before.linear[3]), "it moves") -- it is no rest that is kept
+      t.above(0.3 * mass * 0.1, math.abs(e.before.linear[3]), "it moves") -- not at rest
     end
   end)
 
-  it("goes on with the force and moment that there were", function()
+  it("keeps force and moment across a switch at rest", function()
     local scene, wire, g = new_scene()
     local steps = {}
     scene:process(function(p)
@@ -201,11 +202,11 @@ describe("a mixed grasp", function()
     t.near(steps[1].before, steps[1].at_once, 1e-9, "what the grip begins with")
   end)
 
-  it("goes back to the pads when these would not hold it", function()
+  it("goes back to the pads when they would lose the wire", function()
     local scene, wire, g = new_scene()
     local weight = wire.beam.mass_per_length * L * 9.81
     scene:process(function(p)
-      -- enough for the weight, not for the jerk at the end
+      -- enough for the weight, but not for the jerk at the end
       g:grasp(wire, { s = L / 2, approach = "mixed", force = 2 * weight })
       assert.is_truthy(g.frozen)
       g:move{ by = { 0, 0, 0.15 }, duration = 1 }
@@ -220,7 +221,7 @@ describe("a mixed grasp", function()
     assert.is_nil(g.frozen)
   end)
 
-  it("survives snapshots bit by bit", function()
+  it("goes on to the same bits from a snapshot", function()
     local scene, wire, g = new_scene()
     scene:process(function() g:grasp(wire, { s = L / 2, approach = "mixed", force = force }) end)
     assert(scene:run{ dt = 0.01 }.ok)

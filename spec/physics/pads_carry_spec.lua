@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pads that press and stick do not lose the wire because a step is long: a step begins with free flight, in
--- which a wire that is carried fast, or just hangs, is below the pads before any touch is found.
+-- Pads that press and stick do not lose the wire because a step is long. A step begins with free flight: a
+-- wire that is carried fast, or just hangs, is below the pads before any touch is found.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
--- The pads press with 6 N each and friction .5: 6 N hold a wire of 20 g that is accelerated by 25 m/s^2 with
--- less than 1 N.
+-- The pads press with 6 N each at a friction of 0.5. Their 6 N hold a wire of 20 g that is accelerated by
+-- 25 m/s^2 with less than 1 N.
 local function carried(cable, at, acceleration, dt)
   local scene = sw.scene{}
   local radius = sw.cable(cable).outer_diameter.value / 2
@@ -21,7 +21,7 @@ local function carried(cable, at, acceleration, dt)
     end
     p:wait(0.2)
   end)
-  local off = 0 -- of the jaws' force, in any step
+  local off = 0 -- largest relative error of the jaws' force in any step [-]
   scene:observe{ every = dt, call = function()
     local state = hand:state()
     if state.jaws == "holds" then off = math.max(off, math.abs(state.squeeze / 6 - 1)) end
@@ -32,8 +32,8 @@ local function carried(cable, at, acceleration, dt)
     height = wire:position(at)[3] - radius }
 end
 
--- A wire that is pinched by round fingers at one of its nodes bends round them by the least bit, now this
--- way and now that. The pads' softness must not depend on how many touches there are at one place.
+-- A wire pinched by round fingers at one of its nodes bends round them very little, now one way and now the
+-- other. The pads' softness must not depend on the number of touches at one place.
 local function pinched(pads, shift, dt)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ E = 5e7, nu = 0.4, density = 1200, radius = 0.003,
@@ -80,10 +80,10 @@ describe("pads that carry a wire fast", function()
       for _, dt in ipairs{ 2e-2, 1e-2, 5e-3 } do
         local m, what = carried(case[1], case[2], case[3], dt), (" at steps of %g s"):format(dt)
         assert.equal("holds", m.jaws, m.jaws .. what)
-        t.below(0.02, m.off, "error of the jaws' force in any step [-]" .. what) -- 1e-3 but for jumps
+        t.below(0.02, m.off, "error of the jaws' force in any step [-]" .. what) -- 1e-3 except for jumps
         t.below(2e-3, m.slip, "slip [m]" .. what)
-        t.near(0.15, m.height, 2e-3, "height of what is held [m]" .. what) -- with what it slips by
-        t.share(fine.peak, m.peak, 0.25, "largest force on the tool [N]" .. what) -- of accelerations in steps
+        t.near(0.15, m.height, 2e-3, "height of what is held [m]" .. what) -- slip included
+        t.share(fine.peak, m.peak, 0.25, "largest force on the tool [N]" .. what) -- acceleration in steps
       end
     end)
   end

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Cables moved between pads: the same results at all steps. Scenes with pads took whole steps, and nothing
--- told that forces were up to 70 % off at 20 ms. Random ones of this kind, of which these are three, have 36
--- of 168 values more than 10 % off those of steps of 0.25 ms at 20 ms and 22 at 10 ms; now 1 and 2.
+-- Cables moved between pads have the same results at all steps. With whole steps, forces were up to 70 %
+-- off at 20 ms, and nothing reported it. Of 168 values of random scenes like these three, 36 were more than
+-- 10 % off those of steps of 0.25 ms at 20 ms, and 22 at 10 ms. With divided steps these are 1 and 2.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -13,10 +13,10 @@ local function damped(scene, cable, from, to, segments)
   return wire, got.radius, 9.81 * got.mass_per_length * wire.length
 end
 
--- Until a time: the jaws meet the wire at a step's end, so that grasps take longer by longer steps.
+-- Waits until a time. The jaws meet the wire at a step's end, so a grasp takes longer with longer steps.
 local function till(p, scene, time) p:wait(time - scene.time) end
 
--- Lifted off a table, carried to a side and dropped.
+-- The wire is lifted off a table, carried to a side and dropped.
 local function lifted(scene, cable)
   scene:obstacle{ name = "met", shape = "plane", friction = 0.3 }
   local radius = sw.cable(cable).outer_diameter.value / 2
@@ -34,7 +34,7 @@ local function lifted(scene, cable)
   return wire, hand, weight
 end
 
--- Swung against the side of a box.
+-- The wire is swung against the side of a box.
 local function swung(scene, cable)
   scene:obstacle{ name = "met", shape = "box", size = { 0.1, 0.4, 0.4 }, at = { 0.25, 0, 0.2 },
     friction = 0.3 }
@@ -51,7 +51,7 @@ local function swung(scene, cable)
   return wire, hand, weight
 end
 
--- Its end is pushed against a slanted wall.
+-- The wire's end is pushed against a slanted wall.
 local function poked(scene, cable)
   scene:obstacle{ name = "met", shape = "box", size = { 0.1, 0.4, 0.4 }, at = { 0.23, 0, 0.2 },
     rotation = { axis = { 0, 1, 0 }, angle = 0.4 }, friction = 0.2 }
@@ -73,7 +73,7 @@ local function outcome(build, cable, options)
   local wire, hand, weight = build(scene, cable)
   t.fine(scene:run(options))
   local loads = hand:over()
-  local out = { -- less than half the weight, or bends wider than 300 radii, are of no interest
+  local out = { -- loads below half the weight and bends wider than 300 radii do not count
     tension = wire:max_tension() + 0.5 * weight,
     bend = 1 / wire:min_bend_radius() + 1 / (300 * wire:get().radius),
     force = loads.peak_force + 0.5 * weight,
@@ -95,7 +95,7 @@ describe("a cable between pads", function()
           for _, key in ipairs{ "tension", "bend", "force", "moment", "met" } do
             t.share(fine[key], got[key], 0.1, ("%s, %s"):format(key, at))
           end
-          -- the jaws' force is met when it is first reached, to 1.5 %; a blow may add to it
+          -- the jaws' force is met to 1.5 % when it is first reached; a blow may add to it
           t.below(1.03 * fine.squeeze, got.squeeze, "squeeze, " .. at)
           for k = 1, 3 do t.near(fine.place[k], got.place[k], 0.012, "end, " .. at) end
         end
@@ -105,9 +105,9 @@ describe("a cable between pads", function()
 end)
 
 describe("the moment of a tool that turns", function()
-  -- Fingers press from both sides with 200 times the cable's weight. The moment of a step was made of their
-  -- mean forces where the fingers are at its end: of what they turned in it they had an arm of 4 mm each. At
-  -- 20 ms the moment of turning about the wire was 20 times that at 1 ms, that about the vertical 3.2 times.
+  -- Fingers press from both sides with 200 times the cable's weight. If a step's moment is made of mean
+  -- forces at the fingers' places at its end, each has an arm of 4 mm from the turn within the step. At 20
+  -- ms the moment about the wire was then 20 times that at 1 ms, the moment about the vertical 3.2 times.
   local function turned(axis, dt)
     local scene = sw.scene{}
     scene:obstacle{ shape = "plane", friction = 0.3 }
@@ -130,7 +130,7 @@ describe("the moment of a tool that turns", function()
     it("is the same at all steps: " .. name, function()
       local fine, scale = turned(axis, 1e-3)
       for _, dt in ipairs{ 0.02, 0.01, 0.005 } do
-        local got = turned(axis, dt) -- about the wire nothing but its own inertia resists: 0
+        local got = turned(axis, dt) -- about the wire only its inertia resists: 0
         t.near(fine, got, 0.05 * fine + 1e-3 * scale, ("moment at %g s"):format(dt))
       end
     end)
@@ -154,7 +154,7 @@ describe("the largest margin", function()
     return hand
   end
 
-  it("is of what the pads hold, not of what they let go", function()
+  it("covers what the pads hold, not what they let go", function()
     for _, dt in ipairs{ 0.02, 0.01, 0.002 } do
       local kept, let = carried(dt, false):over(), carried(dt, true):over()
       -- weight and inertia over mu N of both pads: some hundredths
@@ -165,7 +165,7 @@ describe("the largest margin", function()
     end
   end)
 
-  it("is told for no step in which the jaws move, nor before the first grasp", function()
+  it("is given for no step in which the jaws move, nor before the first grasp", function()
     local hand = carried(0.01, true)
     local series, numbers = hand:series(), 0
     for i, margin in ipairs(series.margin) do
@@ -178,7 +178,7 @@ describe("the largest margin", function()
 end)
 
 describe("pads that go to an opening", function()
-  it("tell of a cable that they press on with more than breaks it", function()
+  it("report an overload when they press harder than the cable bears", function()
     for share, told in pairs{ [0.98] = 1, [1] = 0 } do
       local scene = sw.scene{}
       local wire, radius = damped(scene, "H07V-K 10", { 0, 0, 0.05 }, { 0.2, 0, 0.05 }, 20)

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pads on a wire that is a line: they press along their whole width, wherever its nodes are, and
--- what they hold stays at rest.
+-- Pads on a wire that is a line. They press along their whole width, wherever its nodes are, and what they
+-- hold stays at rest.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local r, E, width = 0.003, 2e7, 0.02
 
--- A wire on a table without friction between pads; then(p, gripper) when it is grasped.
+-- A wire on a frictionless table, between pads; calls body(p, gripper, wire) when it is grasped.
 local function grasped(args, dt, body)
   local scene = sw.scene{ gravity = { 0, 0, args.weightless and 0 or -9.81 } }
   scene:obstacle{ name = "table", shape = "plane", friction = 0, at = { 0, 0, args.weightless and -1 or 0 } }
@@ -24,10 +24,10 @@ local function grasped(args, dt, body)
 end
 
 describe("pads on a rod", function()
-  it("press by their width, whatever its segments are and wherever its nodes lie", function()
-    -- A round section between plates as a line of springs of 0.84 E per length and side. Beyond the
-    -- pads' edges a round surface d deep goes out over sqrt(2 r d), which counts two thirds. Samples
-    -- are at most a twelfth of the width apart: half of one is 4 %.
+  it("press by their width, whatever its segments and wherever its nodes", function()
+    -- A round section between plates acts as a line of springs of 0.84 E per length and side. Beyond the
+    -- pads' edges a round surface d deep comes out over sqrt(2 r d), which counts two thirds. Samples are
+    -- at most a twelfth of the width apart; half of that is 4 %.
     local deep = 1e-4
     local expected = 0.84 * E * deep * (width + 4 / 3 * math.sqrt(2 * r * deep))
     for _, segments in ipairs{ 4, 7, 20, 40, 90 } do
@@ -45,7 +45,7 @@ describe("pads on a rod", function()
   end)
 
   for _, args in ipairs{ { force = 5 }, { distance = 0.0055 } } do
-    it("are at rest with it at any step, and need no smaller ones: " .. next(args), function()
+    it("stay at rest with it at any step, with few refused steps: " .. next(args), function()
       -- nodes lie just on the pads' edges here
       for _, dt in ipairs{ 0.01, 0.005, 0.002, 0.001, 0.0005 } do
         args.segments = 40
@@ -55,7 +55,7 @@ describe("pads on a rod", function()
         local q, last = g:series(), g:state().squeeze
         for i = #q.t, 1, -1 do
           if q.t[i] < run.time - 0.5 then break end
-          -- what the closing set going dies out within the first 0.3 s
+          -- the motion from closing dies out within the first 0.3 s
           t.near(0, q.force[i][2], 1e-3 * last, "force across")
           t.share(last, q.squeeze[i], 1e-3, "squeeze")
         end
@@ -72,7 +72,7 @@ describe("pads on a rod", function()
         t.near(0, g:state().slip, 1e-5, "slip")
       end)
       assert.truthy(run.ok)
-      -- swinging on by then less than that
+      -- swinging is less than that by then
       t.share(weight, g:over(run.time - 0.1, run.time).mean_force, 5e-3, segments .. " segments")
     end
   end)

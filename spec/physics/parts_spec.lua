@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps in which a wire moves too fast are taken in parts: damped cables that fall on things, are
--- struck, swung and laid have the tension, the bend radius and the end of fine steps, whatever dt is.
+-- Steps in which a wire moves too fast are taken in parts (substeps). Damped cables that fall on things,
+-- are struck, swung and laid have the tension, bend radius and end of fine steps, whatever dt is.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -23,7 +23,7 @@ local function wire(scene, name, from, to)
   return w
 end
 
--- Each gives the wire and how long to run [s].
+-- Each returns the wire and the duration [s], if no process sets it.
 local scenes = {
   ["falls on a table"] = function(s, name)
     s:obstacle{ shape = "plane", friction = 0.3 }
@@ -102,8 +102,8 @@ describe("a damped cable that", function()
   end
 end)
 
--- A rebound cuts the part that it is in, which does not mean that short parts go badly. Softer cables are
--- thrown back otherwise by a shift of 1e-6 m: their tension scatters by 8 % at all steps.
+-- A rebound cuts the part in which it happens; such a short part is no sign of a bad step. Softer cables
+-- rebound differently after a shift of 1e-6 m: their tension scatters by 8 % at all steps.
 describe("a stiff cable that is thrown back by a table", function()
   local function thrown(s, name)
     s:obstacle{ shape = "plane", friction = 0.4, restitution = 0.13 }
@@ -158,7 +158,7 @@ describe("parts of steps", function()
     t.below(1.1, lay() / lay(false), "steps, over whole ones in a laying [-]")
   end)
 
-  it("are left to the script", function()
+  it("can be switched off with parts = false", function()
     local build = scenes["swings against a peg"]
     local whole, parts = measure(build, "soft", { parts = false }), measure(build, "soft", {})
     assert.is_true(parts.steps > 1.5 * whole.steps, parts.steps)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Poses of cables that are pressed between two clamps, buckle to a side and rub on a peg. Continuation, which
--- leaves out what pressure takes off a wire's stiffness, went to such a place by thousands of like steps and
--- gave up: 40 of 200 such runs did, at any distance of the poses.
+-- Poses of cables that are pressed between two clamps, buckle to a side and rub on a peg. Continuation
+-- leaves out how pressure softens a wire. It went to such a place by thousands of equal steps and gave up:
+-- in 40 of 200 such runs, at any distance of the poses.
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
@@ -10,8 +10,8 @@ local function along(duration, ...)
   return { points = { { 0, 0, 0 }, ... }, relative = true, duration = duration }
 end
 
--- Each gives the scene and the wire. o: segments; swapped: ends; tilt of gravity [-]; slow: it moves, and
--- takes so many times as long [-].
+-- Each returns the scene and the wire. o: segments; swapped: ends; tilt of gravity [-]; slow: a motion that
+-- takes `slow` times as long [-].
 local function lifted(o)
   local s, slow = sw.scene{ gravity = { 0, 9.81 * (o.tilt or 0), -9.81 } }, o.slow or 1
   local w = s:wire{ cable = "GXL 1.5", from = { 0, 0, 0.3 }, to = { 0.5, 0, 0.3 }, segments = 50 }
@@ -43,14 +43,14 @@ local function posed(make, dt, o)
 end
 
 describe("poses of a cable on a peg, pressed between two clamps,", function()
-  it("are found at all distances where the peg lifts it", function()
+  it("agree at all pose distances where the peg lifts it", function()
     local exact = posed(lifted, 0.002)
     for _, dt in ipairs{ 0.05, 0.02, 0.01, 0.005 } do
       local got = posed(lifted, dt)
       t.share(exact.radius, got.radius, 0.05, ("bend radius at %g ms"):format(1e3 * dt))
     end
   end)
-  it("are found at all distances where it is drawn over the peg", function()
+  it("agree at all pose distances where it is drawn over the peg", function()
     for _, o in ipairs{ {}, { swapped = true }, { segments = 50 } } do
       local exact = posed(drawn, 0.005, o)
       for _, dt in ipairs{ 0.05, 0.02, 0.01 } do
@@ -60,7 +60,7 @@ describe("poses of a cable on a peg, pressed between two clamps,", function()
       end
     end
   end)
-  it("are where a slow motion ends that something bends to a side", function()
+  it("are where a slow motion ends, if a tilt of gravity decides the side", function()
     local pose = posed(lifted, 0.02, { tilt = 0.01 })
     local s, w = lifted{ tilt = 0.01, slow = 4 }
     t.fine(s:run{ duration = 4, dt = 0.005 })

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Poses of wires that do not begin at rest while obstacles move: the wires come to rest first, as if
--- scene:settle had been asked for. A tube that is drawn straight hangs over the edge of one of two plates,
--- which close on it; falling and dragged at once, its walls went through each other or found no rest.
+-- Poses of wires that do not begin at rest while obstacles move. The wires come to rest first, as if
+-- scene:settle had been called. A tube that is drawn straight hangs over the edge of one of two plates,
+-- which close on it. When it fell and was dragged at once, its walls went through each other or found no
+-- rest.
 local sw = require "softworld"
 local flat = require "softworld.model.flat"
 local mesh = require "softworld.model.mesh"
@@ -11,7 +12,7 @@ local R, INNER, E, DENSITY = 0.006, 0.0045, 5e6, 1200
 local AREA, EI = math.pi * (R ^ 2 - INNER ^ 2), E * math.pi / 4 * (R ^ 4 - INNER ^ 4)
 local LEVEL = 3 -- of the mesh: coarser ones found their way
 
--- Push of the upper plate [N], and what the run tells. up: 1, or -1 for a scene upside down.
+-- Returns the push of the upper plate [N] and the run. up: 1, or -1 for a scene upside down.
 local function squeezed(length, up, settles)
   local scene = sw.scene { gravity = { 0, 0, -9.81 * up } }
   local wire = scene:wire { EA = E * AREA, EI = EI, GJ = EI / 1.4, mass_per_length = DENSITY * AREA,
@@ -38,7 +39,7 @@ describe("a tube that is drawn straight and squeezed in poses", function()
     it(("falls first, then follows the plates, %g m long, up %d"):format(length, up), function()
       local force, run = squeezed(length, up, false)
       local after_rest = squeezed(length, up, true)
-      -- where it touches first as it falls is left to chance, and so is friction there
+      -- where the tube first touches as it falls is left to chance, and so is friction there
       t.share(after_rest, force, 2e-3, "push")
       assert.are.equal(0, #run.events) -- no kink, no walls that meet
       assert.are.equal(0, run.jumps)

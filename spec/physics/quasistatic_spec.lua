@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Quasi-static runs: equilibrium at every pose of what drives the wires.
+-- Quasi-static runs: equilibrium at every pose of the holds and obstacles that drive the wires.
 local sw = require "softworld"
 
 local function lift(options)
@@ -48,7 +48,7 @@ describe("a quasi-static run", function()
     assert.are.equal(21, #r.run:series().time) -- and the settled start
   end)
 
-  -- Its weight holds the strip on a smooth floor; else it would swing round.
+  -- Its weight holds the strip on a smooth floor; without it the strip would swing round.
   local function snap(dt)
     local s = sw.scene{ gravity = { 0, 0, -200 } }
     s:obstacle{ shape = "plane", at = { 0, 0, -0.001 }, friction = 0 }
@@ -75,13 +75,13 @@ describe("a quasi-static run", function()
     return run.last_jump
   end
 
-  it("tells when a wire jumps: a buckled strip whose ends are turned", function()
+  it("reports when a wire jumps: a buckled strip whose ends are turned", function()
     local coarse, fine = snap(0.05), snap(0.01)
     assert.is_true(math.abs(coarse - fine) <= 0.05, coarse .. " and " .. fine)
   end)
 
-  -- Each pose slides almost all of the wire, some of it under a push. Where each place slides is
-  -- found before the wire is moved; else up to 176 iterations a pose were counted.
+  -- Each pose slides almost all of the wire, a part of it under a push. Where each place slides is found
+  -- before the wire moves; otherwise a pose took up to 176 iterations.
   it("drags a wire over a rough table in few iterations a pose", function()
     for _, row in ipairs{ { nil, 50 }, { nil, 100 }, { "GXL 1.5", 50 }, { "GXL 1.5", 100 } } do
       for _, way in ipairs{ { -0.05, 0.1, 0.05 }, { 0.05, 0.1, 0.05 }, { 0, 0.1, 0 } } do
@@ -102,8 +102,8 @@ describe("a quasi-static run", function()
     end
   end)
 
-  -- Poses on the way of a long pose need not be exact, and a jump is not looked for by Newton's
-  -- iteration: 15 iterations a pose without.
+  -- Intermediate poses of a long pose need not be exact, and jumps are not searched for by Newton's
+  -- iteration. Otherwise a pose took 15 iterations.
   it("lays a wire over walls in few iterations a pose", function()
     for _, n in ipairs{ 50, 100 } do
       local c = require("softworld.cases").laying{ segments = n }
@@ -128,7 +128,7 @@ describe("a quasi-static run", function()
     return w, clamp, mu * 0.03 * 9.81
   end
 
-  it("lets a table that moves carry what lies on it", function()
+  it("lets a moving table carry the wire on it", function()
     for _, dt in ipairs{ 0.5, 0.05 } do
       local w = on_belt(false, { 0.1, 0.2, 0 }, dt)
       for _, at in ipairs{ 0, 0.5, 1 } do
@@ -138,7 +138,7 @@ describe("a quasi-static run", function()
     end
   end)
 
-  it("lets it pull at what is held, with friction up to the end", function()
+  it("lets a moving table pull at a held wire with full friction", function()
     for _, dt in ipairs{ 0.5, 0.05 } do
       local w, clamp, friction = on_belt(true, { 0.01, 0, 0 }, dt)
       for at = 0.1, 0.9, 0.1 do
@@ -149,8 +149,9 @@ describe("a quasi-static run", function()
     end
   end)
 
-  -- The last pose of a smooth motion is 6e-10 m from the one before: its first update is accepted. What the
-  -- hold's own way did to the edge beside it was left out of its reaction: 28 % at 160 edges.
+  -- The last pose of a smooth motion is 6e-10 m from the one before, so its first update is accepted. When
+  -- the effect of the hold's own way on the edge beside it was left out of the reaction, this was 28 % off
+  -- at 160 edges.
   it("holds a slackened, turned wire with opposite forces at both ends", function()
     for _, segments in ipairs{ 40, 160, 320 } do
       local s = sw.scene{}

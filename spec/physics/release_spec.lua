@@ -4,7 +4,7 @@ package.path = "./?.lua;" .. package.path
 local cases = require "softworld.cases"
 local t = require "spec.physics.tools"
 
--- Total energy over what gravity can give: m g L/2.
+-- Returns a function: the change of total energy over what gravity can give, m g L/2.
 local function drift(c)
   local scale = c.parameters.mass_per_length * c.frame.g / 2
   local e0 = c.scene:energy().total
@@ -24,7 +24,7 @@ describe("a released cantilever", function()
   end
 
   it("is second order in the segment's length", function()
-    -- steps of 0.25 ms: error 1e-6; the reference itself is good to 5e-6 m, so no finer
+    -- steps of 0.25 ms: error 1e-6; the reference is good to 5e-6 m, so no finer mesh
     for _, gamma in ipairs{ 10, 100 } do
       t.order_at_least(1.8, { 25, 50, 100 }, function(n)
         local c = cases.release{ gamma = gamma, segments = n }
@@ -34,7 +34,7 @@ describe("a released cantilever", function()
     end
   end)
 
-  it("is good with few segments and long steps", function()
+  it("is within 2.5 mm with few segments and long steps", function()
     local c = cases.release{ segments = 10 }
     t.fine(c.run{ dt = 0.01 })
     t.below(2.5e-3, c.error(), "tip error, 10 segments, 10 ms")
@@ -43,7 +43,7 @@ describe("a released cantilever", function()
     t.below(1e-3, c.error(), "tip error, 20 segments, 5 ms")
   end)
 
-  it("moves alike in a turned and moved scene", function()
+  it("moves the same in a turned and moved scene", function()
     local random = t.random(5)
     local usual = cases.release{ segments = 20 }
     t.fine(usual.run{ dt = 5e-3 })
@@ -51,13 +51,13 @@ describe("a released cantilever", function()
       local c = cases.release{ segments = 20, rotation = t.turn(random), at = { 3, -2, 1 } }
       t.fine(c.run{ dt = 5e-3 })
       for i, sample in ipairs(c.samples) do
-        -- rounding grown by a motion that doubles small differences every 0.1 s or so
+        -- rounding, grown by a motion that doubles small differences every 0.1 s or so
         t.below(1e-8, t.distance(sample.tip, usual.samples[i].tip), "tip differs by")
       end
     end
   end)
 
-  it("scales: other gravity, same gamma, time in sqrt(L/g)", function()
+  it("depends on gamma only: gravity scales time by sqrt(L/g)", function()
     local usual, heavy = cases.release{ segments = 20 }, cases.release{ segments = 20,
       gravity = { 0, 0, -4 * 9.81 } }
     t.fine(usual.scene:run{ duration = 0.6, dt = 4e-3 })
@@ -65,7 +65,7 @@ describe("a released cantilever", function()
     t.below(1e-9, t.distance(usual.wire:position(1), heavy.wire:position(1)), "tips differ by")
   end)
 
-  it("gives the clamp the rate of momentum", function()
+  it("gives the clamp the rate of change of momentum", function()
     local c = cases.release{ segments = 30 }
     local dt, T = 1e-3, 0.5
     t.fine(c.scene:run{ duration = T, dt = dt })
@@ -117,7 +117,7 @@ describe("a load carried by a clamp", function()
     end, "change from n to 2n segments")
   end)
 
-  it("hangs its weight on the clamp at first, and needs the momentum's rate later", function()
+  it("loads the clamp with its weight at first, and with the rate of momentum later", function()
     local c = cases.transport{ segments = 30 }
     t.fine(c.scene:settle())
     local weight = c.parameters.mass_per_length * c.length * 9.81

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that are twisted when unloaded: torque GJ (turn / L - rest_twist) between two clamps, with
--- and without material frames; unwinding through a free end; feeding.
+-- Wires that are twisted when unloaded. Between two clamps the torque is GJ (turn / L - rest_twist), with
+-- and without material frames. Also unwinding through a free end, and feeding.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -27,7 +27,7 @@ end
 
 for kind in pairs(kinds) do
   describe("a wire twisted at rest, " .. kind, function()
-    it("resists being held untwisted, and what is turned beyond its rest", function()
+    it("has the torque GJ (turn / L - rest_twist) between two clamps", function()
       local scene, wire = make(kind)
       local left, right = scene:clamp(wire, { s = 0 }), scene:clamp(wire, { s = 1 })
       t.fine(scene:settle())
@@ -56,10 +56,10 @@ for kind in pairs(kinds) do
       t.share(GJ * 0.5, right:moment()[1], 1e-6, "moment")
     end)
 
-    it("is as drawn until something moves, for looks and snapshots too", function()
+    it("stays as drawn until something moves, after reading and snapshots too", function()
       local scene, wire = make(kind)
       local before = scene:snapshot()
-      assert.are.equal(0, wire:position(0)[1]) -- a look is not a motion
+      assert.are.equal(0, wire:position(0)[1]) -- reading is not a motion
       for _ = 1, 2 do
         local right = scene:clamp(wire, { s = 1 })
         scene:clamp(wire, { s = 0 })
@@ -74,7 +74,7 @@ for kind in pairs(kinds) do
       t.near(0, right:moment()[1], 1e-8, "moment after unwinding")
     end)
 
-    it("brings its twist from the spool", function()
+    it("brings its rest twist along from the spool", function()
       local scene, wire = make(kind)
       local feed, clamp = scene:feed(wire), scene:clamp(wire, { s = 1 })
       t.fine(scene:settle())
@@ -90,8 +90,8 @@ for kind in pairs(kinds) do
 end
 
 describe("rest_twist", function()
-  -- The path stays the shape without load; its material turns about it on the way. As it is drawn,
-  -- untwisted, its bend does not fit; with a free end it comes to lie on the path again.
+  -- The path stays the shape without load; the material turns about it along the way. Drawn untwisted, its
+  -- bend does not fit; with a free end the wire returns to the path.
   it("with rest = 'path' leaves the path as the shape without load", function()
     local k, points = 5, {}
     for i = 0, 400 do
@@ -107,7 +107,7 @@ describe("rest_twist", function()
     t.below(1e-6, t.largest_difference(drawn, wire:positions()), "off the path by")
   end)
 
-  it("refuses what it cannot be", function()
+  it("refuses impossible values", function()
     local function refused(words, options)
       local ok, message = pcall(make, "plain", options)
       assert.is_false(ok)

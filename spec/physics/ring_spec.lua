@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A thin ring between plates: a tube whose wall bends (wall_bending =), one slice of it in plane strain.
+-- A thin ring between plates: one slice, in plane strain, of a tube whose wall bends (wall_bending =).
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -8,9 +8,9 @@ local R, thick, E = 0.01, 0.0003, 1e9
 local wall = E * thick ^ 3 / 12 -- nu = 0, as the reference's EI [N m]
 
 -- Reference case 11a: approach over diameter, F R^2/EI, half width over R; exact elastica of an
--- inextensible ring, frictionless. Up to 0.282 it touches at points, where friction, which keeps the
--- ring from rolling, has nothing else to do; then it lies on the plates, without force but at both
--- ends of the flat parts, where its curvature is zero.
+-- inextensible ring, frictionless. Up to 0.282 the ring touches at points; there friction only keeps it
+-- from rolling. Beyond, it lies on the plates: only both ends of the flat parts bear force, and the
+-- curvature is zero there.
 local exact = { { 0.05, 0.6254082015, 1.043693411 }, { 0.1, 1.174331514, 1.083258347 },
   { 0.2, 2.115300378, 1.151525587 },
   { 0.3, 2.929673514, 1.207366174 }, { 0.5, 5.742160088, 1.311203361 } }
@@ -28,7 +28,7 @@ local function between_plates(particles, friction, length, phase)
   for _, p in ipairs(wire:calibration().particles) do
     ring = math.max(ring, (p[1] ^ 2 + p[2] ^ 2) ^ 0.5)
   end
-  local top = 1.2 * R -- the surface; particles are a skin below it
+  local top = 1.2 * R -- the surface; particles lie a skin below
   scene:obstacle{ shape = "plane", friction = friction, at = { 0, 0, -top } }
   local plate = scene:obstacle{ shape = "box", size = { 0.1, 0.1, 0.01 }, friction = friction,
     at = { 0, 0, top + 0.005 } }
@@ -48,11 +48,12 @@ local function squeeze(particles, share, friction, quasistatic, length)
     (wire:width(length / 2, { 0, 1, 0 }) / 2 - skin) / ring
 end
 
--- Lying on the plates, at any approach: F H^2/EI with H between the plates is the same number.
+-- Returns the force of a ring that lies on the plates, at any approach: F H^2/EI is constant, with H
+-- between the plates.
 local function flat_force(share) return exact[#exact][2] * (1 - exact[#exact][1]) ^ 2 / (1 - share) ^ 2 end
 
--- Root of the mean square error of the force at 24 approaches from 0.46 to 0.69 of the diameter,
--- with a particle at the top and with none.
+-- Returns the root mean square error of the force at 24 approaches from 0.46 to 0.69 of the diameter, with
+-- a particle at the top and with none.
 local function flat_error(particles)
   local sum, count = 0, 0
   for _, phase in ipairs{ 0, 0.5 } do
@@ -70,8 +71,8 @@ local function flat_error(particles)
 end
 
 describe("a thin ring between plates", function()
-  -- the reference suggests 1 % for 64 particles; measured at most 0.45 % (force), 0.3 % (width),
-  -- as the wall's hinges are of a polygon that is as stiff as its circle when oval
+  -- the reference suggests 1 % for 64 particles. Measured: at most 0.45 % (force), 0.3 % (width), because
+  -- the wall's hinges belong to a polygon that is as stiff as its circle when oval
   local function check(row, force, width)
     t.share(row[2], force, 0.006, "F R^2/EI")
     t.share(row[3], width, 0.004, "half width over R")
@@ -83,7 +84,7 @@ describe("a thin ring between plates", function()
     end)
   end
 
-  it("needs half as many particles for 1 %", function()
+  it("is within 1 % with half as many particles", function()
     for _, row in ipairs(exact) do
       local force, width = squeeze(32, row[1], 0.3)
       t.share(row[2], force, 0.01, "F R^2/EI")
@@ -91,20 +92,20 @@ describe("a thin ring between plates", function()
     end
   end)
 
-  it("needs no friction to stay between plates that it lies on", function()
+  it("stays between plates that it lies on without friction", function()
     for k = 4, 5 do
       check(exact[k], squeeze(64, exact[k][1], 0))
       check(exact[k], squeeze(64, exact[k][1], 0, true))
     end
   end)
 
-  it("comes to the same force from one equilibrium to the next", function()
+  it("has the same force in a series of equilibria", function()
     for k = 2, 5 do check(exact[k], squeeze(64, exact[k][1], 0.3, true)) end
   end)
 
-  -- The ends of the flat parts, which bear the force, are somewhere between two particles: the error
-  -- goes up and down as they pass them, and with the square of the spacing. A slice as long as several
-  -- spacings has soft hoops besides: 0.4 % of the force at 0.6 with 64 particles and a length of R/2.
+  -- The ends of the flat parts, which bear the force, lie between two particles. The error goes up and down
+  -- as they pass particles, and falls with the square of the spacing. A slice as long as several spacings
+  -- also has soft hoops: 0.4 % of the force at 0.6 with 64 particles and a length of R/2.
   it("is second order where it lies on the plates", function()
     local list = { 24, 32, 40, 48 }
     t.order_at_least(1.75, list, function(n)
@@ -114,12 +115,12 @@ describe("a thin ring between plates", function()
     end, "force")
   end)
 
-  it("comes within 1.1 % at 0.6 with 64 particles, with slices short enough", function()
+  it("is within 1.1 % at an approach of 0.6 with 64 particles and short slices", function()
     local force = squeeze(64, 0.6, 0, true, R / 4)
     t.share(flat_force(0.6), force, 0.011, "F R^2/EI")
   end)
 
-  it("needs a tube without core for its wall, and says so", function()
+  it("takes wall_bending for a tube without core only, and says so", function()
     local scene = sw.scene{}
     for _, case in ipairs{ { model = "tube" }, { model = "radial" }, { model = "tube", core = true } } do
       local ok, text = pcall(scene.wire, scene, { model = case.model, core = case.core, wall_bending = 1,

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Wires that roll. The figures are those of rigid cylinders, all closed forms; for friction that
--- twists see twist_friction_spec.lua.
+-- Wires that roll. The reference figures are closed forms of rigid cylinders. For friction that twists a
+-- wire see twist_friction_spec.lua.
 package.path = "./?.lua;" .. package.path
 local core = require "softworld.core"
 local cases = require "softworld.cases"
@@ -9,7 +9,7 @@ local tools = require "spec.physics.tools"
 local near, share, below, fine = tools.near, tools.share, tools.below, tools.fine
 local G = 9.81
 
--- A wire across a slope, downhill along x, everything turned by `turn`.
+-- A wire across a slope; downhill is along x. o.turn turns everything.
 local function across(o)
   local a, r, L = math.rad(o.angle), o.radius or 0.0025, 0.2
   local rotate = o.rotate or function(v) return v end
@@ -20,7 +20,7 @@ local function across(o)
   return s, w
 end
 
--- Acceleration of the axis from the way gone in half a second [m/s2].
+-- Returns the acceleration of the axis, from the distance covered in half a second [m/s2].
 local function acceleration(o)
   local s, w = across(o)
   local x0 = w:position(w.length / 2)
@@ -44,7 +44,7 @@ local function rotation(q)
 end
 
 describe("a wire across a slope", function()
-  it("rolls and slides as reference case 10a has it", function()
+  it("rolls and slides as reference case 10a says", function()
     for _, row in ipairs{ { 0.3, 20, 2.236811737 }, { 0.1, 30, 4.055429079 } } do
       share(row[3], (acceleration{ friction = row[1], angle = row[2] }), 1e-3, "acceleration")
       local c = cases.incline{ across = true, friction = row[1], angle = row[2] }
@@ -69,7 +69,7 @@ describe("a wire across a slope", function()
       end)
   end
 
-  it("does so at any radius, mesh and inertia", function()
+  it("rolls and slides the same at any radius, mesh and inertia", function()
     for _, radius in ipairs{ 0.0005, 0.01 } do
       share(expected(20, 0.3), (acceleration{ friction = 0.3, angle = 20, radius = radius }), 0.005,
         "radius " .. radius)
@@ -87,7 +87,7 @@ describe("a wire across a slope", function()
     end
   end)
 
-  it("does so with every implicit integrator", function()
+  it("rolls the same with every implicit integrator", function()
     for _, name in ipairs{ "tr-bdf2", "sdirk2", "implicit-euler", "bdf2" } do
       for _, dt in ipairs{ 0.01, 0.0025 } do
         local s, w = across{ friction = 0.3, angle = 20 }
@@ -97,7 +97,7 @@ describe("a wire across a slope", function()
     end
   end)
 
-  it("and on any slope in space", function()
+  it("rolls and slides the same on any slope in space", function()
     local random = tools.random(5)
     for _ = 1, 4 do
       local q = tools.turn(random)
@@ -108,9 +108,9 @@ describe("a wire across a slope", function()
     end
   end)
 
-  it("keeps its energy while it rolls, a third of its motion's as spin", function()
+  it("keeps its energy while it rolls; a third of its kinetic energy is spin", function()
     local s, w = across{ friction = 0.3, angle = 20 }
-    fine(s:advance({ dt = 0.005 }, 0.1)) -- sunk in
+    fine(s:advance({ dt = 0.005 }, 0.1)) -- the wire has sunk in
     local before = s:energy()
     fine(s:advance({ dt = 0.005 }, 0.6))
     local after, m = s:energy(), w.beam.mass_per_length * w.length
@@ -122,7 +122,7 @@ describe("a wire across a slope", function()
 end)
 
 describe("a wire thrown along a table", function()
-  -- about the line of contact angular momentum is kept, whatever the friction
+  -- angular momentum about the line of contact is kept, whatever the friction
   for _, case in ipairs{ { 1, 0, 0.3 }, { 1, 0, 0.8 }, { 1, -200, 0.3 }, { 0, 300, 0.3 },
     { 0.5, -800, 0.5 } } do
     it(("at %g m/s, spinning at %g rad/s, with friction %g"):format(case[1], case[2], case[3]),
@@ -143,7 +143,7 @@ describe("a wire thrown along a table", function()
       end)
   end
 
-  it("when it falls on it as well", function()
+  it("and falling on it gets speed and spin from the impulse of friction", function()
     for _, mu in ipairs{ 0.05, 0.5 } do
       local s = core.scene{}
       s:obstacle{ shape = "plane", friction = mu }
@@ -151,7 +151,7 @@ describe("a wire thrown along a table", function()
         from = { 0, 0, 0.0525 }, to = { 0, 0.2, 0.0525 } }
       w:set_velocity{ 0.5, 0, 0 }
       fine(s:advance({ dt = 0.002 }, 0.12))
-      -- the impulse of friction is mu times that of the fall, or what stops the sliding
+      -- the impulse of friction is mu times that of the fall, or less if less stops the sliding
       local fall, t = (2 * G * 0.05) ^ 0.5, 0.12 - (2 * 0.05 / G) ^ 0.5
       local v = math.max(0.5 / 1.5, 0.5 - mu * (fall + G * t))
       near(v, w:velocity(0.1)[1], 0.01 * 0.5, "speed")
@@ -161,7 +161,7 @@ describe("a wire thrown along a table", function()
 end)
 
 describe("a wire that rolls", function()
-  it("follows a table that speeds up by a third", function()
+  it("follows an accelerating table with a third of its speed", function()
     local s = core.scene{}
     local r = 0.0025
     local plate = s:obstacle{ shape = "box", size = { 8, 2, 0.1 }, at = { 0, 0, -0.05 }, friction = 0.3 }
@@ -174,7 +174,7 @@ describe("a wire that rolls", function()
     share(-2 / 3 / r, w:spin(0.1), 0.005, "spin")
   end)
 
-  it("is pushed up a slope with the force of a cylinder, with friction on what pushes too", function()
+  it("is pushed up a slope with the force of a cylinder, also with friction on the pusher", function()
     for _, mu in ipairs{ 0, 0.2, 0.5 } do
       local s, w = across{ angle = 20, friction = 0.8 }
       local r, speed = w.radius, 0.1
@@ -206,8 +206,8 @@ describe("a wire that rolls", function()
     near(0, tools.norm{ belt:force()[1], belt:force()[2], 0 }, 1e-4, "friction")
   end)
 
-  -- Pinned along a radius of a turntable it spins as fast as the table is under its middle, and
-  -- is wound up by both halves.
+  -- Pinned along a radius of a turntable, the wire spins as fast as the table moves under its middle, and
+  -- both halves wind it up.
   it("is spun and twisted by a turntable", function()
     local s, r, L, rate, mass, mu = core.scene{}, 0.0025, 0.5, 2, 0.03, 0.3
     local table_ = s:obstacle{ shape = "plane", friction = mu }
@@ -224,12 +224,12 @@ describe("a wire that rolls", function()
     local torque = mu * mass * G * r -- per length
     for at = 0.05, 0.45, 0.05 do
       local wanted = torque * math.min(at, L - at)
-      local share_of = math.abs(at - L / 2) < 0.01 and 0.06 or 0.03 -- it sticks in the middle
+      local share_of = math.abs(at - L / 2) < 0.01 and 0.06 or 0.03 -- it sticks at L/2
       near(wanted, math.abs(w:twist_moment(at)), share_of * torque * L / 2, "torque at " .. at)
     end
   end)
 
-  it("does so beside others, with steps that follow a tolerance", function()
+  it("rolls the same beside other wires, with steps chosen by a tolerance", function()
     local s = across{ friction = 0.3, angle = 20 }
     local wires = {}
     for k, rolls in ipairs{ false, true, false, true } do
@@ -278,7 +278,7 @@ describe("a rolling wire's scene", function()
     return s, w
   end
 
-  it("comes back bit by bit", function()
+  it("goes on to the same bits from a snapshot", function()
     for _, name in ipairs{ "tr-bdf2", "bdf2" } do
       local s, w = rolling()
       fine(s:advance({ dt = 0.01, integrator = name }, 0.3))
@@ -310,14 +310,14 @@ describe("a rolling wire's scene", function()
     tools.above(1e-7, math.abs(clamp:moment()[2]), "torque")
   end)
 
-  it("has no rest on a slope, and says so", function()
+  it("has no rest on a slope, and settle() reports it", function()
     local s = across{ friction = 0.3, angle = 20 }
     local r = s:settle()
     assert.is_false(r.ok)
     assert.truthy(r.reason:find("not at rest", 1, true), r.reason)
   end)
 
-  it("has one on a level table", function()
+  it("has a rest on a level table", function()
     local s = across{ friction = 0.3, angle = 0 }
     fine(s:settle())
   end)
@@ -338,7 +338,7 @@ describe("wrong use of spin", function()
     assert.truthy(message:find(text, 1, true), message)
   end
 
-  it("is told", function()
+  it("gives an error that names the mistake", function()
     refused("spin_inertia goes with rolls = true", wire, { spin_inertia = 1e-8 })
     refused("spin_inertia = 1e-06 kg m must be in (0, 1.875e-07] kg m", wire,
       { rolls = true, spin_inertia = 1e-6 })

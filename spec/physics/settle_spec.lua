@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Finding rest: from cold, with contact, through snaps and off ridges.
+-- Finding rest: from a straight start, with contact, through snaps and off ridges.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local cases = require "softworld.cases"
 local t = require "spec.physics.tools"
 
 describe("settling from straight", function()
-  it("takes about nine iterations whatever the mesh", function()
+  it("takes at most 16 iterations, whatever the mesh", function()
     for _, gamma in ipairs{ { 1, 6 }, { 10, 10 }, { 100, 14 } } do
       for _, n in ipairs{ 2, 3, 5, 10, 30, 100, 300, 1000 } do
         local c = cases.droop{ gamma = gamma[1], segments = n }
@@ -18,15 +18,15 @@ describe("settling from straight", function()
     end
   end)
 
-  it("takes the same in any direction and at any axial stiffness", function()
+  it("takes few in any direction and at any axial stiffness", function()
     local random = t.random(23)
     for _, axial in ipairs{ 1e4, 1e6, 1e8, 1e9 } do
       for _ = 1, 3 do
         local c = cases.droop{ axial = axial, rotation = t.turn(random), at = { 1, -2, 0.5 } }
-        -- at 1e9 the rounding of lengths is felt, and the other way is taken now and then
+        -- at 1e9 the rounding of lengths is felt, and now and then the slower way is taken
         t.below(axial < 1e9 and 14 or 150, t.fine(c.run()).iterations,
           ("iterations at EA = %g EI/L^2"):format(axial))
-        -- true stretch of the soft ones: w L/(2 EA) and less
+        -- true stretch of the soft ones: w L/(2 EA) or less
         t.below(1e-4 + 10 / axial, c.error(), "tip error")
       end
     end
@@ -46,7 +46,7 @@ describe("settling from straight", function()
       local rest = s:settle()
       t.fine(rest)
       assert.is_true(rest.iterations < 20, rest.iterations)
-      -- both hands together bear the weight
+      -- both pins together bear the weight
       t.share(0.02 * 9.81, hand:force()[3] + other:force()[3], 1e-6, "weight")
     end
   end)
@@ -75,7 +75,7 @@ describe("settling from straight", function()
     assert.matches("^not at rest after 1 iterations", tostring(c.scene:settle{ max_iterations = 1 }))
   end)
 
-  it("says so when it may not iterate enough", function()
+  it("fails with a reason when max_iterations is too small", function()
     local c = cases.catenary{}
     local r = c.scene:settle{ max_iterations = 1 }
     assert.is_false(r.ok)
@@ -95,7 +95,7 @@ describe("settling where Newton alone fails", function()
     t.near(-1, wire:position(1)[3], 1e-3, "tip z")
   end)
 
-  -- The bow may turn about the push without effort: that is no instability.
+  -- The bow may turn about the push without effort; that is no instability.
   it("bows a column that is pushed straight beyond its load, to a stable rest", function()
     for _, P in ipairs{ 3, 4, 5, 8 } do -- 2.47 N buckle it
       local scene = sw.scene{ gravity = { 0, 0, 0 } }

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Ties that snap taut are followed in parts of a step, as blows on obstacles are. Clamped cables fall
--- until a tie with slack stops them: the largest tension (mean over 10 ms) at coarse steps is that of
--- steps of 0.25 ms, from which those of 0.5 ms are up to 8 % off. Without parts they were off by up to 39 %
--- (GXL 0.5 at 20 ms), by 24 % at 10 ms, and by 43 % where the tie goes to another wire.
+-- Ties that snap taut are followed in parts of a step (substeps), like blows on obstacles. Clamped cables
+-- fall until a tie with slack stops them. The largest tension (mean over 10 ms) at coarse steps is that of
+-- steps of 0.25 ms; steps of 0.5 ms are up to 8 % off these. Without parts, tensions were up to 39 % off
+-- (GXL 0.5 at 20 ms), 24 % at 10 ms, and 43 % where the tie goes to another wire.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
--- Of the wire: cable, length [m], slope [rad], where the tie is; from there to the point; slack [m];
--- Rayleigh's damping [1/s], [s].
+-- Cable, length [m], segments, slope [rad], place of the tie [m], vector from there to the tie's point [m],
+-- slack [m], Rayleigh damping [1/s], [s].
 local falls = {
   { "FLRY-B 0.5", 0.54, 31, 0.223, at = 0.383, up = { 0.021, 0.01, 0.098 }, slack = 0.016,
     damping = { 2.76, 0.0039 } },
@@ -66,8 +66,8 @@ describe("a tie that snaps taut", function()
     end)
   end
 
-  -- The pull of one step is that of a place on a stiff spring: up to 40 % with the step. Means agree.
-  it("pulls as hard as in fine steps, and as much in all", function()
+  -- The pull in a single step depends on the step by up to 40 %: a place on a stiff spring. Means agree.
+  it("has the peak pull and the impulse of fine steps", function()
     for _, case in ipairs(falls) do
       for _, beam in ipairs{ false, true } do
         local _, _, tie = fall(case, 2.5e-4, { beam = beam })
@@ -85,8 +85,8 @@ describe("a tie that snaps taut", function()
     end
   end)
 
-  -- Its whole steps were up to 45 % off at 20 ms, and 25 % at 10 ms.
-  it("does so by sdirk2, whose error is estimated too", function()
+  -- Whole steps of sdirk2 were up to 45 % off at 20 ms, and 25 % at 10 ms.
+  it("gives the tension and pull of fine steps with sdirk2, too", function()
     for i, case in ipairs(falls) do
       local options = { beam = i % 2 == 0, integrator = "sdirk2" }
       local fine, _, pull = fall(case, 2.5e-4, { beam = options.beam })
@@ -98,7 +98,7 @@ describe("a tie that snaps taut", function()
     end
   end)
 
-  it("does so where it goes to another wire", function()
+  it("gives the tension of fine steps where it goes to another wire", function()
     for i = 1, 4 do
       local fine = fall(falls[i], 2.5e-4, { beam = true })
       for _, dt in ipairs{ 0.01, 0.002 } do
@@ -107,8 +107,8 @@ describe("a tie that snaps taut", function()
     end
   end)
 
-  -- 80 whole steps; each that is followed in 64 parts or more has to be harder than those before.
-  it("is followed a few times of a wire that dances in its tie", function()
+  -- 80 whole steps; a step is followed in 64 parts or more only if it is harder than those before.
+  it("is followed in parts only a few times while a wire dances in it", function()
     local _, steps = fall(falls[4], 0.01)
     assert.is_true(steps < 80 + 2 * 64)
   end)

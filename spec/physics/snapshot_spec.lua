@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Snapshots: going on from one is going on, to the last bit.
+-- Snapshots: a run that goes on from one is the same, to the last bit.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local cases = require "softworld.cases"
@@ -30,7 +30,7 @@ for _, method in ipairs{ { "tr-bdf2", 0.01 }, { "bdf2", 0.01 }, { "sdirk2", 0.01
       t.fine(c.scene:run{ duration = duration, dt = method[2], integrator = method[1] })
     end
 
-    it("is come back to exactly, again and again", function()
+    it("is restored exactly, again and again", function()
       local c = cases.release{ segments = 15 }
       go(c, 0.2)
       local snapshot = c.scene:snapshot()
@@ -136,7 +136,7 @@ describe("a snapshot", function()
     t.fine(c.run{ duration = 0.1, dt = 0.9 * c.exact.leapfrog, integrator = "velocity-verlet" })
   end)
 
-  it("of a settled scene makes tuning loops cheap and exact", function()
+  it("of a settled scene makes tuning loops exact", function()
     local c = cases.droop{}
     t.fine(c.run())
     local snapshot, tips = c.scene:snapshot(), {}

@@ -26,7 +26,7 @@ describe("a string between two pins", function()
     end)
   end
 
-  it("is what a rod tends to as its stiffness goes", function()
+  it("is the limit of a rod whose bending stiffness goes to zero", function()
     local before = math.huge
     for _, EI in ipairs{ 1e-3, 1e-4, 1e-5, 1e-6 } do
       local scene = sw.scene{}
@@ -43,7 +43,7 @@ describe("a string between two pins", function()
       t.below(before, off, ("difference of the force along at EI = %g"):format(EI))
       before = off
     end
-    -- what is left is the string's own mesh error
+    -- the rest is the string's mesh error
     t.below(0.002, before, "difference at EI = 1e-6")
   end)
 

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Steps in which something strikes a wire are taken dully, by implicit Euler, and are judged too: cables that
--- are swept, whipped, lifted and swung against things, or begin taut, have the same results at all steps.
--- Taken whole, steps of 10 and 20 ms were off by up to 39 % in tension, 31 % in radius, 24 % in force; by
--- tolerance up to 33 % in tension, 52 % in radius, 44 % in force, at 1e-6 too.
+-- Steps in which something strikes a wire are taken with implicit Euler and are judged too. Cables that are
+-- swept, whipped, lifted and swung against things, or begin taut, have the same results at all steps. Whole
+-- steps of 10 and 20 ms were up to 39 % off in tension, 31 % in radius, 24 % in force; steps by tolerance
+-- up to 33 % in tension, 52 % in radius, 44 % in force, at 1e-6 too.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -23,7 +23,7 @@ local function peg(scene, at, by, duration)
     friction = 0.3 }:follow{ points = { { 0, 0, 0 }, by }, duration = duration, relative = true }
 end
 
--- Of a hanging cable.
+-- A peg strikes a hanging cable.
 local function hit(at, by, duration)
   return function(s, name)
     local w = damped(s, name, { 0, 0, 0.5 }, { 0, 0, 0.1 })
@@ -33,7 +33,7 @@ local function hit(at, by, duration)
   end
 end
 
--- Each gives the wire, and how long to run [s] where no process tells.
+-- Each returns the wire, and the duration [s] if no process sets it.
 local scenes = {
   ["is swept by a peg"] = hit({ -0.1, 0, 0.25 }, { 0.25, 0, 0 }, 0.5),
   ["is whipped by a fast peg"] = hit({ -0.1, 0, 0.2 }, { 0.3, 0, 0.05 }, 0.25),
@@ -71,8 +71,9 @@ describe("a cable that", function()
     end
   end
 
-  -- Shortly after a blow steps are short beside dt for long. Taken for short ones by touches, the peg sank
-  -- into a cable drawn over it, the more the closer the tolerance: 8 % off at 1e-6, 16 with strikes judged.
+  -- For long after a blow, steps are short compared with dt. When touches took them for short steps, the
+  -- peg sank into a cable drawn over it, the more the closer the tolerance: 8 % off at 1e-6, 16 % with
+  -- strikes judged.
   for what, build in pairs(scenes) do
     for _, name in ipairs{ "GXL 1.5", "H07V-K 10", "soft" } do
       it(("%s is the same by tolerance: %s"):format(what, name), function()
@@ -89,7 +90,7 @@ describe("a cable that", function()
     end
   end
 
-  -- The strike was late in a step, so that a shorter part with it in was as coarse.
+  -- The strike was late in a step, so a shorter part that contained it was just as coarse.
   for _, name in ipairs{ "GXL 1.5", "GXL 0.5" } do
     it("is swung slowly against a wall is the same at all steps: " .. name, function()
       same_at_all_steps(function(s)
@@ -107,7 +108,8 @@ describe("a cable that", function()
     end)
   end
 
-  -- What sags between two holds is drawn taut, and is pulled at once the more the less it can give.
+  -- A cable that sags between two holds is drawn taut; the less it can give, the more suddenly it is
+  -- pulled.
   it("begins taut between a clamp and a gripper has the same tension at all steps", function()
     same_at_all_steps(function(s)
       s:obstacle{ name = "o", shape = "plane", friction = 0.3 }
@@ -124,8 +126,8 @@ describe("a cable that", function()
   end)
 end)
 
--- Parts of a step that were taken for accuracy counted as short ones, in which what strikes may get deep: the
--- loop sank by 0.25 mm, the more the shorter its parts, until it sprang off.
+-- When parts of a step that were taken for accuracy counted as short steps, in which a striking wire may
+-- get deep, the loop sank in by 0.25 mm, the more the shorter its parts, until it sprang off.
 describe("a loop that is pressed on a table", function()
   for _, c in ipairs{
     { z = 0.00725, to = { 0.3355, 0.22581 }, by = { 0.0216, -0.1686 }, speed = 0.3044, segments = 40,

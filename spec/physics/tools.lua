@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the physics specs share: comparisons that tell their figures, orders, momentum.
+-- Shared by the physics specs: comparisons that print their figures, orders, momentum.
 local tools = {}
 
--- scripts/spec.lua --measured: figures are told, not only compared.
+-- With scripts/spec.lua --measured, figures are printed, not only compared.
 local told = os.getenv "SOFTWORLD_MEASURED"
 local function measured(format, ...)
   if told then print("measured: " .. format:format(...)) end
 end
 
--- At level 3: the line of the spec that asked.
+-- Raises the error at level 3: at the line of the spec that asked.
 local function check(good, format, ...)
   if not good then error(format:format(...), 3) end
 end
 
---- |actual - expected| <= tolerance, told with numbers.
+--- Checks |actual - expected| <= tolerance; an error states the numbers.
 function tools.near(expected, actual, tolerance, what)
   local off = math.abs(actual - expected)
   measured("%s: %.6g, %.2g off, allowed %.2g", what or "value", actual, off, tolerance)
@@ -21,7 +21,7 @@ function tools.near(expected, actual, tolerance, what)
     what or "value", expected, actual, off, tolerance)
 end
 
---- Relative to the expected value.
+--- The same, relative to the expected value.
 function tools.share(expected, actual, tolerance, what)
   local off = math.abs(actual / expected - 1)
   measured("%s: %.6g, %.2g of it off, allowed %.2g", what or "value", actual, off, tolerance)
@@ -39,13 +39,13 @@ function tools.above(limit, value, what)
   check(value >= limit, "%s is %.4g, wanted %.4g", what or "value", value, limit)
 end
 
---- A settle or run went well.
+--- Checks that a settle or run went well, and returns it.
 function tools.fine(result)
   check(result.ok, "%s", result.reason)
   return result
 end
 
---- What make(dt) gives, by names, is at these steps within limits of what it is at the fine one.
+--- Checks that the values of make(dt), by name, are at these steps within limits of those at the fine one.
 function tools.same_at(dts, make, fine, limits)
   local exact = make(fine)
   for _, dt in ipairs(dts) do
@@ -56,7 +56,7 @@ function tools.same_at(dts, make, fine, limits)
   end
 end
 
---- Slope of -log(error(n)) over log(n), least squares; and the errors as text.
+--- Returns the slope of -log(error(n)) over log(n) by least squares, and the errors as text.
 function tools.order(numbers, error_of)
   local sx, sy, sxx, sxy, k, list = 0, 0, 0, 0, #numbers, {}
   for i, n in ipairs(numbers) do
@@ -68,7 +68,7 @@ function tools.order(numbers, error_of)
   return -(k * sxy - sx * sy) / (k * sxx - sx * sx), table.concat(list, ", ")
 end
 
---- The order is at least this.
+--- Checks that the order is at least this.
 function tools.order_at_least(least, numbers, error_of, what)
   local slope, list = tools.order(numbers, error_of)
   check(slope >= least, "%s: order %.2f, wanted %.2f (%s)", what or "error", slope, least, list)
@@ -102,7 +102,7 @@ local function material(wire, visit)
   end
 end
 
---- Momentum [N s] and angular momentum about the origin [N m s] of a wire.
+--- Returns momentum [N s] and angular momentum about the origin [N m s] of a wire.
 function tools.momentum(wire)
   local p, l = { 0, 0, 0 }, { 0, 0, 0 }
   material(wire, function(m, x, v)
@@ -112,7 +112,7 @@ function tools.momentum(wire)
   return p, l
 end
 
---- A source of numbers in [-1, 1], the same on every machine.
+--- Returns a source of numbers in [-1, 1], the same on every machine.
 function tools.random(seed)
   local state = seed
   return function()
@@ -121,7 +121,7 @@ function tools.random(seed)
   end
 end
 
---- A random unit quaternion.
+--- Returns a random unit quaternion.
 function tools.turn(random)
   local q, n
   repeat
@@ -131,15 +131,15 @@ function tools.turn(random)
   return { q[1] / n, q[2] / n, q[3] / n, q[4] / n }
 end
 
---- Largest difference of two flat lists.
+--- Returns the largest difference of two flat lists.
 function tools.largest_difference(a, b)
   local most = 0
   for i = 1, math.max(#a, #b) do most = math.max(most, math.abs(a[i] - b[i])) end
   return most
 end
 
---- Of a wire lifted by a gripper near its end, outside of the pads at s: moment there with what hangs
--- beyond, and what it must be by M^2 / (2 EI) = w y - V sin theta, y above where it lies.
+--- For a wire lifted by a gripper near its end, at a place s outside the pads: returns the moment there with
+-- what hangs beyond, and the moment due by M^2 / (2 EI) = w y - V sin theta, y above the lying wire.
 function tools.lifted(g, wire, s, w, EI)
   local L, x, slope = wire.length, wire:position(s), wire:tangent(s)[3]
   local y = x[3] - wire:position(L / 5)[3]
@@ -150,7 +150,7 @@ function tools.lifted(g, wire, s, w, EI)
   return M, (2 * EI * (w * y - V * slope)) ^ 0.5
 end
 
---- Largest size of numbers in a list.
+--- Returns the largest size of the numbers in a list.
 function tools.largest(list)
   local most = 0
   for _, value in ipairs(list) do most = math.max(most, math.abs(value)) end

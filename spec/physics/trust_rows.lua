@@ -111,8 +111,8 @@ for _, ends in ipairs{ "pinned", "clamped" } do
   end
 end
 
--- Clamped ends brought together by d, then turned by R degrees: axial force and torque, EI = 1;
--- shooting, error 1e-7. They are in their place, on the first mesh, before error bars are asked for.
+-- Clamped ends brought together by d, then turned by R degrees: axial force and torque, EI = 1; shooting,
+-- error 1e-7. They are brought into place on the first mesh, before error bars are asked for.
 local turned = { { 2 / 3, 0.1, 90, -40.44877829, 0.9282219291 },
   { 2 / 3, 0.1, 180, -37.39582745, 1.87872062 },
   { 2 / 3, 0.1, 360, -27.67369354, 3.851265222 }, { 2 / 3, 0.1, 540, -15.27872242, 5.877583277 },

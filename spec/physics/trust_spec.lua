@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Error bars against independent solutions: the true error is within the bar on at least
--- 95 % of the rows, and the bar is no more than ten times it on at least half.
+-- Error bars against independent solutions: the true error is within the bar on at least 95 % of the rows,
+-- and the bar is at most ten times the error on at least half of them.
 package.path = "./?.lua;" .. package.path
 local quantity = require "softworld.quantity"
 local sets = require "spec.physics.trust_rows"
 
-local reference = 1e-7 -- error of the reference values, EA included, of a row's scale [-]
+local reference = 1e-7 -- error of the reference values (EA included) over a row's scale [-]
 
--- Ask for all rows of a set at this share of their scales, from so many segments on.
+-- Asks for all rows of a set at this share of their scales, starting with so many segments.
 local function ask(set, share, segments)
   local c, rows = set.make(segments)
   local list = {}
@@ -22,7 +22,8 @@ local function ask(set, share, segments)
   return c.scene:settle{ tolerance = list }, rows, c
 end
 
--- Rows, rows whose bar holds, rows whose bar is not idle, rows whose bar is as asked.
+-- Counts rows, rows whose bar holds, rows whose bar is at most ten times the error, rows whose bar is as
+-- asked.
 local function count(chosen, share, segments)
   local n, held, busy, met, misses = 0, 0, 0, 0, {}
   for _, set in ipairs(sets) do
@@ -44,7 +45,7 @@ local function count(chosen, share, segments)
   return { n = n, held = held, busy = busy, met = met, misses = table.concat(misses, "\n") }
 end
 
--- Name, least rows of one pass, segments to start from, which sets.
+-- Name, least number of rows in one pass, segments to start with, choice of sets.
 local kinds = {
   { "equilibria", 90, { 24, 50 }, function(set) return not set.duration and not set.name:find "lift" end },
   { "wires lifted from a table", 12, { 20, 24, 33, 50, 70 }, function(set)
@@ -64,7 +65,7 @@ describe("error bars of", function()
         for _, segments in ipairs(kind[3]) do
           local c = count(kind[4], share, segments)
           assert.is_true(c.n >= kind[2], ("only %d rows"):format(c.n))
-          -- six levels are too few for some of the finer ones, which must say so
+          -- six levels are too few for some of the finer ones, which must report it
           local least = share > 1e-3 and 0.9 or 0.6
           assert.is_true(c.met >= least * c.n, ("%d of %d are met"):format(c.met, c.n))
           for key, value in pairs(sum) do sum[key] = value + c[key] end
@@ -80,5 +81,5 @@ describe("error bars of", function()
     end)
   end
 
-  it("all of these are many", function() assert.is_true(all >= 500, ("only %d rows"):format(all)) end)
+  it("all kinds are 500 or more", function() assert.is_true(all >= 500, ("only %d rows"):format(all)) end)
 end)

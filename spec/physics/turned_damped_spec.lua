@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The moment at holds that turn, at coarse steps: of damped cables, and of methods whose only stage
--- lies within the step. A stiff cable's is I times the angular acceleration; a soft one's is that of
--- fine steps.
+-- The moment at holds that turn, at coarse steps: with damped cables, and by methods whose only stage lies
+-- within the step. The moment of a stiff cable is I times the angular acceleration; that of a soft one is
+-- that of fine steps.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -9,7 +9,8 @@ local t = require "spec.physics.tools"
 local ANGLE, DURATION = math.pi, 0.5
 local TIMES = { 0.1, 0.2, 0.3, 0.4 }
 
--- Of minimum jerk, angle(t) = ANGLE (10 x^3 - 15 x^4 + 6 x^5), x = t / DURATION [rad/s2].
+-- Returns the angular acceleration of a minimum-jerk turn, angle(t) = ANGLE (10 x^3 - 15 x^4 + 6 x^5), x =
+-- t / DURATION [rad/s2].
 local function acceleration(time)
   local x = time / DURATION
   return ANGLE / DURATION ^ 2 * (60 * x - 180 * x ^ 2 + 120 * x ^ 3)
@@ -25,8 +26,8 @@ local WAYS = {
   askew = { { 1 / 3, 2 / 3, -2 / 3 }, { 2 / 3, 1 / 3, 2 / 3 } },
 }
 
--- Moments about the axis at TIMES [N m]. case: cable, length [m], at (share of it that is held), beta [s],
--- eta [N m2 s], way, back: the wire is laid from its other end.
+-- Returns the moments about the axis at TIMES [N m]. case: cable, length [m], at (held place over the
+-- length), beta [s], eta [N m2 s], way, back: the wire is laid from its other end.
 local function turned(case, dt, method)
   local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local axis, along, L = WAYS[case.way or "level"][1], WAYS[case.way or "level"][2], case.length or 0.2
@@ -46,7 +47,7 @@ local function turned(case, dt, method)
   for i, time in ipairs(TIMES) do
     local run = scene:run{ duration = time - scene.time, dt = dt, integrator = method }
     t.fine(run)
-    local events = 0 -- but that steps of another method, which takes no parts, are long
+    local events = 0 -- other methods take no parts (substeps) and report long steps
     for _, e in ipairs(run.events) do events = events + (method and e.kind == "coarse" and 0 or 1) end
     if not case.tells then assert.are.equal(0, events) end
     local moment, ledger = hand:moment(), run:ledger()
@@ -56,8 +57,9 @@ local function turned(case, dt, method)
   return list
 end
 
--- A moment that changes from nothing to its peak within 0.1 s is told up to a step too late, and half a
--- step more by methods whose only stage lies within it. late: of the peak, for each second of the step [1/s].
+-- A moment that grows from zero to its peak within 0.1 s is reported up to a step late, and half a step
+-- more by methods whose only stage lies within the step. late: allowed error over the peak, for each second
+-- of the step [1/s].
 local function compare(exact, case, dt, method, late)
   local list = turned(case, dt, method)
   local most = (late or 10) * dt * t.largest(exact)
@@ -69,8 +71,8 @@ end
 local STEPS = { 2e-2, 1e-2, 5e-3, 2e-3, 1e-3 }
 
 describe("the moment at a hold that turns a damped cable", function()
-  -- The clamp's director turned exactly, the edge beside it as the step had it: beta EI over the hinge
-  -- times the difference, 20 times the moment at 10 ms, with the wrong sign.
+  -- When the clamp's director turned exactly and the edge beside it as the step had it, the moment was beta
+  -- EI over the hinge times the difference: 20 times the true one at 10 ms, with the wrong sign.
   for _, cable in ipairs{ "FLRY-B 0.5", "FLRY-B 2.5", "FLRY-B 10", "GXL 1.5", "steel", "soft" } do
     it("is that of fine steps: " .. cable, function()
       for _, held in ipairs{ { 0.5, "level" }, { 0, "askew" }, { 0.3, "askew", true } } do
@@ -83,7 +85,7 @@ describe("the moment at a hold that turns a damped cable", function()
     end)
   end
 
-  it("is the inertia's of a stiff one, I times the angular acceleration", function()
+  it("is I times the angular acceleration for a stiff one", function()
     local exact = {}
     for i, time in ipairs(TIMES) do exact[i] = 0.22 * 0.2 ^ 3 / 12 * acceleration(time) end
     for _, beta in ipairs{ 1e-3, 1e-2, 1e-1 } do
@@ -108,9 +110,9 @@ describe("the moment at a hold that turns a damped cable", function()
     end
   end)
 
-  -- Held nodes had their holds' velocities, those beside them what the step had of them: a moment at
-  -- the first hinge that bent the wire beside the grip, by half too little at 10 ms.
-  it("leaves the bend beside a grip that moves as it is", function()
+  -- When held nodes had their holds' velocities and the nodes beside them those of the step, a false moment
+  -- at the first hinge bent the wire beside the grip: by half too little at 10 ms.
+  it("does not change the bend beside a grip that moves", function()
     local function bend(dt)
       local scene = sw.scene{}
       local wire = scene:wire{ cable = "FLRY-B 10", from = { 0, 0, 0 }, to = { 0.3, 0, 0 } }
@@ -126,8 +128,8 @@ describe("the moment at a hold that turns a damped cable", function()
   end)
 end)
 
-describe("the moment at a hold that turns, by methods that look on from within the step", function()
-  -- Where the step ends, nodes and holds are not in balance: the moment was the false bend's there.
+describe("the moment at a turning hold, by methods with a stage within the step", function()
+  -- Where such a step ends, nodes and holds are not in balance: the moment there was that of a false bend.
   for _, method in ipairs{ "implicit-midpoint", "generalized-alpha" } do
     it("is that of fine steps with " .. method, function()
       for _, cable in ipairs{ "FLRY-B 0.5", "FLRY-B 10", "soft" } do
@@ -137,7 +139,7 @@ describe("the moment at a hold that turns, by methods that look on from within t
       end
     end)
 
-    it("is the inertia's of a stiff one with " .. method, function()
+    it("is I times the angular acceleration for a stiff cable with " .. method, function()
       local exact = {}
       for i, time in ipairs(TIMES) do exact[i] = 0.22 * 0.2 ^ 3 / 12 * acceleration(time) end
       for _, dt in ipairs{ 1e-2, 5e-3, 2e-3, 1e-3 } do
@@ -147,10 +149,10 @@ describe("the moment at a hold that turns, by methods that look on from within t
   end
 end)
 
--- What a step with a jerk bears is added up of its stages, whose moments were those before the last
--- update of each: 35 N m in a step of 0.5 ms here.
-describe("the moment of a hold that turns at once", function()
-  it("is the momentum over the window", function()
+-- The load of a step with a jerk is added up from its stages. With each stage's moment from before its last
+-- update, it was 35 N m in a step of 0.5 ms here.
+describe("the moment of a hold that starts to turn at once", function()
+  it("is at most 1.7 times the momentum over the window", function()
     for _, dt in ipairs{ 1e-2, 5e-3, 2e-3, 5e-4 } do
       local scene = sw.scene{ gravity = { 0, 0, 0 } }
       local args = { from = { 0, 0, 0 }, to = { 0.2, 0, 0 }, segments = 20 }

@@ -1,13 +1,14 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Stiff rods that a gripper turns fast: its moment is the inertia's, I times the angular acceleration,
--- however stiff the rod and fine its mesh are.
+-- A gripper turns stiff rods fast. Its moment is I times the angular acceleration, however stiff the rod
+-- and however fine its mesh.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
 
 local L, MASS, ANGLE, DURATION = 0.2, 0.05, math.pi, 0.5
 
--- Of minimum jerk, angle(t) = ANGLE (10 x^3 - 15 x^4 + 6 x^5), x = t / DURATION [rad/s2].
+-- Returns the angular acceleration of a minimum-jerk turn, angle(t) = ANGLE (10 x^3 - 15 x^4 + 6 x^5), x =
+-- t / DURATION [rad/s2].
 local function acceleration(time)
   local x = time / DURATION
   return ANGLE / DURATION ^ 2 * (60 * x - 180 * x ^ 2 + 120 * x ^ 3)
@@ -29,8 +30,8 @@ describe("a stiff rod that is turned fast", function()
   local inertia, peak = MASS * L ^ 3 / 12, 0
   for i = 0, 50 do peak = math.max(peak, inertia * acceleration(0.01 * i)) end
 
-  -- A step was taken for solved when no edge turned by more than 0.02 rad in the last update. The moment
-  -- of a stiff hinge was then wrong by EI / l times the square of an update: by 21 times its peak here.
+  -- If a step counts as solved when no edge turns by more than 0.02 rad in the last update, the moment of a
+  -- stiff hinge is wrong by EI / l times the square of an update: by 21 times its peak here.
   for _, case in ipairs{ { 1, 20 }, { 40, 4 }, { 40, 20 }, { 40, 80 } } do
     local EI, segments = case[1], case[2]
     for name, way in pairs{ level = { { 0, 0, 1 }, { 1, 0, 0 } },

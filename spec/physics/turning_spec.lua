@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The axial force of a wire that spins free, which methods of implicit stages find as a multiple of it.
--- What a method does in steps of one size: they are taken whole.
+-- The axial force of a wire that spins freely. Methods with implicit stages find a multiple of it in a
+-- stage; the force that is read must be the true one. All steps have one size and are taken whole.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local t = require "spec.physics.tools"
@@ -15,8 +15,8 @@ local function spinning(damping)
   return scene, wire
 end
 
--- rho A w^2 (L^2/4 - s^2)/2, s from the middle, at the speed that the wire still has. Between the
--- middles of edges the force is read on a chord, and an edge's own is the mean over it.
+-- rho A w^2 (L^2/4 - s^2)/2, s from the middle, at the wire's present speed. Between the middles of edges
+-- the force is read on a chord, and an edge's own force is the mean over it.
 local function exact(wire, s)
   local v = t.norm(wire:velocity(0))
   local r = s - L / 2
@@ -49,18 +49,19 @@ describe("the axial force of a wire that spins free", function()
     end
   end
 
-  -- Methods that keep the wave of the wire's sudden stretching, of 0.4 ms: the mean is that of turning.
+  -- These methods keep the wave of the wire's sudden stretching, of 0.4 ms: only the mean is that of
+  -- turning.
   for _, method in ipairs{ "implicit-midpoint", "symplectic-euler", "velocity-verlet", "rk4", "gsl-rkf45" } do
-    it("is that of turning in the mean with " .. method, function()
+    it("is that of turning on average with " .. method, function()
       local scene, wire = spinning()
       t.fine(scene:run{ duration = 0.012, dt = 0.4 * scene:stable_dt(), integrator = method, window = 0.01 })
       t.share(exact(wire, 0.25), (wire:max_tension()), 0.02, "largest")
     end)
   end
 
-  -- A wire that hangs still has the force of its weight from the first step on.
+  -- A wire that hangs still has the tension of its weight from the first step on.
   for _, method in ipairs{ "tr-bdf2", "sdirk2", "bdf2", "implicit-euler" } do
-    it("is that of the weight where nothing turns with " .. method, function()
+    it("is that of the weight where nothing turns, with " .. method, function()
       local scene = sw.scene{}
       local wire = scene:wire{ cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0, 0, -L }, segments = N }
       scene:clamp(wire, { s = 0 })

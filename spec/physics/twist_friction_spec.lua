@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Friction that twists a wire, against torque balance along it, and spin without friction: waves,
--- and agreement with wires that do not roll.
+-- Friction that twists a wire, against the torque balance along it. Spin without friction: waves, and
+-- agreement with wires that do not roll.
 local core = require "softworld.core"
 local tools = require "spec.physics.tools"
 
@@ -32,7 +32,7 @@ describe("friction that twists", function()
     end
   end)
 
-  -- In a groove of 90 degrees both sides rub; their friction shifts load from one to the other.
+  -- In a groove of 90 degrees both sides rub; friction shifts load from one side to the other.
   local function groove(n, angle, options)
     local s, L, GJ = core.scene{}, 1, 2e-4
     for _, sign in ipairs{ 1, -1 } do
@@ -63,8 +63,8 @@ describe("friction that twists", function()
     end)
   end
 
-  -- On a flat table the wire would roll away; this one is too stiff against bending for that.
-  it("does so on a table too", function()
+  -- On a flat table the wire would roll away; this one is too stiff in bending for that.
+  it("lets the turn go in as far on a table", function()
     for _, n in ipairs{ 50, 100 } do
       local s, L, GJ, angle = core.scene{}, 1, 2e-4, 0.2
       s:obstacle{ shape = "plane", friction = mu }
@@ -83,7 +83,7 @@ describe("friction that twists", function()
     end
   end)
 
-  it("the finer the mesh the better", function()
+  it("converges with the mesh at first order", function()
     tools.order_at_least(0.9, { 25, 50, 100 }, function(n)
       local _, clamp, _, first = groove(n, 0.2, { dt = 0.02 })
       return math.abs(clamp:moment()[1] / first - 1)
@@ -100,15 +100,15 @@ describe("spin without friction", function()
     return s, w
   end
 
-  -- What bends out of its plane is twisted too, and that takes a little of its energy. What falls lands
-  -- at 0.1 s with 1 m/s, which is followed in parts of 0.1 ms: 4e-9 m of difference decide in which of
-  -- them a node is stopped, up to 0.1 mm apart, and without friction nothing takes that back. What lies
-  -- from the start on strikes nothing.
+  -- A wire that bends out of its plane is twisted too, and that takes a little of its energy. A falling
+  -- wire lands at 0.1 s with 1 m/s, which is followed in parts (substeps) of 0.1 ms. A difference of 4e-9 m
+  -- decides in which part a node is stopped, up to 0.1 mm apart, and without friction nothing takes that
+  -- back. A wire that lies there from the start strikes nothing.
   for _, case in ipairs{ { "in a plane", 0, 0.05, 1e-11, 1e-11 },
     { "in space without its inertia", 0.3, 0.05, 1e-8, 1e-4, 1e-11 },
     { "sliding on the floor without its inertia", 0.3, 0.0025, 1e-8, 1e-6, 1e-11 },
     { "in space with it, nearly", 0.3, 0.05, 5e-4, 5e-4 } } do
-    it("is none of a wire's business " .. case[1], function()
+    it("does not change a wire's motion " .. case[1], function()
       local early, late = {}, {}
       for k, rolls in ipairs{ false, true } do
         local s, w = wire(rolls, { floor = true, height = case[3], inertia = case[6] })
@@ -124,7 +124,7 @@ describe("spin without friction", function()
     end)
   end
 
-  it("stays as it is", function()
+  it("stays constant", function()
     local s, w = wire(true, { floor = true, height = 0.0025 })
     w:set_velocity({ 0, 0, 0 }, { 50, 0, 0 }, { 0, 0, 0.0025 })
     fine(s:advance({ dt = 0.01 }, 1))
@@ -168,7 +168,7 @@ describe("spin without friction", function()
     end, "spin")
   end)
 
-  it("leaves the twist between two clamps to both variants alike", function()
+  it("does not change the poses of a wire between two clamps", function()
     local found = {}
     for k, rolls in ipairs{ false, true } do
       local s, w = wire(rolls, { height = 0.5 })
@@ -186,8 +186,8 @@ describe("spin without friction", function()
   end)
 end)
 
--- Without inertia against spin, a wire that is led through space between two clamps is one whose
--- twist is taken as a whole.
+-- Without spin inertia, a wire that is led through space between two clamps moves like one whose twist is
+-- taken as a whole.
 describe("a wire led between two clamps", function()
   it("moves like one that does not roll", function()
     local found = {}

@@ -35,7 +35,7 @@ describe("a straight wire turned at one end", function()
     end
   end)
 
-  it("feels nothing with one end free", function()
+  it("has no torque with one end free", function()
     local s = core.scene{ gravity = { 0, 0, 0 } }
     local w = s:wire{ EA = 1e6, EI = 1, GJ = 0.7, mass_per_length = 1, radius = 0.001,
       from = { 0, 0, 0 }, to = { 1, 0, 0 }, segments = 20 }
@@ -45,13 +45,13 @@ describe("a straight wire turned at one end", function()
     assert.are.equal(0, w:twist_moment(0.5))
   end)
 
-  it("adds up fifty turns without a branch error when it is stretched", function()
+  it("counts fifty turns without a branch error when it is stretched", function()
     local s, w, _, b = twisted{ EI = 1e-3, GJ = 1e-3 }
     turn(b, 1.001, 0)
     s:settle()
     for i = 1, 50 do
       turn(b, 1.001, 2 * PI * i)
-      -- a pose knows no turns: go round in four parts
+      -- a pose does not count turns: go round in four parts
       for k = 1, 4 do
         turn(b, 1.001, 2 * PI * (i - 1) + k * PI / 2)
         assert.is_true(s:settle().ok)
@@ -60,7 +60,7 @@ describe("a straight wire turned at one end", function()
     assert.is_true(math.abs(w:twist_moment(0.5) - 1e-3 * 100 * PI) < 1e-8)
   end)
 
-  it("turns dynamically to the same torque, and a trajectory counts turns", function()
+  it("gets the same torque in motion, where a trajectory counts turns", function()
     local s, w, _, b = twisted{ EI = 1e-3, GJ = 1e-3 }
     s:force{ kind = "damping", mass = 5 }
     b:follow{ points = { { 0, 0, 0 }, { 0.001, 0, 0 } }, relative = true, duration = 1 }
@@ -71,7 +71,7 @@ describe("a straight wire turned at one end", function()
     assert.is_true(math.abs(w:twist_moment(0.5) - 1e-3 * 6 * PI) < 1e-6)
   end)
 
-  it("counts turns of more than half a one a step, moving and from pose to pose", function()
+  it("counts more than half a turn per step, in motion and from pose to pose", function()
     for _, quasistatic in ipairs{ false, true } do
       for _, rest in ipairs{ "straight", "path" } do
         local s = core.scene{ gravity = { 0, 0, 0 } }
@@ -88,7 +88,7 @@ describe("a straight wire turned at one end", function()
     end
   end)
 
-  it("shares its twist when it is grasped in the middle, and again when let go", function()
+  it("splits its twist when it is grasped in the middle, and evens it out when let go", function()
     local s, w, _, b = twisted()
     for _, angle in ipairs{ 2, 4 } do
       turn(b, 1, angle)
@@ -139,7 +139,7 @@ describe("a straight wire under torque", function()
   end
 end)
 
--- Clamped ends brought together by d, then turned by R: axial force and torque.
+-- Clamped ends are brought together by d, then turned by R [degrees]: axial force and torque.
 -- Independent shooting solution, error 1e-7; units EI/L^2 and EI/L.
 local post = {
   { GJ = 2 / 3, d = 0.1, R = 90, T = -40.44877829, M = 0.9282219291 },

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Peaks as means over a window of time: what they are of given forces, that they do not grow as steps
--- and edges get shorter, and that the raw ones are told beside them.
+-- Peaks as means over a window of time: their values for given forces, that they do not grow with shorter
+-- steps and edges, and that raw peaks are reported beside them.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local window = require "softworld.run.window"
@@ -17,7 +17,7 @@ local function uneven(seed, count, least, most)
 end
 
 describe("the largest mean over a window", function()
-  it("is exact of a constant force, in uneven steps", function()
+  it("is exact for a constant force, in uneven steps", function()
     for seed = 1, 20 do
       local p = window.peak(steps(uneven(seed, 300, 1e-6, 2e-3), function() return -7 end), W)
       t.share(7, p.value, 1e-12, "mean")
@@ -42,7 +42,7 @@ describe("the largest mean over a window", function()
     end
   end)
 
-  it("of a blow is its impulse over the window, whatever the steps", function()
+  it("is for a blow its impulse over the window, whatever the steps", function()
     for seed = 1, 20 do
       for _, span in ipairs{ 5e-3, 4e-4, 1e-6 } do
         local list = uneven(seed, 200, 1e-4, 1e-3)
@@ -59,7 +59,7 @@ describe("the largest mean over a window", function()
     end
   end)
 
-  it("is that of steps that are longer than the window, which is said", function()
+  it("is a step's own force where steps are longer than the window, and says so", function()
     local p = window.peak(steps({ 0.02, 0.02, 0.02 }, function(time) return time end), W)
     t.near(0.05, p.value, 1e-15, "value")
     assert.are.equal("50 mN (raw, in a step of 20 ms, longer than the window of 10 ms)", window.text(p, "N"))
@@ -67,7 +67,7 @@ describe("the largest mean over a window", function()
     assert.are.equal("5 N (at rest)", window.text(p, "N"))
   end)
 
-  it("is that of the whole record where this is shorter, which is said", function()
+  it("is the mean of the whole record where that is shorter, and says so", function()
     local p = window.peak(steps({ 1e-3, 2e-3, 1e-3 }, function(time) return time < 1e-3 and 10 or 2 end), W)
     t.near(4, p.value, 1e-12, "mean of all")
     assert.are.equal("4 N (mean of all 4 ms; raw 10 N in 1 ms)", window.text(p, "N"))
@@ -80,7 +80,7 @@ describe("the largest mean over a window", function()
     assert.are.same({ 0, 0 }, { p.value, p.raw })
   end)
 
-  it("is of vectors, and nothing acts in gaps", function()
+  it("is a mean of vectors, without force in gaps", function()
     local list = {}
     for i = 0, 99 do list[i + 1] = { t0 = i * 1e-3, t1 = (i + 1) * 1e-3, i % 2 == 0 and 5 or -5, 0, 0 } end
     t.near(0, window.peak(list, W).value, 0.5 + 1e-9, "to and fro")
@@ -88,7 +88,7 @@ describe("the largest mean over a window", function()
     t.near(4, window.peak(list, W).value, 1e-9, "8 of 10 ms")
   end)
 
-  it("is found as by trying all windows", function()
+  it("equals the best of all windows tried", function()
     for seed = 1, 4 do
       local random = t.random(seed)
       local list = steps(uneven(seed + 50, 150, 1e-5, 4e-3), function() return random() end)
@@ -119,7 +119,7 @@ local function fall(dt, segments, more)
 end
 
 describe("peaks of a blow", function()
-  it("stay as steps and edges get shorter; the raw ones do not", function()
+  it("stay with shorter steps and edges; the raw ones do not", function()
     local least, most, raw_least, raw_most = math.huge, 0, math.huge, 0
     for _, segments in ipairs{ 15, 60 } do
       for _, dt in ipairs{ 1e-3, 2e-4, 5e-5 } do
@@ -130,11 +130,11 @@ describe("peaks of a blow", function()
         assert.matches("^.* m?N %(10 ms mean; raw .* N in .* [mu]s%)$", m.peak_force_text)
       end
     end
-    t.below(1.6, most / least, "means") -- what rebounds and falls again differs
+    t.below(1.6, most / least, "means") -- rebounds and second falls differ
     t.above(2, raw_most / raw_least, "raw")
   end)
 
-  it("are raw where the window is 0, of a run or of a call", function()
+  it("are raw with a window of 0, in a run or in a call", function()
     local _, o, w = fall(2e-4, 30)
     local m, raw = o:over(), o:over(nil, nil, { window = 0 })
     assert.are.equal(m.raw_peak_force, raw.peak_force)
@@ -149,7 +149,7 @@ describe("peaks of a blow", function()
     assert.are.equal(m.peak_force, o:over(nil, nil, { window = W }).peak_force)
   end)
 
-  it("count as they are in steps as long as the window", function()
+  it("are raw in steps as long as the window", function()
     local _, _, _, run = fall(0.005, 30)
     local _, o, w = fall(0.005, 30, { window = run.smallest_dt })
     assert.are.equal(w:max_tension{ raw = true }, (w:max_tension()))
@@ -157,7 +157,7 @@ describe("peaks of a blow", function()
     assert.matches("longer than the window of", o:over().peak_force_note)
   end)
 
-  it("are refused windows that make no sense", function()
+  it("refuse windows that make no sense", function()
     local s, o = fall(0.01, 10)
     for _, value in ipairs{ -1, 0 / 0, "x" } do
       assert.is_false(pcall(s.run, s, { duration = 0.01, window = value }))
@@ -172,9 +172,9 @@ local function rod(scene, radius, to, segments)
 end
 
 describe("the largest tension", function()
-  -- By hand: of the forces at the ends of steps by trapezoids, which are 1/12 dt^2 T'' off the mean over a
-  -- step: 6e-5 of the largest one here at 1 ms and six times that at 2.5 ms.
-  it("is the largest mean of any edge, as by hand", function()
+  -- By hand: forces at the ends of steps, added up by trapezoids, which are 1/12 dt^2 T'' off the mean over
+  -- a step: 6e-5 of the largest tension here at 1 ms, and six times that at 2.5 ms.
+  it("is the largest mean of any edge, as computed by hand", function()
     for dt, allowed in pairs{ [1e-3] = 2e-4, [2.5e-3] = 1.2e-3 } do
       local s = sw.scene{}
       local w = rod(s, 0.003, { 0.4, 0, 0 }, 8)
@@ -211,7 +211,7 @@ describe("the largest tension", function()
     end
   end)
 
-  it("is exact of a wire at rest, and close of one that is pulled ever harder", function()
+  it("is exact for a wire at rest, and close for a pull that grows", function()
     local s = sw.scene{ gravity = { 0, 0, 0 } }
     local w = rod(s, 0.003, { 0.2, 0, 0 }, 10)
     s:clamp(w, { s = 0 })
@@ -238,7 +238,7 @@ describe("the largest tension", function()
     t.share(hangs, w:max_tension(), 1e-6, "rest")
   end)
 
-  it("counts equilibria as they are", function()
+  it("takes equilibria without a mean", function()
     local s = sw.scene{}
     local w = rod(s, 0.003, { 0.2, 0, 0 }, 10)
     s:clamp(w, { s = 0 })
@@ -251,7 +251,7 @@ describe("the largest tension", function()
     t.above(w:max_tension{ now = true } * 2, w:max_tension(), "pulled")
   end)
 
-  it("of a run goes on where wire is fed, and of meshes", function()
+  it("covers wire that is fed, and meshes", function()
     local s = sw.scene{}
     local w = rod(s, 0.002, { 0, 0, -0.2 }, 20)
     s:feed(w, { s = 0, speed = 0.3 })
@@ -269,7 +269,7 @@ describe("the largest tension", function()
     assert.is_true(value <= raw and value > 0, ("%g of %g"):format(value, raw))
   end)
 
-  it("is kept by snapshots and files, window and all", function()
+  it("and its window are kept by snapshots and files", function()
     local s, _, w = fall(1e-3, 20, { window = 0.02 })
     local function read(wire)
       return { { wire:max_tension() }, { wire:max_tension{ raw = true } }, sw.core.window(s) }

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What is told of means over a window: beside raw peaks, of short runs, of few steps, of edges that change.
+-- Means over a window: raw peaks beside them, long windows, blows of few steps, edges that change.
 package.path = "./?.lua;" .. package.path
 local sw = require "softworld"
 local window = require "softworld.run.window"
@@ -9,7 +9,7 @@ local windowed = require "spec.physics.windowed"
 local steps, even = windowed.steps, windowed.even
 local W, G = 0.01, 9.81
 
-describe("peaks are printed with the raw ones", function()
+describe("peaks are printed together with raw peaks", function()
   local function lifted(more)
     local s = sw.scene{}
     s:obstacle{ name = "table", shape = "plane", friction = 0.3 }
@@ -47,7 +47,7 @@ describe("peaks are printed with the raw ones", function()
     assert.is_truthy(message:find("did you mean 'window'", 1, true), message)
   end)
 
-  it("in error bars, which are of the means", function()
+  it("in error bars, whose values are means", function()
     local s, w, g, run = lifted{ levels = 3,
       tolerance = { ["left.peak_force"] = 1, max_tension = 1, ["table.impulse"] = 1 } }
     local q = run.quantities
@@ -61,8 +61,8 @@ describe("peaks are printed with the raw ones", function()
 end)
 
 describe("a run shorter than its window", function()
-  -- A rod that hangs from one end: m g of what hangs below the first edge. A window longer than the run
-  -- counts as the run, at steps below and above the usual window of 10 ms.
+  -- A rod hangs from one end; its tension is m g of what hangs below the first edge. A window longer than
+  -- the run counts as the run. Steps are shorter and longer than the usual window of 10 ms.
   for _, dt in ipairs{ 2e-3, 0.01, 0.02 } do
     for _, width in ipairs{ 0.05, 2 } do
       it(("of %g s with steps of %g s has the mean of all"):format(width, dt), function()
@@ -86,13 +86,13 @@ describe("a run shorter than its window", function()
 end)
 
 describe("a blow of few steps", function()
-  -- A pulse of 8 ms on a small steady force, in even steps; and a force that is steady.
+  -- A pulse of 8 ms on a small steady force, in even steps; and forces that are steady.
   local function peak(h, f)
     return window.peak(steps(even(h, 0.2), f), W)
   end
   local function blow(time) return time > 0.1 and time < 0.108 and 5 or 0.5 end
 
-  it("is told, a fine one and a steady force are not", function()
+  it("is reported; a blow of many steps and a steady force are not", function()
     for _, h in ipairs{ 4e-3, 8e-3 } do
       local p = peak(h, blow)
       assert.is_true(p.coarse, ("%g s"):format(h))
@@ -106,8 +106,8 @@ describe("a blow of few steps", function()
   end)
 
   -- A cable swings against a peg: 0.491 N with whole steps of 10 ms, 0.505 to 0.518 N with steps of 5 to
-  -- 0.3 ms. Steps in parts are not coarse.
-  it("is told of a wire's largest tension in the summary", function()
+  -- 0.3 ms. Steps that are divided into parts (substeps) do not count as coarse.
+  it("is noted with a wire's largest tension", function()
     local function swung(dt, parts)
       local s = sw.scene{}
       local w = s:wire{ name = "w", cable = "GXL 1.5", from = { 0, 0, 0 }, to = { 0.5, 0, 0 }, segments = 50 }
@@ -131,7 +131,7 @@ describe("a blow of few steps", function()
 end)
 
 describe("edges that change within a run", function()
-  -- After a step that counts in a mean come ones as long as the window, of a wire with other edges.
+  -- A step that counts in a mean is followed by steps as long as the window, of a wire with other edges.
   it("have their own tension", function()
     for _, segments in ipairs{ 4, 40 } do
       local scene = sw.scene{}

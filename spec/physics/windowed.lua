@@ -2,7 +2,7 @@
 -- Steps of given lengths with their forces, for specs of windows.
 package.path = "./?.lua;" .. package.path
 
--- Steps of these lengths, one after another, with the force of f at each one's middle.
+-- Returns steps of these lengths, one after another, with the force f at each one's middle.
 local function steps(lengths, f)
   local list, time = {}, 0
   for i, h in ipairs(lengths) do
@@ -12,7 +12,7 @@ local function steps(lengths, f)
   return list
 end
 
--- Equal steps of h that fill the duration.
+-- Returns equal step lengths h that fill the duration.
 local function even(h, duration)
   local list = {}
   for i = 1, math.floor(duration / h + 0.5) do list[i] = h end

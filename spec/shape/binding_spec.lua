@@ -39,7 +39,7 @@ describe("core.shape", function()
     refused("shape expected", box.kind, 3)
   end)
 
-  it("knows kinds and rows", function()
+  it("lists kinds and their parameters", function()
     local names = {}
     for i, kind in ipairs(samples.registry.shapes) do names[i] = kind.name end
     assert.same(names, core.shape_params())
@@ -51,7 +51,7 @@ describe("core.shape", function()
     refused("there is no shape 'cone'", core.shape_params, "cone")
   end)
 
-  it("closes cleanly and tells so", function()
+  it("closes cleanly and says so", function()
     local sphere = core.shape { shape = "sphere", radius = 1 }
     assert.equal("sphere", sphere:kind())
     assert.equal("shape: sphere", tostring(sphere))
@@ -110,7 +110,7 @@ describe("core.shape", function()
     end
   end)
 
-  it("asks for no memory in queries", function()
+  it("uses no memory in queries", function()
     for _, shape in ipairs(tools.every_kind()) do
       local _, before = core.allocated()
       shape:distance { 0.1, 0.2, 0.9 }

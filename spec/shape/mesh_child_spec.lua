@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Mesh files that are cut off, damaged, or too much to read: an error each, and nothing else.
+-- Mesh files that are cut off, damaged, or too much to read: each gives an error and nothing else.
 local core = require "softworld.core"
 local program = require "host.program"
 local tools = require "shape.tools"
@@ -18,7 +18,7 @@ local function refused(data, format, pattern)
   assert.matches(pattern, message)
 end
 
--- Texts of the box.
+-- Returns the text of a file of the box, after its head.
 local function lines_of(head)
   for i = 1, #points, 3 do head[#head + 1] = table.concat(points, " ", i, i + 2) end
   for _, t in ipairs(triangles) do
@@ -76,7 +76,7 @@ end
 local core = require "softworld.core"
 ]]
 
--- Processes that have the text in their environment.
+-- Returns the number of processes that have the text in their environment.
 local function processes_with(mark)
   local out = program.shell(("grep -sl %s /proc/[0-9]*/environ 2>/dev/null"):format(program.quote(mark)))
   local count = 0
@@ -88,7 +88,7 @@ local function processes_with(mark)
   return count
 end
 
--- In the end there are none; bounded by a number of looks, each after a short sleep.
+-- Returns true once there are none; looks a limited number of times, each after a short sleep.
 local function none_left(mark)
   for _ = 1, 300 do
     if processes_with(mark) == 0 then return true end
@@ -100,7 +100,7 @@ end
 describe("a mesh file that is cut off", function()
   it("is refused wherever it was cut, in formats that tell their length", function()
     local function binary(data) return { data, #data } end
-    local function text(data) return { data, data:find "%S+%s*$" } end -- what is left of a word is one
+    local function text(data) return { data, data:find "%S+%s*$" } end -- a cut word is still a word
     local ascii = tools.stl_ascii(points, triangles)
     local files = { stl = { binary(tools.stl_binary(points, triangles)), { ascii, ascii:find "d made\n$" } },
       ply = { text(lines_of(ply_head("ascii", 8, 12))), binary(ply_binary(true)), binary(ply_binary(false)) },
@@ -113,7 +113,7 @@ describe("a mesh file that is cut off", function()
     end
   end)
 
-  it("tells what is missing", function()
+  it("gives an error that says what is missing", function()
     local ply = lines_of(ply_head("ascii", 8, 12))
     refused(ply:sub(1, (ply:find("3 %d %d %d\n")) - 1), "ply",
       "not readable as ply: it is cut off or damaged: it declares 12 items of 'face', and 0 are there")
@@ -125,7 +125,7 @@ describe("a mesh file that is cut off", function()
       "items of 'vertex', and 0 are there")
   end)
 
-  it("is told apart from one without the corners it names", function()
+  it("is distinguished from a file without the corners that it names", function()
     refused(lines_of(ply_head("ascii", 8, 12)):gsub("3 %d %d %d\n", "3 0 1 77\n", 1), "ply",
       "a corner that is not there")
   end)

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The places inside a segment that are nearer than its ends.
+-- The places inside a segment that are nearer to a shape than its ends.
 local core = require "softworld.core"
 local tools = require "shape.tools"
 
@@ -42,7 +42,7 @@ describe("segment", function()
     end
   end)
 
-  it("has none when the nearest place is an end, for convex kinds", function()
+  it("has no contact when the nearest place is an end, for convex kinds", function()
     local random = tools.random(42)
     local kinds = core.registry().shapes
     for i, shape in ipairs(tools.every_kind()) do
@@ -60,7 +60,7 @@ describe("segment", function()
     end
   end)
 
-  it("has none for a segment lying flat, along an axis, or without length", function()
+  it("has no contact for a segment lying flat, along an axis, or without length", function()
     local flat = {
       { { shape = "plane" }, { 0, 0, 0.01 }, { 1, 0, 0.01 } },
       { { shape = "box", size = { 1, 1, 1 } }, { -0.2, 0.1, 0.51 }, { 0.3, 0.1, 0.51 } },
@@ -162,7 +162,7 @@ describe("segment", function()
     end
   end)
 
-  it("answers for segments through centres and along edges with finite numbers", function()
+  it("gives finite numbers through centres and along edges", function()
     local places = { 0, 0.5, -0.5, 0.25, 0.7 }
     local shapes = tools.every_kind()
     shapes[#shapes + 1] = core.shape { shape = "hull", points = tools.box_points(1, 1, 1) }
@@ -180,7 +180,7 @@ describe("segment", function()
     end
   end)
 
-  it("keeps to reach", function()
+  it("reports only contacts within reach", function()
     local box = core.shape { shape = "box", size = { 1, 1, 1 } }
     assert.equal(1, #box:segment({ 0.4, 0, 0.8 }, { 0.8, 0, 0.4 }, 0.15))
     assert.equal(0, #box:segment({ 0.4, 0, 0.8 }, { 0.8, 0, 0.4 }, 0.14))

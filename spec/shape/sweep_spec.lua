@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Moving segments: nothing gets through, and nothing is reported that did not happen.
+-- Moving segments: none gets through a shape, and none is reported without a hit.
 local core = require "softworld.core"
 local tools = require "shape.tools"
 
@@ -24,7 +24,7 @@ describe("sweep", function()
     end
     for _, shape in ipairs(shapes) do
       for i = 1, 300 do
-        -- some place of the segment passes through some place of the wall
+        -- some point of the segment passes through some point of the wall
         local through = { 0.05 * random.number(), 0.05 * random.number(), 0 }
         local speed = 10 ^ (3 * random.number()) -- way in one step [m]
         local length = i % 2 == 0 and 0.05 or 3
@@ -89,7 +89,7 @@ describe("sweep", function()
     end
   end)
 
-  it("says nothing of segments that pass by or slide along", function()
+  it("reports nothing for segments that pass by or slide along", function()
     for _, shape in ipairs(walls(0.01)) do
       local top = 0.005
       -- sliding 1 um above the margin, far and fast
@@ -102,7 +102,7 @@ describe("sweep", function()
     end
   end)
 
-  it("treats segments that start within the margin by whether they get deeper", function()
+  it("reports segments that start within the margin only if they get deeper", function()
     local shapes = walls(0.01)
     shapes[#shapes + 1] = core.shape { shape = "plane" }
     shapes[#shapes + 1] = core.shape { shape = "cylinder", radius = 1, length = 0.01 }
@@ -130,7 +130,7 @@ describe("sweep", function()
     end
   end)
 
-  it("gets through no seam of a mesh with many triangles", function()
+  it("lets nothing through the seams of a mesh with many triangles", function()
     local shape, random = tools.mesh(tools.ball(0.5, 8, 12)), tools.random(53)
     for _ = 1, 500 do
       local way = random.vector(1)

@@ -16,7 +16,7 @@ function tools.lerp(a, b, t)
   return { a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]), a[3] + t * (b[3] - a[3]) }
 end
 
---- A source of numbers in [-1, 1] that is the same on every machine.
+--- Returns a source of numbers in [-1, 1] that is the same on every machine.
 function tools.random(seed)
   local state = seed
   local r = {}
@@ -45,7 +45,7 @@ end
 local box_faces = { { 1, 3, 4, 2 }, { 5, 6, 8, 7 }, { 1, 2, 6, 5 }, { 3, 7, 8, 4 },
   { 1, 5, 7, 3 }, { 2, 4, 8, 6 } }
 
---- Corners and triangles (numbers from 1) of a box.
+--- Returns corners and triangles (numbers from 1) of a box.
 function tools.box_triangles(x, y, z)
   local triangles = {}
   for _, f in ipairs(box_faces) do
@@ -139,8 +139,8 @@ local function cloud()
   return points
 end
 
---- One of every kind, all about 1 m large, for specs that hold for all of them: that of its
--- sample, and of those made from lists or files one of many places.
+--- Returns one shape of every kind, all about 1 m large, for specs that hold for all of them: its sample, or
+-- for kinds made from lists or files one with many places.
 function tools.every_kind()
   local rich = { hull = core.shape { shape = "hull", points = cloud() },
     mesh = tools.mesh(tools.ball(0.5, 6, 8)) }
@@ -155,7 +155,7 @@ end
 
 -- Brute force ----------------------------------------------------------------
 
---- The smallest gap of the segment at n + 1 places, and the place.
+--- Returns the smallest gap of the segment at n + 1 places, and the place.
 function tools.smallest_gap(shape, a, b, n)
   local least, where = math.huge, 0
   for i = 0, n do
@@ -169,14 +169,14 @@ function tools.finite(x) return x == x and x > -math.huge and x < math.huge end
 
 -- Assertions -----------------------------------------------------------------
 
---- As assert.near of Busted, whose bound is not part of the range; text names the value.
+--- Like assert.near of Busted, but the bound is part of the range; text names the value.
 function tools.near(expected, value, tolerance, text)
   assert.is_true(math.abs(expected - value) <= tolerance,
     ("%s: expected %.12g, got %.12g"):format(text or "value", expected, value))
 end
 
---- Every edge of the triangles { vertices =, indices = from 0 } is passed once each way: the surface is
--- closed, and wound alike everywhere. Returns the volume inside, positive when wound outwards.
+--- Checks that every edge of the triangles { vertices =, indices = from 0 } is passed once each way: the
+-- surface is closed, and wound alike everywhere. Returns the volume inside, positive when wound outwards.
 function tools.closed_volume(drawn)
   local function at(i)
     local v = drawn.vertices

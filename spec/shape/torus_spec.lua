@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The ring: its queries against sampling where it is thin or nearly closed, a wire wound around its
--- tube, one hung through it, one that it takes along.
+-- The ring: its queries are compared with sampling where it is thin or nearly closed. A wire is wound
+-- around its tube, one hangs through it, one is taken along by it.
 local core = require "softworld.core"
 local tools = require "shape.tools"
 local vec = require "softworld.vec"
@@ -24,8 +24,8 @@ describe("a torus", function()
     assert.same({ 0.4, 0.4, 0.1 }, high)
   end)
 
-  -- Sampled at n places, a minimum is found to (length/n)^2/8 times the curvature of the distance,
-  -- below 1/distance to the circle: 1e-4 here. Both minima of a segment over the ring are asked for.
+  -- Sampled at n places, a minimum is found to (length/n)^2/8 times the curvature of the distance, which is
+  -- below 1/distance to the circle: 1e-4 here. Both minima of a segment over the ring must be found.
   it("finds every place along a segment that is nearer than those beside it", function()
     local random, n, twice, once = tools.random(72), 600, 0, 0
     for _, tube in ipairs { 0.005, 0.15, 0.49 } do
@@ -83,7 +83,7 @@ describe("a torus", function()
   end)
 end)
 
--- Ratio of the pulls at both ends of a wire drawn around the tube, through the hole.
+-- Returns the ratio of the pulls at both ends of a wire drawn around the tube, through the hole.
 local function capstan(mu, degrees, radius)
   local T, RADIUS, IN = 0.05, 0.0005, 1
   local angle, path, Rw = math.rad(degrees), {}, T + RADIUS
@@ -114,8 +114,8 @@ local function capstan(mu, degrees, radius)
 end
 
 describe("a wire and a ring", function()
-  -- As around a cylinder (2 % there too): chords of 120 segments, pulls meaned over the slide.
-  -- The outside of a ring of this radius is passed nowhere: the wire lies in the hole.
+  -- As around a cylinder (2 % there too): chords of 120 segments, pulls averaged over the slide. The wire
+  -- lies in the hole; nowhere does it pass the outside of a ring of this radius.
   for _, case in ipairs{ { 0.3, 90, 0.2 }, { 0.3, 180, 0.2 }, { 0.5, 180, 1 } } do
     it(("wound around the tube is drawn with exp(mu angle): mu %g, %d degrees"):format(case[1], case[2]),
       function()
@@ -124,7 +124,8 @@ describe("a wire and a ring", function()
       end)
   end
 
-  -- Upright, the lowest place of the hole at `at`, all turned by q. Forces are in the turned axes.
+  -- The ring stands upright with the lowest place of its hole at `at`; everything is turned by q. Returns
+  -- the force on the ring in the turned axes, the wire's weight, and a function that carries the ring on.
   local function hung(at, q)
     local s, path = core.scene{ gravity = vec.rotate(q, { 0, 0, -9.80665 }) }, {}
     local function put(y, z) path[#path + 1] = vec.add(at, vec.rotate(q, { 0, y, z })) end
@@ -142,7 +143,7 @@ describe("a wire and a ring", function()
     s:force{ kind = "damping", mass = 30, on = w }
     assert.is_true(s:advance({ dt = 0.002 }, 1).ok)
     local function turned(v) return vec.rotate(vec.conjugate(q), v) end
-    return turned(ring:force()), 0.05 * w.length * 9.80665, function(by) -- moved by that, turned half way
+    return turned(ring:force()), 0.05 * w.length * 9.80665, function(by) -- moves by that and half round
       ring:follow{ points = { { 0, 0, 0 }, vec.rotate(q, by) }, relative = true, speed = 0.5,
         turn = { axis = vec.rotate(q, { 0, 0, 1 }), angle = math.pi } }
       assert.is_true(s:advance({ dt = 0.005 }, 2).ok)
@@ -152,14 +153,15 @@ describe("a wire and a ring", function()
     end
   end
 
-  it("hung through it bears the wire's weight", function()
+  it("hung through it loads it with its weight", function()
     local f, weight = hung({ 0, 0, 0 }, { 1, 0, 0, 0 })
     near(-weight, f[3], 1e-3 * weight, "weight")
     near(0, f[2], 1e-3)
   end)
 
-  -- Rounding of places at 1 km, 1e-13 m, grows with slides and touches; 1e-5 m after a second of it. While it
-  -- slides, 1e-7 m are EA 1e-7 m / 0.4 m = 3e-3 N, so forces are compared at rest, where they are the weight.
+  -- Rounding of places at 1 km, 1e-13 m, grows with slides and touches to 1e-5 m after a second. While the
+  -- wire slides, 1e-7 m are EA 1e-7 m / 0.4 m = 3e-3 N, so forces are compared at rest, where they are the
+  -- weight.
   it("do the same a kilometre away, turned, and carried on by a trajectory", function()
     local f0, weight, carry0 = hung({ 0, 0, 0 }, { 1, 0, 0, 0 })
     local place0, after0 = carry0{ 0.3, 0, 0.2 }
@@ -176,7 +178,7 @@ describe("a wire and a ring", function()
     end
   end)
 
-  it("threaded is taken along, at 20 m/s in steps of 10 ms too", function()
+  it("threaded through it is taken along, at 20 m/s in steps of 10 ms too", function()
     for _, speed in ipairs{ 0.5, 20 } do
       local s = core.scene{ gravity = { 0, 0, 0 } }
       local w = s:wire{ EA = 1e3, EI = 1e-4, mass_per_length = 0.02, radius = 0.001, from = { 0, 0, -0.2 },

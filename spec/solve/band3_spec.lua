@@ -31,7 +31,7 @@ local function largest_difference(a, b)
 end
 
 describe("band3", function()
-  it("solves what it multiplies, for every small count and a large one", function()
+  it("inverts its product, for every small count of nodes and a large one", function()
     math.randomseed(7)
     for _, n in ipairs{ 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 33, 1000 } do
       local x = {}
@@ -44,7 +44,7 @@ describe("band3", function()
     end
   end)
 
-  -- A wire aslant to the axes, 1e7 times as stiff along itself as its mass is across: what
+  -- A wire aslant to the axes, 1e7 times as stiff along itself as its mass is across. The error that
   -- remains is rounding of the right-hand side, 1e-16 * 1e9 / 1e2.
   it("solves for a stiff wire in any direction", function()
     local stiff, bend, mass, d = 1e9, 1e3, 1e2, { 0.48, 0.6, 0.64 }

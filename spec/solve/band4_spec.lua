@@ -3,7 +3,7 @@
 -- signs against those of dominant diagonals.
 local probe = require "softworld.probe"
 
--- A dense matrix as the solver wants it.
+-- Returns a dense matrix in the solver's form.
 local function rows_of(dense, n)
   local rows = {}
   for node = 0, n - 1 do
@@ -49,15 +49,15 @@ local function check(n, dense, wanted, tolerance)
 end
 
 describe("band4", function()
-  it("solves", function()
+  it("inverts a product", function()
     math.randomseed(7)
     for _, n in ipairs{ 2, 3, 4, 5, 10, 33 } do
       check(n, random_matrix(n, function() return 1 end), 0)
     end
   end)
 
-  -- A wire aslant to the axes, 1e7 times as stiff along itself as its mass is across, with spins
-  -- that go with it: what remains is rounding of the right-hand side, 1e-16 * 1e9 / 1e2.
+  -- A wire aslant to the axes, 1e7 times as stiff along itself as its mass is across, with spins that go
+  -- with it. The error that remains is rounding of the right-hand side, 1e-16 * 1e9 / 1e2.
   it("solves for a stiff wire in any direction", function()
     local stiff, bend, mass, d = 1e9, 1e3, 1e2, { 0.48, 0.6, 0.64 }
     for _, n in ipairs{ 20, 61 } do

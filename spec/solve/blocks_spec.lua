@@ -6,7 +6,7 @@ local probe = require "softworld.probe"
 
 local function rings(count, per_ring) return { rings = count, per_ring = per_ring } end
 
--- The same nodes as rings, by pairs: some turned, some twice.
+-- Returns the nodes of rings given by pairs: some pairs turned, some given twice.
 local function as_pairs(layout)
   local m, pairs = layout.per_ring, {}
   for i = 0, layout.rings * m - 1 do
@@ -20,7 +20,7 @@ local function as_pairs(layout)
   return { nodes = layout.rings * m, pairs = pairs }
 end
 
--- Flat dense matrix of n rows from f(i, j), i >= j.
+-- Returns a flat dense matrix of n rows from f(i, j), i >= j.
 local function symmetric(n, f)
   local a = {}
   for i = 1, n * n do a[i] = 0 end
@@ -33,8 +33,8 @@ local function symmetric(n, f)
   return a
 end
 
--- L D L' with L's blocks where those of the rings are, and D's signs as given: the number of
--- negative directions is known, though these are not the pivots that the solver meets.
+-- Returns L D L' with L's blocks where those of the rings are, and D's signs as given. The number of
+-- negative directions is known, although D does not hold the pivots that the solver meets.
 local function with_signs(layout, sign)
   local m = 3 * layout.per_ring
   local n = layout.rings * m
@@ -135,7 +135,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
       end)
     end
 
-    -- Beyond what is taken up at once, in rows and in columns.
+    -- More nodes than are taken up at once, in rows and in columns.
     it("solve with many nodes in a ring", function()
       math.randomseed(23)
       for _, shape in ipairs { { 2, 70 }, { 3, 67 } } do
@@ -161,7 +161,8 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
       end
     end)
 
-    -- Fixed nodes: of the others only, and whatever was factorised before; products know of none.
+    -- Fixed nodes: the factor holds the others only, whatever was factorised before; products ignore
+    -- fixing.
     it("take fixed nodes out of the factor, not out of products", function()
       math.randomseed(17)
       for _, shape in ipairs { { 1, 2 }, { 4, 1 }, { 5, 4 }, { 3, 9 } } do
@@ -186,7 +187,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
       end
     end)
 
-    -- Links along a tube 1e8 times as stiff as the others, aslant to the axes.
+    -- Links along a tube, aslant to the axes, 1e8 times as stiff as the others.
     it("keep the residual small for stiff and soft springs", function()
       math.randomseed(19)
       local count, m = 8, 6
@@ -216,7 +217,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
       assert.is_true(difference(times(a, solved), b) < 1e-7 * math.max(1, most))
     end)
 
-    it("refuse what is singular or not finite", function()
+    it("refuse matrices that are singular or not finite", function()
       local layout = layout_of(rings(2, 3))
       local n = 18
       local function try(f) return probe.blocks(layout, symmetric(n, f), random_vector(n)) end
@@ -258,7 +259,7 @@ for kind, layout_of in pairs { rings = function(layout) return layout end, pairs
 end
 
 describe("blocks", function()
-  it("exist where they should", function()
+  it("exist for neighbours in rings and for given pairs", function()
     local _, _, _, _, count = probe.blocks(rings(3, 2), symmetric(18, function(i, j)
       return i == j and 1 or 0
     end), random_vector(18))

@@ -3,8 +3,8 @@
 -- signs against those of dominant diagonals, sparsity of the factor.
 local probe = require "softworld.probe"
 
--- A chain with two neighbours each way and `links` more pairs, or those that links(pair) gives:
--- blocks as flat lists and the whole matrix as dense rows.
+-- A chain with two neighbours each way and `links` more random pairs, or the pairs that links(pair) gives.
+-- Returns the blocks as flat lists and the whole matrix as dense rows.
 local function random_matrix(n, b, links, sign)
   local dense, own, pairs, values = {}, {}, {}, {}
   for i = 1, b * n do
@@ -131,7 +131,7 @@ describe("sparse", function()
     end
   end)
 
-  -- Wires beside each other, coupled all along: elimination goes from end to end, by dense fronts.
+  -- Wires beside each other, coupled all along: elimination goes from end to end, with dense fronts.
   it("solves bundles and counts their negative directions", function()
     math.randomseed(7)
     local wires, long = 12, 16
@@ -147,7 +147,7 @@ describe("sparse", function()
     local function all(sign) return check(wires * long, 3, across, sign) end
     local negative, fill = all(function() return 1 end)
     assert.are.equal(0, negative)
-    assert.is_true(fill > 12 * wires * long, fill) -- from there on it is done by fronts
+    assert.is_true(fill > 12 * wires * long, fill) -- from this fill on fronts are used
     assert.are.equal(3 * long, (all(function(node) return node < long and -1 or 1 end)))
   end)
 
@@ -155,7 +155,7 @@ describe("sparse", function()
     math.randomseed(9)
     local _, plain = check(60, 3, 0, function() return 1 end)
     local _, linked = check(60, 3, 5, function() return 1 end)
-    assert.is_true(plain <= 2.2 * 60, plain) -- a chain in any good order: 2 blocks a node and few more
+    assert.is_true(plain <= 2.2 * 60, plain) -- in any good order: 2 blocks a node and few more
     assert.is_true(linked <= plain + 5 * 60, linked)
   end)
 
