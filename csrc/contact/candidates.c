@@ -38,6 +38,18 @@ double sw_flight_reserve(const sw_contact *c, const sw_system *s, sw_vec v) {
   return reserve * c->h * (sw_norm(v) + g * c->h) + SW_FLIGHT_LEAST;
 }
 
+/* Adds the distance of a line's smooth curve from its chords at each node. The curve touches edges
+ * and corners that the chords do not reach: without it, a limp wire with coarse edges sinks into an
+ * edge in short steps, whose reach is little more than the radius. */
+static void add_bulge(const sw_system *s, const sw_body *b, double *reach) {
+  const double *const x = s->x + 3 * b->first_node;
+  if (b->plan->web || b->plan->beam.rolls) return;
+  for (size_t i = 1; i + 1 < b->plan->nodes; i++) {
+    const sw_vec before = sw_vec_at(x, i - 1), own = sw_vec_at(x, i), after = sw_vec_at(x, i + 1);
+    reach[i] += sw_norm(sw_add(sw_sub(before, own), sw_sub(after, own))) / 8.0;
+  }
+}
+
 /* Finds the widest gap of each node that can close in the step, without the motion of obstacles. */
 static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
   const double radius = b->plan->beam.radius;
@@ -49,6 +61,7 @@ static void reach_out(sw_contact *c, const sw_system *s, const sw_body *b) {
                                      sw_flight_reserve(c, s, sw_v(0, 0, 0)));
   for (size_t i = 0; i < b->plan->nodes; i++)
     reach[i] = c->regime == SW_CONTACT_STATIC ? whole : still + time * sw_norm(sw_load(v + 3 * i));
+  if (c->regime != SW_CONTACT_STATIC) add_bulge(s, b, reach);
 }
 
 /* Returns that gap with the motion of obstacle o added. */
