@@ -21,8 +21,9 @@ static const double THIN = 0.9;
  * until they do not press any more; a capstan needs them. Chords lie outside the curve, so the
  * change to the curve releases the wire and makes no energy [-]. */
 static const double WOUND = 0.9;
-/* Least firmness at a thin obstacle [-]. */
-static const double LOOSE = 0.1;
+/* Least firmness at a thin obstacle, if curvature times radius is above twice LOOSE_FROM; it falls
+ * to 0 at LOOSE_FROM [-]. */
+static const double LOOSE = 0.1, LOOSE_FROM = 0.25;
 
 /* --- at the step's start -------------------------------------------------------------------- */
 
@@ -114,6 +115,14 @@ static int begins_round(const sw_system *s, const sw_body *b, double radius, siz
   return radius * bend_at(s, b, first, last) > SW_GOES_ROUND;
 }
 
+/* Firmness at an obstacle; round: curvature times radius. A wire that hardly bends has a definite
+ * nearest place: firmness there would make energy as the touch slides, and cost 20 % more
+ * iterations (spec/contact/oblique_spec). */
+static double firmness(int thin, double round) {
+  const double least = thin ? LOOSE * sw_limit(round / LOOSE_FROM - 1.0, 0.0, 1.0) : 0.0;
+  return fmax(least, round - SW_GOES_ROUND);
+}
+
 void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate *k) {
   const sw_body *b = &s->bodies[k->body];
   const sw_plan *p = b->plan;
@@ -125,14 +134,13 @@ void sw_contact_find_round(const sw_contact *c, const sw_system *s, sw_candidate
   k->round = 0;
   if (!(c->round[k->obstacle] > 0)) return;
   const double round = radius * bend_beside(s, b, k->node, k->segment);
-  const double least = thin ? LOOSE : 0.0;
   const int wound = c->wound[k->obstacle] == (int)k->body + 1 || round > WOUND ||
                     (radius > SW_THICK * edge && begins_round(s, b, radius, low, high));
   k->round = thin || (!wound && passes_side(c, s, k, low, high));
-  k->firm = fmax(least, round - SW_GOES_ROUND);
+  k->firm = firmness(thin, round);
   for (size_t j = 0; j < 2; j++) {
     const size_t beside = j ? high + 1 : high - (high > 0);
-    k->firm_beside[j] = fmax(least, radius * bend_at(s, b, beside, beside) - SW_GOES_ROUND);
+    k->firm_beside[j] = firmness(thin, radius * bend_at(s, b, beside, beside));
   }
   k->lone = fmin(1.0, fmax(0.0, (1.0 - round) / (1.0 - SW_GOES_ROUND)));
 }
@@ -172,9 +180,6 @@ static double find_place(const sw_piece *c, double low, double high, double at_l
   return last;
 }
 
-/* A wire nearer to the middle line than this share of the radius goes through it [-]. */
-static const double THROUGH = 1e-9;
-
 /* Share of the stiffness that a place has beside a joint to the next edge. Where a wire begins to
  * go round, places on two edges come near each other at their joint. If both had full stiffness
  * from the beginning, the wire would meet twice the force at once, be thrown back, and meet one
@@ -194,16 +199,23 @@ static double share_of(const sw_piece *c) {
   return before * after;
 }
 
-/* Makes the place at u; 0: the wire goes along the obstacle. If the wire goes through the middle
- * line, the normal is perpendicular to both, as for chords. */
+/* Normal of a place that is w off the middle line: perpendicular to the curve and to the line. (The
+ * part of w that is perpendicular to the curve has a share along the line where the wire crosses it
+ * obliquely and the place is not the nearest one: that would push the wire along the obstacle, and
+ * make energy.) A ball has a point for a line; there it is that part of w. */
+static sw_vec normal_of(sw_vec w, sw_vec along, sw_vec e) {
+  const sw_vec out = sw_unit_or(sw_cross(along, e), sw_perpendicular(along));
+  if (!(sw_norm2(e) > 0)) return sw_unit_or(sw_madd(w, along, -sw_dot(w, along)), out);
+  return sw_dot(out, w) < 0 ? sw_neg(out) : out;
+}
+
+/* Makes the place at u; 0: the wire goes along the obstacle. */
 static int make_place(const sw_piece *c, double u, sw_place *place) {
   sw_vec tangent, q, e;
   const sw_vec x = sw_contact_curve(c, u, &tangent);
   const double radius = sw_shape_middle(c->shape, x, &q, &e);
   const sw_vec w = sw_sub(x, q), along = sw_unit_or(tangent, sw_v(0, 0, 1));
-  const sw_vec out = sw_unit_or(sw_cross(along, e), sw_perpendicular(along));
-  const sw_vec away = sw_madd(w, along, -sw_dot(w, along));
-  const sw_vec n = sw_norm(away) > THROUGH * radius ? sw_unit_or(away, out) : out;
+  const sw_vec n = normal_of(w, along, e);
   const double d = sw_dot(n, w);
   if (!(radius > 0) || !sw_contact_goes_across(along, e)) return 0;
   *place = (sw_place){.near = {.gap = d - radius,

@@ -37,6 +37,25 @@ local function fallen(what, name, options)
   return w:positions(), r.steps
 end
 
+local function off_of(fine, ...)
+  local found, steps = fallen(...)
+  local off = 0
+  for i = 1, #fine do off = math.max(off, math.abs(found[i] - fine[i])) end
+  return off, steps
+end
+
+-- Returns the median over three tolerances that lie close together [m]: which steps a strike falls into is
+-- chance. GXL 0.5 on two pegs ends 0.3 to 4.4 mm off with 15 tolerances from 1e-4 to 1.5e-6 m.
+local function median_off(fine, what, name, tolerance)
+  local list, total = {}, 0
+  for k, factor in ipairs{ 0.8, 1, 1.2 } do
+    local off, steps = off_of(fine, what, name, { dt = 0.01, tolerance = factor * tolerance })
+    list[k], total = off, total + steps
+  end
+  table.sort(list)
+  return list[2], total // 3
+end
+
 describe("a cable that falls, with steps chosen by their error,", function()
   for what in pairs(fall) do
     for _, name in ipairs(scenes.cables) do
@@ -46,9 +65,7 @@ describe("a cable that falls, with steps chosen by their error,", function()
         local softest = name == "identified white"
         for tolerance, allowed in pairs{ [1e-5] = softest and 12e-3 or 4e-3,
           [1e-6] = softest and 5e-3 or 3e-3 } do
-          local found, steps = fallen(what, name, { dt = 0.01, tolerance = tolerance })
-          local off = 0
-          for i = 1, #fine do off = math.max(off, math.abs(found[i] - fine[i])) end
+          local off, steps = median_off(fine, what, name, tolerance)
           assert.is_true(off < allowed, ("%g: %.3g m off in %d steps"):format(tolerance, off, steps))
         end
       end)
