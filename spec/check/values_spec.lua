@@ -97,13 +97,19 @@ local function lifted(force)
   return scene:run{ duration = 0.1, dt = 0.005 }
 end
 
--- A wire lies on a table under its weight, 3 mm beside a straight line.
+-- A wire lies on a table under its weight, 3 mm beside a straight line. Returns the run and how deep the
+-- lowest node sank below the plane in any step.
 local function lying()
   local scene = sw.scene{}
   scene:obstacle{ name = "table", shape = "plane", friction = 0.3 }
-  scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS, segments = 20,
-    from = { 0, 0.003, RADIUS }, to = { 0.3, 0.003, RADIUS } }
-  return scene:run{ duration = 0.25, dt = 0.01 }
+  local wire = scene:wire{ name = "w", EA = 1e4, EI = 1e-3, mass_per_length = 0.02, radius = RADIUS,
+    segments = 20, from = { 0, 0.003, RADIUS }, to = { 0.3, 0.003, RADIUS } }
+  local deepest = 0
+  scene:observe{ call = function()
+    local x = wire:positions()
+    for i = 3, #x, 3 do deepest = math.max(deepest, RADIUS - x[i]) end
+  end }
+  return scene:run{ duration = 0.25, dt = 0.01 }, deepest
 end
 
 -- A wire lies 3 mm beside y = 0, with zones beside it and zones that it lies in.
@@ -149,13 +155,46 @@ local function beam()
   return scene:run{ duration = 0.02, dt = 0.01 }, 22.373285 / (2 * math.pi) * math.sqrt(0.01 / 0.03)
 end
 
--- A tube that sags, clamped at one end.
+-- A tube along x, pressed at its middle by two narrow plates that come nearer by a tenth of its diameter.
+-- Returns the run, the wire and the radius of the ring of particles at the start.
 local function squeezed()
-  local scene = sw.scene{}
+  local scene = sw.scene{ gravity = { 0, 0, 0 } }
   local wire = scene:wire{ name = "w", E = 5e6, density = 1200, radius = 0.004, model = "tube",
-    segments = 12, from = { 0, 0, 0 }, to = { 0.06, 0, 0 } }
-  scene:clamp(wire, { s = 0 })
-  return scene:run{ duration = 0.02, dt = 0.01 }, wire
+    particles = 15, normal = { 0, 0, 1 }, from = { 0, 0, 0 }, to = { 0.03, 0, 0 } }
+  local first = wire:section(0).particles[1]
+  scene:force{ kind = "damping", on = wire, mass = 50 }
+  for side = -1, 1, 2 do
+    local plate = scene:obstacle{ shape = "box", size = { 0.006, 0.1, 0.1 }, at = { 0.015, 0, 0.054 * side } }
+    plate:follow{ points = { { 0, 0, 0 }, { 0, 0, -4e-4 * side } }, relative = true, duration = 0.5 }
+  end
+  return scene:run{ duration = 0.6, dt = 0.01 }, wire, math.sqrt(first[2] ^ 2 + first[3] ^ 2)
+end
+
+-- The ovalisation of a section of that tube: (largest - least) / (largest + least) of the widths of the
+-- smooth curve through its n particles. n is odd: the curve has the harmonics up to (n - 1) / 2. beyond: how
+-- far the surface is outside of the curve [m].
+local function ovalisation(section, beyond)
+  local p, curve = section.particles, {}
+  local n = #p
+  for i = 1, 360 do
+    local y, z = 0, 0
+    for k = 1, n do
+      local share, angle = 1, math.rad(i) - 2 * math.pi * k / n
+      for m = 1, (n - 1) // 2 do share = share + 2 * math.cos(m * angle) end
+      y, z = y + share / n * p[k][2], z + share / n * p[k][3]
+    end
+    curve[i] = { y, z }
+  end
+  local least, largest = math.huge, 0
+  for i = 1, 180 do
+    local low, high, c, s = math.huge, -math.huge, math.cos(math.rad(i)), math.sin(math.rad(i))
+    for _, q in ipairs(curve) do
+      local at = c * q[1] + s * q[2]
+      low, high = math.min(low, at), math.max(high, at)
+    end
+    least, largest = math.min(least, high - low), math.max(largest, high - low)
+  end
+  return (largest - least) / (largest + least + 4 * beyond)
 end
 
 local weight = 0.02 * 0.1 * g
@@ -237,12 +276,17 @@ local cases = {
   pad_load = function() return lifted(0.1), {}, 0.1 / 0.02, 0.01 end,
   opening = function() return lifted(0.1), {}, 2 * RADIUS, 0.01 end, -- the pads are closed on the wire
   penetration = function()
-    local run = lying()
-    return run, {}, run.scene:penetration(), 0
+    local run, deepest = lying()
+    return run, {}, deepest, 1e-9
   end,
+  -- The plates are nearest at the end of the run. Widths are sampled at each degree: to 1e-3.
   max_ovalisation = function()
-    local run, wire = squeezed()
-    return run, {}, wire:max_ovalisation(), 0
+    local run, wire, ring = squeezed()
+    local most = 0
+    for i = 0, wire.segments do
+      most = math.max(most, ovalisation(wire:section(wire.length * i / wire.segments), 0.004 - ring))
+    end
+    return run, {}, most, 2e-3
   end,
   kinks = function() return lying(), {}, 0, 0 end,
   events = function() return lying(), {}, 0, 0 end,

@@ -218,6 +218,31 @@ describe("a film", function()
     assert.truthy(wire)
   end)
 
+  it("has the nodes that a wire has in each frame", function()
+    local scene = sw.scene { gravity = { 0, 0, 0 } }
+    local wire = scene:wire { E = 5e6, density = 1200, radius = 0.005, from = { 0, 0, 0 },
+      to = { 0.1, 0, 0 }, segments = 10 }
+    wire:set_velocity { 0.1, 0, 0.2 }
+    local counts = {}
+    for _, model in ipairs { "rod", "tube", "rod" } do
+      if #counts > 0 then wire:remodel { model = model, segments = model == "rod" and 25 or nil } end
+      scene:run { duration = 0.02, dt = 0.005, frame = 0.01 }
+      counts[#counts + 1] = wire.segments + 1
+    end
+    assert.is_true(counts[1] == 11 and counts[3] == 26 and counts[2] ~= 11 and counts[2] ~= 26)
+    local read = film.read((core.film(scene, -math.huge, math.huge, true)))
+    local track, tension = film.track(read, "wire", 0), film.track(read, "value", 0)
+    local surface = film.track(read, "surface", 0)
+    assert.equal(7, #read.times) -- the first, and two of each model
+    for f = 1, #read.times do
+      local points, count = scene:frame(f).wires[1], counts[math.max(1, f // 2)]
+      assert.same({ 3 * count, count }, { #track.frames[f], #tension.frames[f] })
+      assert.equal(#points, #track.frames[f])
+      for i, x in ipairs(points) do assert.near(x, track.frames[f][i], 0.5e-3 * 0.005 * 1.001) end
+      assert.equal(f == 4 or f == 5, #surface.frames[f] > 0)
+    end
+  end)
+
   it("of a failed run has positions and no results", function()
     local scene = laying()
     local read = film.read((core.film(scene, -math.huge, math.huge, false)))

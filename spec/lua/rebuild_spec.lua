@@ -207,15 +207,28 @@ describe("scene:describe", function()
 end)
 
 describe("tables that contain themselves", function()
-  it("are refused as arguments", function()
+  local marks = {}
+  for i = 1, 8 do marks[i] = marks end
+
+  it("are refused as arguments, and leave nothing in the scene", function()
     local scene, wire = hung()
-    local args = { s = 0 }
-    for i = 1, 8 do args[i] = args end
-    assert.is_false(pcall(scene.clamp, scene, wire, args))
-    local marks = {}
-    for i = 1, 8 do marks[i] = marks end
+    local clamp = scene:clamp(wire, { s = 0 })
+    local before = scene:script()
+    local args = { s = 0.3, table.unpack(marks) }
+    assert.error_matches(function() scene:clamp(wire, args) end, "parameters have names; %[1%] is not one")
+    assert.error_matches(function() clamp:follow{ points = marks, duration = 1 } end, "way%-point 1")
+    assert.error_matches(function() scene:obstacle{ shape = "sphere", radius = 0.1, at = marks } end,
+      "at must have 3 numbers, got 8")
+    assert.equal(before, scene:script())
+    same(scene)
+  end)
+
+  it("may be used by functions; these are refused by scene:script", function()
+    local scene = hung()
     scene:gripper{ name = "hand", pads = { width = 0.01 } }:set{ on_slip = function() return marks end }
-    same(hung())
+    assert.error_matches(function() scene:script() end,
+      "gripper:set%.on_slip is a Lua function, which cannot be written as Lua")
+    assert.equal("hand", scene:describe().grippers[1].name)
   end)
 end)
 

@@ -68,6 +68,23 @@ describe("view", function()
   end)
 end)
 
+-- Makes a strip; returns its result, the frames of its pictures, and the texts of the scenes by file name.
+local function watched(options)
+  local text, write, frames, written = povscene.text, sink.write_file, {}, {}
+  povscene.text = function(run, frame, look)
+    frames[#frames + 1] = frame
+    return text(run, frame, look) .. "// picture " .. #frames .. "\n"
+  end
+  sink.write_file = function(path, given)
+    written[path:match "[^/]*$"] = given
+    return write(path, given)
+  end
+  local ok, result = pcall(povray.strip, options)
+  povscene.text, sink.write_file = text, write
+  assert(ok, result)
+  return result, frames, written
+end
+
 describe("povray", function()
   local folder
 
@@ -154,8 +171,19 @@ describe("povray", function()
 
   it("takes the frames nearest to the given times, with their captions", function()
     local run = scene.run { frames = 9 }
-    local shot = povray.strip { run = run, path = folder .. "/t.png", draft = true, width = 400,
-      columns = 2, times = { run.frames[1].t, run.frames[4].t, 1e9 }, captions = { "first", "then" } }
+    local t4 = run.frames[4].t
+    local shot, frames, written = watched { run = run, path = folder .. "/t.png", draft = true, width = 400,
+      columns = 2, times = { run.frames[1].t, t4 - 0.3, t4 + 0.3, 1e9 }, captions = { "first", "then" } }
+    assert.equal(4, #frames)
+    for k, number in ipairs { 1, 4, 4, 9 } do
+      assert.equal(run.frames[number], frames[k])
+      assert.truthy(written["f" .. k .. ".pov"]:find("// picture " .. k .. "\n", 1, true))
+    end
+    local captions = {}
+    for picture, words in written["sheet.pov"]:gmatch 'png "(.-)%.png".-text { internal 2 "(.-)"' do
+      captions[#captions + 1] = picture .. " " .. words
+    end
+    assert.same({ "f1 t = 0.00 s: first", "f2 t = 1.88 s: then", "f3 t = 1.88 s", "f4 t = 5.00 s" }, captions)
     assert.equal(400 // 10, shot.width // 10)
     assert.same({ "t.png" }, files.list(folder))
   end)

@@ -213,6 +213,23 @@ describe("wire:remodel", function()
     t.near(0, wire:position(L / 2)[3], 2e-4, "it still lies on the plane")
   end)
 
+  -- On a plane inclined along the wire. An inclination of friction +- 10 % holds it or lets it slide.
+  for _, model in ipairs{ "rod", "tube", "radial" } do
+    it("keeps the friction of the plane on a wire that becomes a " .. model, function()
+      for _, slope in ipairs{ 0.45, 0.55 } do
+        local scene, wire = make{ gravity = { 0, 0, -9.81 } }
+        scene:obstacle{ shape = "plane", friction = 0.5, at = { 0, 0, -0.006 } }
+        wire:remodel{ model = model, segments = model == "rod" and 20 or nil }
+        t.fine(scene:run{ duration = 0.1, dt = 0.005 })
+        local before, down = wire:position(L / 2)[1], 9.81 / math.sqrt(1 + slope ^ 2)
+        scene:gravity{ slope * down, 0, -down }
+        t.fine(scene:run{ duration = 0.2, dt = 0.005 })
+        local way = math.max(0, 0.5 * (slope - 0.5) * down * 0.2 ^ 2)
+        t.near(way, wire:position(L / 2)[1] - before, 1e-5, "way at an inclination of " .. slope)
+      end
+    end)
+  end
+
   it("refuses what it cannot do, naming it, and changes nothing", function()
     local scene, wire = make{}
     local function refused(pattern, f)

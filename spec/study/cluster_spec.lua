@@ -200,15 +200,20 @@ describe("a study on a cluster", function()
     end
   end)
 
-  it("reports its jobs on the cluster when it is computed locally, and gives the same table", function()
-    local c = case(nil, "os.getenv 'WHERE'")
-    local command = c.command("0", 4, "detach"):gsub("^env", "env WHERE=slurm")
-    program.shell(command)
-    until_empty()
-    local out, err, code = program.shell((command:gsub("WHERE=slurm", "WHERE=here")))
-    assert.equal("51\n0", out .. code, err)
-    assert.truthy(err:find("study 'lot': 1 job of it on a cluster: on = 'slurm' collects", 1, true), err)
-    same(c)
+  it("reports and removes its jobs when it is computed locally; the table is the same", function()
+    for _, wait in ipairs { "0", "3" } do -- tasks that have ended, and tasks that would take 15 s
+      local c = case(nil, "os.getenv 'WHERE'")
+      program.shell((c.command(wait, 4, "detach"):gsub("^env", "env WHERE=slurm")))
+      if wait == "0" then until_empty() end
+      assert.equal(wait == "3", slurm:ask "squeue -h -t pending,running" ~= "")
+      local out, err, code = program.shell((c.command("0", 4, "detach"):gsub("^env", "env WHERE=here")))
+      assert.equal("51\n0", out .. code, err)
+      assert.truthy(err:find("study 'lot': 1 job of it on a cluster: on = 'slurm' collects", 1, true), err)
+      assert.equal("", slurm:ask "squeue -h -t pending,running")
+      assert.equal("", program.shell(("ls -d %s.tasks 2>/dev/null"):format(c.journal)))
+      same(c)
+      until_empty()
+    end
   end)
 
   it("waits for a drained node, and says so", function()
