@@ -44,7 +44,7 @@ static int outward(const sw_mesh *m, double s) {
 
 static sw_status check(const sw_link_wire *w, sw_hold_args *a, sw_error *err) {
   if (isfinite(a->speed) && isfinite(a->force))
-    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the other one follows");
+    return sw_fail(err, SW_EINVAL, "feed: give speed or force, not both; the run finds the other");
   if (outward(w->mesh, a->s) < 0) a->direction = sw_neg(a->direction); /* it must point outwards */
   return SW_OK;
 }
@@ -319,8 +319,8 @@ static sw_status pay_out(sw_hold *h, const sw_link_wire *w, double length, sw_mo
   const double there = reserve(h, w->mesh, length);
   if (!(fabs(length) < there))
     return sw_fail(err, SW_EINVAL,
-                   "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are there",
-                   h->name, length, there, w->name);
+                   "feed '%s': length = %g m is not allowed; %.6g m of wire '%s' are left", h->name,
+                   length, there, w->name);
   stop(h, w->time);
   h->feed.motion = sw_motion_retain(motion), h->feed.start = w->time;
   return SW_OK;

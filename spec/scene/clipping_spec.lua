@@ -129,7 +129,8 @@ describe("a wire that is pulled out askew", function()
 
   it("says so where edges are longer", function()
     local _, told = pulled(20, 0)
-    local advice = "its edges of 5 mm should be a quarter of the clip's width"
+    local advice = "its edges of 5 mm are longer than a quarter of the clip's width, so the force may be 25 "
+      .. "% wrong"
     assert.is_truthy(told and told:find(advice, 1, true), told)
   end)
 end)
