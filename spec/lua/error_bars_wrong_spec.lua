@@ -78,7 +78,7 @@ describe("an error in a computation with error bars", function()
   it("of a list that changes its length with the mesh leaves everything as it was", function()
     check(function(scene, wire)
       scene:run{ tolerance = { { name = "all", value = 1, of = function() return wire:positions() end } } }
-    end, "quantity 'all': its list is not as long on every mesh")
+    end, "quantity 'all': its list must have the same length on every mesh")
   end)
 
   it("of a process leaves everything as it was", function()
@@ -191,7 +191,7 @@ describe("asking for error bars wrongly", function()
     end)
     local ok, message = pcall(scene.run, scene, { tolerance = { ["wire1.tip"] = 1 } })
     assert.is_false(ok)
-    assert.matches("wire 'wire2' was made on the way", message)
+    assert.matches("wire 'wire2' was made during the run", message)
     assert.are.equal(1, wire.length)
   end)
 

@@ -67,7 +67,8 @@ describe("gripper:clip", function()
       return guide:clip{ into = clip, max_force = 6 }
     end)
     assert.is_false(ok)
-    assert.is_truthy(message:find "'guide': clip: wire not in 'c': 6%.%d+ N was reached, above max_force")
+    assert.is_truthy(message:find "'guide': clip: wire not in 'c': the force reached 6%.%d+ N, above "
+      .. "max_force")
     assert.is_false(clip:seated())
     local _, result = laid(function(guide, other)
       return guide:clip{ into = other, max_force = 6, fail = false }

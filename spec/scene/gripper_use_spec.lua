@@ -76,7 +76,7 @@ describe("a gripper with pads", function()
       ["how far? give force [N], distance [m] or speed [m/s]"] = { s = 0.1, approach = "plates" },
       ["force goes with approach = 'plates' or 'mixed'"] = { s = 0.1, force = 1 },
       ["region goes with approach = 'mixed'"] = { s = 0.1, approach = "plates", force = 1, region = 0.1 },
-      ["a mixed grasp takes its time; call it in a process"] = { s = 0.1, approach = "mixed", force = 1 },
+      ["a mixed grasp takes time; call it in a process"] = { s = 0.1, approach = "mixed", force = 1 },
       ["force = -1 N is not allowed; it must be above 0 N"] = { s = 0.1, approach = "plates", force = -1 },
       ["on_slip = 'halt' is not one of: record stop warn"] =
         { s = 0.1, approach = "plates", force = 1, on_slip = "halt" },
@@ -146,7 +146,7 @@ describe("a gripper with pads", function()
       return said
     end)
     assert.matches("^[^ ]*gripper_use_spec%.lua:%d+: gripper 'hand' presses on wire 'b' %([45][%d.]* N%), "
-      .. "not on wire 'a', which", why)
+      .. "not on wire 'a', the one to grasp$", why)
     assert.is_nil(g.wire)
     assert.equal("grasp", scene:events()[1].kind)
     -- outside of a process nobody waits: the list of the run tells it

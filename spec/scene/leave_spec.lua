@@ -334,7 +334,7 @@ describe("scene:remove", function()
       return scene:run{ tolerance = { ["a.tip"] = 1e-3 } }
     end
     assert.is_true(run(function() end).ok)
-    refused("'b' was taken away on the way", function() run(function(scene, b) scene:remove(b) end) end)
+    refused("'b' was taken away during the run", function() run(function(scene, b) scene:remove(b) end) end)
   end)
 
   it("takes everything else that can go", function()

@@ -11,7 +11,7 @@ local stand = {}
 --- Raise when the gripper was taken back with a snapshot.
 function stand.check_there(self, level)
   if self.gone then
-    error(("gripper '%s' was made after the snapshot that was restored; make it anew")
+    error(("gripper '%s' was made after the snapshot that was restored; make it again")
       :format(self.name), level)
   end
   if self.left then
