@@ -238,7 +238,7 @@ describe("calibrate tells", function()
     refused({ mesh = "tube", EI = 1, radius = 1 }, "give EA [N]")
     refused({ mesh = "tube", EA = 1, EI = 0, radius = 1 }, "EI = 0 N m2 is not allowed")
     refused(with(tube, { EI = 0 / 0 }), "EI = ")
-    refused(with(tube, { cable = "GXL 1.5" }), "E is of a solid round wire", "with cable = 'GXL 1.5'")
+    refused(with(tube, { cable = "GXL 1.5" }), "E describes a solid round wire", "with cable = 'GXL 1.5'")
     refused({ mesh = "tube", cable = "GXL 1.55" }, "no cable 'GXL 1.55'; did you mean 'GXL 1.5'?")
     refused(with(SOLID, { mesh = "radial", spin_inertia = 1e-9 }),
       "spin_inertia can be chosen for mesh = 'tube'")

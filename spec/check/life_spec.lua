@@ -99,7 +99,7 @@ describe("run:check of fatigue without curves of the script", function()
     assert.is_near(1, row.high / most, 0.02)
     assert.equal("PASS", row.verdict)
     for _, words in ipairs{ "literature, not of this cable", "Manson 1965", "guessed", "0.57 % if they slip",
-      ("by the curves' spread %.3g to %.3g"):format(row.low, row.high) } do
+      ("%.3g to %.3g with the curves' spread"):format(row.low, row.high) } do
       assert.truthy(row.note:find(words, 1, true), row.note)
     end
   end)
@@ -162,7 +162,7 @@ describe("run:check of fatigue without curves of the script", function()
   it("fails where nothing is known of the strands", function()
     local row = run_of "identified red":check{ fatigue = {} }:row "fatigue"
     assert.equal("FAIL", row.verdict)
-    assert.truthy(row.note:find("nothing is known of the wire's strands", 1, true), row.note)
+    assert.truthy(row.note:find("the wire's strands are not known", 1, true), row.note)
   end)
 
   it("keeps its record by itself when the check is given to the run, with a bar on its spread", function()

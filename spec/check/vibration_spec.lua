@@ -70,7 +70,7 @@ describe("run:check of natural frequencies", function()
       :row "frequency_gap"
     assert.equal("FAIL", r.verdict)
     assert.truthy(r.note:find("cannot be told", 1, true), r.note)
-    assert.truthy(r.note:find("let the run go on until the wire rests", 1, true), r.note)
+    assert.truthy(r.note:find("let the run last until the wire is at rest", 1, true), r.note)
     assert.is_nil(r.note:find("settle", 1, true))
   end)
 

@@ -324,7 +324,7 @@ describe("scene:wire{ cable = }", function()
       { { cable = "GXL 1.5", stiffness = "stuck" }, "did you mean 'stick'?" },
       { { cable = "identified red", stiffness = "slip" }, "no bound 'slip'; EI is measured" },
       { { cable = "GXL 1.5", use = "pulley" }, "did you mean 'pulleys'?" },
-      { { cable = "GXL 1.5", E = 1e9 }, "E is of a solid round wire" },
+      { { cable = "GXL 1.5", E = 1e9 }, "E describes a solid round wire" },
       { { stiffness = "slip", radius = 1 }, "stiffness goes with cable" },
     }
     for _, case in ipairs(wrong) do

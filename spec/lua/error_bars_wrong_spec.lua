@@ -138,10 +138,11 @@ describe("asking for error bars wrongly", function()
     end
     refused("settle", { tolerance = { tip = 1 }, levels = 2 }, "levels = 2", "from 3 to 12")
     refused("settle", { tolerance = { tip = 1 }, levels = 3.5 }, "levels = 3.5")
-    refused("settle", { tolerance = { { name = "q", value = 1, of = value, at = 1 } } }, "'q'", "in a run")
+    refused("settle", { tolerance = { { name = "q", value = 1, of = value, at = 1 } } },
+      "'q'", "a time of a run, and settling has none")
     refused("settle", { tolerance = { tip = 1 }, iterations = 3 }, "'iterations'")
     refused("run", { tolerance = { tip = 1 }, duration = 0.1, levels = 100 }, "levels = 100")
-    refused("run", { tolerance = { tip = 1 } }, "no process that could end")
+    refused("run", { tolerance = { tip = 1 } }, "there is no process to run to its end")
     refused("run", { tolerance = { tip = 1 }, duration = -1 }, "duration = -1")
     refused("run", { tolerance = { tip = 1 }, duration = 1, max_steps = 3 }, "max_steps")
     refused("run", { tolerance = { { name = "q", value = 1, of = value, at = 2 } }, duration = 1 },

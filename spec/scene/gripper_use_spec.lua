@@ -317,7 +317,7 @@ describe("a gripper with pads", function()
       times.slip = p:wait_until({ slip = 0.01, on = g }, { timeout = 0.01 })
       for text, condition in pairs{
         ["there is no parameter 'forse'; did you mean 'force'?"] = { forse = 1 },
-        ["force needs on"] = { force = 1 }, ["wait for what?"] = {},
+        ["force needs on"] = { force = 1 }, ["no condition; give force, slip, contact or distance"] = {},
         ["contact needs an obstacle, got number"] = { contact = 1 },
         ["distance needs between"] = { distance = 1 },
       } do

@@ -41,7 +41,7 @@ describe("which parameter matters", function()
     assert.is_true(by.a.error < 0.05)
     -- fifths at the ends of a have means 4 * 0.1 and 4 * 0.9, the others stay in the middle: 0.5
     assert.is_true(math.abs(by.a.low - 0.9) < 0.12 and math.abs(by.a.high - 4.1) < 0.12)
-    assert.truthy(tostring(found):find("y goes with a %(7%d %+%- %d %%, rising%)"), tostring(found))
+    assert.truthy(tostring(found):find("y depends on a %(7%d %+%- %d %%, rising%)"), tostring(found))
     assert.is_nil(found.matters.pass) -- which does not vary
   end)
 
@@ -69,7 +69,7 @@ describe("which parameter matters", function()
     near(0.5, by.u)
     assert.is_nil(by.c.rank)
     assert.is_true(found.matters.pass[1].share > 0.2)
-    assert.truthy(tostring(found):find("any goes with no parameter alone", 1, true))
+    assert.truthy(tostring(found):find("any depends on no parameter alone", 1, true))
   end)
 
   -- A single parameter has all of it, also of few evaluations, and of values near the ends of numbers.

@@ -87,7 +87,7 @@ describe("a study", function()
     ["with a constraint that nothing can meet"] = {
       function() study { constraints = { y = { min = 2, max = 1 } } } end, "min = 2 is above max = 1" },
     ["with a constraint of a parameter"] = { function() study { constraints = { x = { max = 1 } } } end,
-      "is of a parameter" },
+      "is a limit of a parameter" },
     ["with a wrong unit of a constraint"] = {
       function() study { constraints = { y = { max = 1, unit = "lbf" } } } end, "unit = 'lbf'" },
     ["asked for a result that is not there"] = { function() study():minimise "zz" end,
@@ -222,7 +222,7 @@ describe("an evaluation", function()
   it("cannot ask its study for more of them", function()
     local s
     s = study { evaluate = function() return { y = #s:sweep { count = 2 } } end }
-    assert.error_matches(function() s:sweep { count = 2 } end, "its evaluations cannot ask for more")
+    assert.error_matches(function() s:sweep { count = 2 } end, "evaluate cannot start other evaluations")
   end)
 end)
 

@@ -21,7 +21,7 @@ local call = rows.call("sw.compare", "a, b, {...}",
   "differences between two checks, runs or files of check:json", {
   gives = "a comparison: same, rows, csv, json",
   example = 'print(sw.compare("before.json", run:check {}))',
-  { "tolerance", "number", "-", "change of a value that counts as none, as a share of it", min = 0, max = 1,
+  { "tolerance", "number", "-", "changes of a value up to this share of it do not count", min = 0, max = 1,
     default = ROUNDING },
 })
 

@@ -2,7 +2,8 @@
 --- Largest pull on a wire in a clip so far, over what the clip holds; also of one that came out in the run.
 -- @module softworld.check.retention_used
 return { name = "retention_used", unit = "-", side = "max", on = "clip",
-  label = "largest pull out of the clip, of what it holds", missing = "allowed share of the retention",
+  label = "largest pull out of the clip, as a share of its retention",
+    missing = "allowed share of the retention",
   value = function(entry, context)
     local clip, out = entry.object, entry.object.pulled_out
     local value = { value = clip:ratio() }

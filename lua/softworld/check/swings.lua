@@ -4,7 +4,7 @@
 local MOST = 200 -- modes that are asked for at most [-]
 local FIRST = 12
 -- A check comes before scene:settle, which begins the peaks anew.
-local ADVICE = "let the run go on until the wire rests, or give vibration = { tolerance = }"
+local ADVICE = "let the run last until the wire is at rest, or give vibration = { tolerance = }"
 
 local swings = {}
 

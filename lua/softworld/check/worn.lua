@@ -3,7 +3,7 @@
 -- @module softworld.check.worn
 local core = require "softworld.core"
 
-local worn = { HOW = "scene:run{ wear = true } keeps it of every step" }
+local worn = { HOW = "scene:run{ wear = true } records every step" }
 
 --- The places of a wire { { s =, rubbed =, slid =, side = }, ... }; nil where nothing was kept.
 function worn.places(entry) return core.worn(entry.object) end

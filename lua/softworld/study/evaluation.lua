@@ -12,10 +12,11 @@ local rows = require "softworld.rows"
 local evaluation = {}
 
 rows.calls{
-  { "evaluation:random", "low, high", "a random number, as math.random gives it: of this evaluation alone",
+  { "evaluation:random", "low, high", "a random number like math.random, from a sequence of this evaluation "
+    .. "alone",
     "a number", example = "local mu = 0.3 + 0.05 * (2 * p.random() - 1)" },
   { "evaluation:give_up", "reason", "ends the evaluation, which then counts as failed for this reason" },
-  { "evaluation:broken", "results", "the first constraint that these results break, such as a peak so far "
+  { "evaluation:broken", "results", "the first constraint that these results break, such as the peak so far "
     .. "that can only grow", "its name, or nil",
     example = 'if p.broken { peak = hand.peak_force } then observer:stop "too hard" end' },
   { "evaluation.number", nil, "of the evaluation within its sweep, search or spread", "a number" },

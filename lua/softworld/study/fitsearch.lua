@@ -222,7 +222,7 @@ local function round(self, set, free)
   return same(held(self), set)
 end
 
-local REASONS = { near = "as near as wanted", stuck = "nothing better was found beside it",
+local REASONS = { near = "the wanted accuracy was reached", stuck = "nothing better was found near it",
   used = "evaluations used up" }
 
 local function all(self)
@@ -244,7 +244,7 @@ local function all(self)
       return
     end
   end
-  self.reason = "it goes to and fro between the ends of ranges"
+  self.reason = "it moves to and fro between the ends of ranges"
 end
 
 --- The places that it wants to know next, or nil when it has ended: then best { u, r (over scale), sum,

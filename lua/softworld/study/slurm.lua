@@ -33,7 +33,7 @@ function slurm.options(what, given)
         checks.got(key))
     end
     local name = key:gsub("_", "-")
-    if OWN[name] then fail("%s: options: %s is set by the study itself; leave it away", what, key) end
+    if OWN[name] then fail("%s: options: %s is set by the study itself; leave it out", what, key) end
     local kind = type(value)
     if value == true then words[#words + 1] = "--" .. name
     elseif kind == "number" and value == value or kind == "string" and not value:find "%c" then

@@ -243,7 +243,7 @@ end
 --- { gripper =, to =, speed = }: it goes there on a straight way, no faster than that.
 function make.lead(scene, m)
   local to, speed = vector_of("to", m.to), positive("speed", m.speed)
-  local here, way = gripper_of(scene, m):position() or fail("gripper '%s' is nowhere yet", m.gripper), 0
+  local here, way = gripper_of(scene, m):position() or fail("gripper '%s' has no place yet", m.gripper), 0
   for k = 1, 3 do way = way + (to[k] - here[k]) ^ 2 end
   if way < 1e-12 then return ("%s:stop()"):format(reference(m.gripper)) end
   return ('%s:move { to = %s, speed = %s, law = "linear" }'):format(reference(m.gripper), source(to),
