@@ -247,7 +247,7 @@ describe("scene:view", function()
     local other = scene_of()
     local fine, message = pcall(function() other:view { port = port, open = false } end)
     assert.is_false(fine)
-    assert.truthy(message:find("server_spec%.lua:%d+: scene:view: port %d+ is taken by another program"),
+    assert.truthy(message:find("server_spec%.lua:%d+: scene:view: port %d+ is used by another program"),
       message)
     assert.error_matches(function() other:view { port = 70000 } end, "port = 70000")
     assert.error_matches(function() other:view { prt = 1 } end, "did you mean 'port'")
