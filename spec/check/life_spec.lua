@@ -193,7 +193,7 @@ describe("S-N curves of a cable", function()
     ["fatigue has no field 'bendin'"] = { bendin = 1 },
     ["fatigue.curve must be points { range [N], cycles }, got 3"] = { curve = 3 },
     ["fatigue.bending has fewer than 2 points"] = { bending = { { 1, 2 } } },
-    ["fatigue.bending[2]: a larger range"] = { bending = { { 2, 5 }, { 1, 2 } } },
+    ["fatigue.bending[2]: each range must be larger"] = { bending = { { 2, 5 }, { 1, 2 } } },
     ["fatigue: spread is a factor of the life, from 1, got 0.5"] = { bending = { { 1, 5 }, { 2, 2 } },
       spread = 0.5 }, ["there is no flag 'sure'"] = { bending = { { 1, 5 }, { 2, 2 } }, flag = "sure" },
     ["fatigue must be a table"] = 7 } do

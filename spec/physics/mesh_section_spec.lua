@@ -284,7 +284,7 @@ describe("plane strain", function()
     t.near(1.02, wire:position(0)[1], 1e-6, "start")
     scene:wire{ E = E, density = 1000, radius = R, from = { 0, 1, 0 }, to = { 0.1, 1, 0 } }
     assert.error_matches(function() scene:force{ kind = "plane_strain", direction = { 1, 0, 0 } } end,
-      "at is required where it acts on several wires")
+      "at is required if it acts on several wires")
   end)
 
   it("carries what loads a wire along itself", function()

@@ -140,7 +140,7 @@ describe("scene:remove with grippers", function()
 
   it("refuses a part of a gripper, and its grip, and names it", function()
     table_with("plates", function(scene, hand)
-      refused("is a part of gripper 'hand'; remove that", function()
+      refused("is a part of gripper 'hand'; remove the gripper", function()
         scene:remove(hand.obstacles[1])
       end)
     end)

@@ -104,7 +104,8 @@ describe("wire:frequencies of an unstable rest", function()
     t.fine(scene:run{ duration = 1, dt = 0.01 })
     local f = wire:frequencies{ tolerance = 1 }
     assert.equal(2, f.unstable)
-    assert.matches("^unstable in 2 directions: the wire would buckle or tip over, e%-fold in .* s", f.note)
+    assert.matches("^unstable in 2 directions: the wire would buckle or tip over, growing e%-fold in .* s",
+        f.note)
     t.share(1 / f.growth, tonumber(f.note:match("e%-fold in ([%d.e-]+) s")), 0.06, "time to grow")
     scene, wire = strut(0.5 * euler / 4)
     t.fine(scene:settle())

@@ -96,7 +96,7 @@ local function read_spectrum(given)
     local what = ("run:check: vibration.spectrum[%d]"):format(i)
     copy[i] = pair(what, point, { " Hz", " (m/s2)2/Hz" })
     if copy[i][1] <= (i > 1 and copy[i - 1][1] or 0) then
-      error(what .. ": a higher frequency than before is wanted, above 0 Hz", 0)
+      error(what .. ": each frequency must be above 0 Hz and higher than the one before", 0)
     end
   end
   if #copy < 2 then error("run:check: vibration.spectrum has fewer than 2 points { f [Hz], W }", 0) end

@@ -156,7 +156,7 @@ function runfiles.report(args)
     end
     list[i] = runfiles.described(args[i])
   end
-  if #list == 0 then error("sw.report: a run is wanted, such as { run1, run2, path = 'both.html' }", 3) end
+  if #list == 0 then error("sw.report: give a run, such as { run1, run2, path = 'both.html' }", 3) end
   return build.call(4, require("softworld.output.report").write, list, o.path, { title = o.title })
 end
 

@@ -78,7 +78,8 @@ local function check_own(scene, object)
   for _, g in ipairs(build.data(scene).grippers) do
     for _, part in ipairs(g.left and {} or g.obstacles or {}) do
       if part == object then
-        error(("scene:remove: '%s' is a part of gripper '%s'; remove that"):format(object.name, g.name), 0)
+        error(("scene:remove: '%s' is a part of gripper '%s'; remove the gripper"):format(object.name,
+          g.name), 0)
       end
     end
     for _, grip in ipairs(g.grips) do

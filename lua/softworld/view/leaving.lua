@@ -26,14 +26,14 @@ local function class_of(object)
 end
 
 local function text_of(value)
-  if type(value) ~= "string" or #value > 200 then fail "object is no name" end
+  if type(value) ~= "string" or #value > 200 then fail "object is not a name" end
   return value
 end
 
 -- A force of the script by its number, or an error.
 local function force_of(scene, number)
   local force = math.type(number) == "integer" and scene:forces()[number]
-  if not force or not force.held then fail "there is no such force any more" end
+  if not force or not force.held then fail "this force no longer exists" end
   return force
 end
 
@@ -54,7 +54,7 @@ function leaving.line(scene, m)
   if class == "obstacle" then
     for _, g in ipairs(data.grippers) do
       for _, part in ipairs(not g.left and g.obstacles or {}) do
-        if part == object then fail("'%s' is a part of gripper '%s'; remove that", name, g.name) end
+        if part == object then fail("'%s' is a part of gripper '%s'; remove the gripper", name, g.name) end
       end
     end
   end

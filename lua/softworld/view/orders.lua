@@ -83,12 +83,12 @@ end
 -- --- lines -----------------------------------------------------------------------------------------
 
 local function text_of(what, value)
-  if type(value) ~= "string" or #value > 200 then fail("%s is no name", what) end
+  if type(value) ~= "string" or #value > 200 then fail("%s is not a name", what) end
   return value
 end
 
 local function number_of(what, value)
-  if type(value) ~= "number" or value - value ~= 0 then fail("%s is no number", what) end
+  if type(value) ~= "number" or value - value ~= 0 then fail("%s is not a number", what) end
   return value
 end
 
@@ -97,7 +97,7 @@ local function positive(what, value)
 end
 
 local function vector_of(what, value)
-  if type(value) ~= "table" then fail("%s is no list of 3 numbers", what) end
+  if type(value) ~= "table" then fail("%s is not a list of 3 numbers", what) end
   for k = 1, 3 do number_of(what, value[k]) end
   return { value[1], value[2], value[3] }
 end
@@ -127,7 +127,7 @@ end
 
 local function plain_value(name, value)
   if type(value) ~= "table" then return value end
-  if #value < 1 or #value > MOST_NUMBERS then fail("%s is no list of numbers", name) end
+  if #value < 1 or #value > MOST_NUMBERS then fail("%s is not a list of numbers", name) end
   local copy = {}
   for k = 1, #value do copy[k] = number_of(name, value[k]) end
   return copy
