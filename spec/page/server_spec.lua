@@ -217,7 +217,7 @@ describe("a run that pages watch", function()
       page.socket:send(('{"do":"remove","ask":%d,%s}'):format(k, what))
     end
     page:hear(0.5)
-    local none = "this force no longer exists"
+    local none = "there is no such force"
     for k = 1, 3 do assert.same({ ask = k, ok = false, text = none }, page.answers[k]) end
     for k = 4, 10 do assert.is_false(page.answers[k].ok) end
     assert.same({ "floor", "wire" }, scene:names())

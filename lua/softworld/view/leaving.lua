@@ -33,14 +33,14 @@ end
 -- A force of the script by its number, or an error.
 local function force_of(scene, number)
   local force = math.type(number) == "integer" and scene:forces()[number]
-  if not force or not force.held then fail "this force no longer exists" end
+  if not force or not force.held then fail "there is no such force" end
   return force
 end
 
 --- The line that takes away { object = name }, { made = serial of a force } or { force = number }.
 function leaving.line(scene, m)
   if m.made ~= nil then
-    if math.type(m.made) ~= "integer" then fail "made is no number" end
+    if math.type(m.made) ~= "integer" then fail "made is not a number" end
     return ("made[%d]:release()"):format(m.made)
   end
   if m.force ~= nil then

@@ -234,7 +234,7 @@ function make.remove(scene, m) return leaving.line(scene, m) end
 local function gripper_of(scene, m)
   local gripper = scene:find(text_of("gripper", m.gripper))
   if type(gripper) ~= "table" or (getmetatable(gripper) or {}).__name ~= "gripper" then
-    fail("'%s' is no gripper", m.gripper)
+    fail("'%s' is not a gripper", m.gripper)
   end
   if gripper.left then fail("gripper '%s' was taken away", m.gripper) end
   return gripper

@@ -276,7 +276,7 @@ local function is_good(own, m)
     return refuse(own, m, "nothing runs yet; change the item where it was made")
   end
   if word == "remove" and m.made ~= nil and not own.made_text[m.made] then
-    return refuse(own, m, "this force no longer exists")
+    return refuse(own, m, "there is no such force")
   end
   local fine, message = pcall(orders.line, own.scene, m, own.functions)
   if not fine then
