@@ -221,8 +221,7 @@ static sw_status check(maker *m, const sw_particles_args *args) {
   if (m->radius > 0 && isfinite(m->radius)) return SW_OK;
   return sw_fail(
       m->err, SW_EINVAL,
-      "particles '%s': radius is required [m] where there are no links: what touches has "
-      "one",
+      "particles '%s': radius is required [m] without links: the surface that touches needs one",
       m->name);
 }
 

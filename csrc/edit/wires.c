@@ -45,7 +45,7 @@ static const sw_param wire_rows[] = {
      offsetof(sw_wire_args, breaking_load),
      "tension above which an event says that the wire would break (default: the cable's)"},
     {"breaking_flag", SW_PARAM_CHOICE, "-", 0, 0, 0, 0, sw_breaking_flags,
-     offsetof(sw_wire_args, breaking_flag), "where that is from"},
+     offsetof(sw_wire_args, breaking_flag), "source of the breaking load"},
 };
 const sw_params sw_wire_params = SW_PARAMS("wire", wire_rows);
 
@@ -53,8 +53,8 @@ static const char *const body_names[] = {"springs", "solid", NULL};
 #define AT(member) offsetof(sw_wire_mesh_args, member)
 static const sw_param mesh_rows[] = {
     {"spacing", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(spacing),
-     "of a mesh's slices along the wire (chosen when not given); the length is an even number of "
-     "them"},
+     "distance of a mesh's slices along the wire (default: chosen); the length is an even number "
+     "of slices"},
     {"squeeze", SW_PARAM_NUMBER, "Pa", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL, AT(squeeze),
      "stiffness of the section: line force of two plates on opposite sides over their approach "
      "(not given: as the springs give)"},

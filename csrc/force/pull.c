@@ -23,10 +23,10 @@ static const sw_param rows[] = {
      offsetof(pull_args, to), "the point to which it is pulled"},
     {"force", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL,
      SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN | SW_PARAM_CHANGES, NULL, offsetof(pull_args, force),
-     "that it does not exceed"},
+     "largest force"},
     {"stiffness", SW_PARAM_NUMBER, "N/m", NAN, 0, HUGE_VAL,
      SW_PARAM_REQUIRED | SW_PARAM_ABOVE_MIN | SW_PARAM_CHANGES, NULL,
-     offsetof(pull_args, stiffness), "of the spring, below that"},
+     offsetof(pull_args, stiffness), "stiffness of the spring, below the largest force"},
 };
 
 typedef struct pulled {

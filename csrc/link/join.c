@@ -16,7 +16,7 @@ static const sw_param rows[] = {
     {"slack", SW_PARAM_NUMBER, "m", NAN, 0, HUGE_VAL, 0, NULL, offsetof(sw_join_args, slack),
      "with it a tie: two wires that need not meet, whose places stay within this distance"},
     {"stiffness", SW_PARAM_NUMBER, "N/m", SW_TIE_STIFFNESS, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
-     offsetof(sw_join_args, stiffness), "of a tie that is taut"},
+     offsetof(sw_join_args, stiffness), "stiffness of a taut tie"},
     {"strength", SW_PARAM_NUMBER, "N", NAN, 0, HUGE_VAL, SW_PARAM_ABOVE_MIN, NULL,
      offsetof(sw_join_args, strength), "pull at which a tie breaks (default: never)"},
 };

@@ -152,8 +152,8 @@ static sw_status plan_region(sw_scene *s, sw_handle h, const sw_wire_args *args,
                    region[0], region[1], w->name, length);
   if (w->beam.rest_twist != 0)
     return sw_fail(err, SW_EINVAL,
-                   "remodel: wire '%s' is twisted without load, which lines beside a region are "
-                   "not; leave region out",
+                   "remodel: wire '%s' is twisted without load, and the lines beside a region "
+                   "cannot be; leave region out",
                    w->name);
   SW_TRY(sw_strand_slices(plan, &w->beam, length, &slices, err));
   const double segments = args->segments ? (double)args->segments : USUAL_SEGMENTS;

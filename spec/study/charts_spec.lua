@@ -161,6 +161,6 @@ describe("study:chart", function()
     few:sweep { grid = { a = 3 } }
     assert.error_matches(function() few:chart { kind = "tornado", y = "any" } end, "'any' does not vary")
     assert.error_matches(function() study({ a = { 0, 1 } }, anything):chart { kind = "cross", y = "a" } end,
-      "there is no evaluation to be drawn")
+      "there is no evaluation to draw")
   end)
 end)

@@ -308,7 +308,8 @@ local study = sw.study { name = "s", file = arg[1], parameters = { x = { 0, 1 } 
 study:sweep { count = 5 }
 ]], { program.folder() .. "/s.study" }, { before = slurm.env })
     assert.equal(1, code)
-    assert.truthy(err:find("script.lua:3: evaluate returned 0.5; a table of results is wanted", 1, true), err)
+    local told = "script.lua:3: evaluate returned 0.5; it must return a table of results"
+    assert.truthy(err:find(told, 1, true), err)
     assert.is_nil(err:find "sent")
   end)
 

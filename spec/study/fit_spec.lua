@@ -171,7 +171,7 @@ describe("study:fit with evaluations that fail", function()
     end):fit { data = { y = { 4, sigma = 1 } } }
     only = fit.parameters.x
     assert.is_false(fit.ok)
-    assert.equal("all evaluations beside the best place failed: no", fit.reason)
+    assert.equal("all evaluations near the best place failed: no", fit.reason)
     assert.equal(1.0, only.value)
     assert.is_nil(only.low)
   end)

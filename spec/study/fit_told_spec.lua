@@ -176,7 +176,7 @@ describe("study:fit refuses", function()
   end)
 
   it("results that are no list of numbers", function()
-    for _, case in ipairs { { {}, "an empty table" }, { { a = 1 }, "a table that is no list" },
+    for _, case in ipairs { { {}, "an empty table" }, { { a = 1 }, "a table that is not a list" },
       { { 1, "x" }, "returned y_2 = 'x'" }, { { 1, { 2 } }, "returned y_2 = a table" } } do
       local fine, why = pcall(function()
         study(RANGES, function() return { y = case[1] } end):fit { data = { y = { 1, 2 } } }

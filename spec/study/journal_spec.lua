@@ -127,7 +127,7 @@ describe("a journal", function()
       told(function() study(path):table() end)
     end
     program.write(path, first .. line 's "s" 0 "x')
-    assert.error_matches(function() study(path) end, "s.study:2 is no line of a journal")
+    assert.error_matches(function() study(path) end, "s.study:2 is not a line of a journal")
   end)
 
   it("with evaluations of nonsense behind right sums does not believe them", function()
@@ -180,7 +180,7 @@ describe("a journal", function()
   it("that cannot be written is an error before anything is computed", function()
     local folder = program.folder()
     local cases = { ["/nowhere/s.study"] = "cannot write /nowhere/s.study: No such file or directory",
-      [folder] = "is a folder, no file", ["/dev/full"] = "is a device, no file" }
+      [folder] = "is a folder, not a file", ["/dev/full"] = "is a device, not a file" }
     for path, text in pairs(cases) do
       local calls = 0
       local fine, why = pcall(function()

@@ -38,7 +38,7 @@ rows.calls{
 local chart = rows.call("calibration:chart", "{...}", "draws measured and computed values; needs gnuplot", {
   gives = "the path, or without one the drawing in characters",
   example = 'found:chart { of = "sag", path = "sag.svg" }',
-  { "of", "choice", "-", "what is drawn", choices = { "sag", "twist", "pull", "squeeze" },
+  { "of", "choice", "-", "the measurement to draw", choices = { "sag", "twist", "pull", "squeeze" },
     usual = "the first that was measured" },
   { "path", "text", "-", "a .svg, .png or .pdf file", usual = "drawn in characters" },
 })

@@ -166,7 +166,7 @@ local function judge_one(self, member, entry, context, list)
   if not fine then
     if checks.is_interrupt(value) then error(value, 0) end
     local row = start_row(self, member.name, entry.name, member.label, member.unit, {})
-    row.verdict, row.note = "FAIL", "it cannot be told: " .. checks.shown(value)
+    row.verdict, row.note = "FAIL", "it cannot be computed: " .. checks.shown(value)
     return
   end
   if not value then

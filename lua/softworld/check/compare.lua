@@ -37,7 +37,7 @@ end
 -- A row of a file; raises what is wrong with it.
 local function read_row(row, i)
   local function wrong(text) error(("row %d %s"):format(i, text), 0) end
-  if type(row) ~= "table" then wrong "is no object" end
+  if type(row) ~= "table" then wrong "is not an object" end
   local copy = { verdict = row.verdict }
   if not VERDICTS[row.verdict or ""] then wrong "has no verdict PASS, FAIL or OPEN" end
   for _, key in ipairs(NUMBERS) do
@@ -46,7 +46,8 @@ local function read_row(row, i)
   end
   for _, key in ipairs(TEXTS) do
     copy[key] = row[key]
-    if row[key] ~= nil and type(row[key]) ~= "string" then wrong(("has a %s that is no text"):format(key)) end
+    if row[key] ~= nil and type(row[key]) ~= "string" then wrong(("has a %s that is not a text"):format(
+      key)) end
   end
   if not copy.name or not copy.unit then wrong "has no name or no unit" end
   return copy
@@ -59,7 +60,7 @@ local function read_document(path)
   local list = {}
   for i, row in ipairs(document.rows) do list[i] = read_row(row, i) end
   for key in pairs(document.rows) do
-    if not list[key] then error("its rows are no list", 0) end
+    if not list[key] then error("its rows are not a list", 0) end
   end
   return { label = path, verdict = document.verdict, reason = tostring(document.reason), rows = list }
 end

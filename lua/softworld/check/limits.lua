@@ -12,7 +12,7 @@ local limits = {}
 limits.rows = rows.list{
   { "max", "number", "its own", "the value must not be above it" },
   { "min", "number", "its own", "the value must not be below it" },
-  { "source", "text", "-", "where it is from", usual = "the script" },
+  { "source", "text", "-", "source of the limit", usual = "the script" },
   { "sure", "boolean", "-", "true: accept the limit, however unusual it is", usual = "false" },
 }
 

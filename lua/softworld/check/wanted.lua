@@ -20,7 +20,7 @@ wanted.fatigue = rows.list{
   { "curve", "list", "N", "points { range of tension, cycles endured }, ranges rising",
     usual = "of the cable, else of its copper strands; not where the other curve is given" },
   { "bending", "list", "1/m", "points { range of curvature, cycles endured }, ranges rising",
-    usual = "as that of tension" },
+    usual = "the same default as for the curve of tension" },
   { "repeats", "number", "-", "how often the run is gone through", min = 0, above = true, default = 1 },
   { "mean", "choice", "-", "goodman: a range of tension counts as range / (1 - mean / strength)",
     choices = { "none", "goodman" }, default = "none" },

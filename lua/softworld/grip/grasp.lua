@@ -158,12 +158,12 @@ local take = rows.call("gripper:grasp", "wire, {...}", "takes hold of a wire, or
     max = 1, above = true, usual = "0.9" },
   { "region", "number", "m", "of mixed: length of the wire that becomes a mesh", min = 0, above = true,
     usual = "pads and 6 radii on both sides" },
-  { "model", "text", "-", "of mixed: of the mesh", usual = "radial" },
-  { "section", "mesh", "-", "of mixed, as of wire:remodel" },
-  { "spacing", "mesh", "m", "of mixed, as of wire:remodel" },
-  { "particles", "mesh", "-", "of mixed, as of wire:remodel" },
-  { "layers", "mesh", "-", "of mixed, as of wire:remodel" },
-  { "across", "mesh", "-", "of mixed, as of wire:remodel" },
+  { "model", "text", "-", "of mixed: model of the mesh", usual = "radial" },
+  { "section", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "spacing", "mesh", "m", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "particles", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "layers", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
+  { "across", "mesh", "-", "of mixed: parameter of the mesh, see wire:remodel" },
 })
 -- The wire or list of wires as a list.
 local function wires_of(self, given)

@@ -180,9 +180,9 @@ end
 local move = rows.call("gripper:move", "{...}", "moves the tool; in a process it returns at the end of the "
   .. "move", {
   gives = "the gripper", also = "trajectory", example = "hand:move { by = { 0, 0, 0.1 }, speed = 0.2 }",
-  { "by", "vector", "m", "way to go" },
-  { "to", "vector", "m", "place to go to" },
-  { "rotation", "rotation", "-", "of the tool at `to`" },
+  { "by", "vector", "m", "displacement of the move" },
+  { "to", "vector", "m", "target of the move" },
+  { "rotation", "rotation", "-", "rotation of the tool at `to`" },
   { "points", "list", "m", "way-points {x, y, z}, with times t or rotations where wanted" },
   { "path", "file or list", "-", "CSV file of way-points, or the way-points" },
   { "scale", "number", "m", "length unit of columns of the file that name no unit", min = 0, above = true },
@@ -218,13 +218,13 @@ local rotate = rows.call("gripper:rotate", "{...}", "turns the tool about its ce
   { "angle", "number", "rad", "of the turn", required = true },
   { "duration", "number", "s", "of the turn" },
   { "angular_speed", "number", "rad/s", "instead of a duration" },
-  { "angular_acceleration", "number", "rad/s2", "of law = 'trapezoidal'" },
-  { "speed", "number", "m/s", "as of gripper:move" },
-  { "acceleration", "number", "m/s2", "as of gripper:move" },
-  { "law", "text", "-", "as of gripper:move" },
-  { "blend", "number", "m", "as of gripper:move" },
-  { "stop", "boolean", "-", "as of gripper:move" },
-  { "on_slip", "reaction", "-", "as of gripper:move", choices = reactions.words },
+  { "angular_acceleration", "number", "rad/s2", "for law = 'trapezoidal'" },
+  { "speed", "number", "m/s", "see gripper:move" },
+  { "acceleration", "number", "m/s2", "see gripper:move" },
+  { "law", "text", "-", "see gripper:move" },
+  { "blend", "number", "m", "see gripper:move" },
+  { "stop", "boolean", "-", "see gripper:move" },
+  { "on_slip", "reaction", "-", "see gripper:move", choices = reactions.words },
 })
 
 --- Turn the tool, see help "gripper:rotate".
@@ -249,9 +249,9 @@ local press = rows.call("gripper:press", "{...}", "moves until the wire pushes b
   .. "process only", {
   gives = "force reached [N], distance moved [m], true if the wanted force was reached",
   { "force", "number", "N", "push of the wire at which it stops", min = 0, above = true, required = true },
-  { "direction", "vector", "-", "of the way", default = { 0, 0, -1 } },
-  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = 0.02 },
-  { "distance", "number", "m", "longest way", min = 0, above = true, default = 0.1 },
+  { "direction", "vector", "-", "direction of the move", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "speed of the move", min = 0, above = true, default = 0.02 },
+  { "distance", "number", "m", "longest move", min = 0, above = true, default = 0.1 },
 })
 
 --- Press on the wire, see help "gripper:press".

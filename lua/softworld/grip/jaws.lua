@@ -21,7 +21,7 @@ end
 
 jaws.force_row = { "force", "number", "N", "force of each finger on the wire, kept from then on", min = 0,
   above = true }
-jaws.distance_row = { "distance", "number", "m", "opening to go to, unless force stops them before",
+jaws.distance_row = { "distance", "number", "m", "opening to go to, unless the force is reached before",
   min = 0 }
 jaws.speed_row = { "speed", "number", "m/s", "speed of the opening; given alone: close until contact",
   min = 0,

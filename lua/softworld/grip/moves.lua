@@ -44,9 +44,9 @@ local come = rows.call("gripper:approach", "place, {...}", "goes to a wire or po
   gives = "the gripper",
   { "s", "number", "m", "place along the wire", min = 0, usual = "nearest to the tool" },
   { "distance", "number", "m", "length of the last part, along direction", min = 0, default = DISTANCE },
-  { "direction", "vector", "-", "of the last way", default = { 0, 0, -1 } },
-  { "speed", "number", "m/s", "before", min = 0, above = true, default = SPEED },
-  { "slow", "number", "m/s", "on the last way", min = 0, above = true, usual = SLOW },
+  { "direction", "vector", "-", "direction of the last part", default = { 0, 0, -1 } },
+  { "speed", "number", "m/s", "speed before the last part", min = 0, above = true, default = SPEED },
+  { "slow", "number", "m/s", "speed on the last part", min = 0, above = true, usual = SLOW },
 })
 
 -- The point to go to: itself, or a wire's place.
@@ -85,9 +85,9 @@ end
 
 local go = rows.call("gripper:retreat", "{...}", "moves away from its present place", {
   gives = "the gripper",
-  { "distance", "number", "m", "of the way", min = 0, above = true, default = DISTANCE },
-  { "direction", "vector", "-", "of the way", default = { 0, 0, 1 } },
-  { "speed", "number", "m/s", "on the way", min = 0, above = true, default = SPEED },
+  { "distance", "number", "m", "distance of the move", min = 0, above = true, default = DISTANCE },
+  { "direction", "vector", "-", "direction of the move", default = { 0, 0, 1 } },
+  { "speed", "number", "m/s", "speed of the move", min = 0, above = true, default = SPEED },
 })
 
 --- Go away, see help "gripper:retreat".

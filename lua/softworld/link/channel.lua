@@ -45,7 +45,7 @@ rows.calls{
   { "channel.name", nil, "name in messages" },
   { "channel:exists", "", "whether it is still in the scene", "true or false" },
   { "channel.closed", nil, "is the lid on", "true or false" },
-  { "channel.parts", nil, "what it is made of", "a list of obstacles" },
+  { "channel.parts", nil, "its parts: floor, walls and lid", "a list of obstacles" },
 }
 
 -- --- geometry ----------------------------------------------------------------------

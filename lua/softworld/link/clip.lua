@@ -39,7 +39,8 @@ local new = rows.call("scene:clip", "{...}", "a snap-in clip that holds a wire",
     required = true },
   { "retention", "number", "N", "largest force of the lips on the way out", min = 0, above = true,
     required = true },
-  { "friction", "number", "-", "against sliding along the axis", min = 0, max = 100, default = 0 },
+  { "friction", "number", "-", "friction coefficient against sliding along the axis", min = 0, max = 100,
+    default = 0 },
   { "radius", "number", "m", "of the seat", min = 0, above = true, max = 1000, usual = "that of each wire" },
   { "way", "number", "m", "travel of the wire over the lips", min = 1e-6,
     max = 1000, usual = "1.5 of the radius" },
@@ -50,7 +51,7 @@ local new = rows.call("scene:clip", "{...}", "a snap-in clip that holds a wire",
     above = true, max = 1e12, usual = "20 times the larger force" },
   { "snap", "number", "s", "time that the lips take to pull a wire in", min = 0, max = 1000,
     default = SNAP },
-  { "on", "wire", "-", "that it is for", usual = "all of the scene" },
+  { "on", "wire", "-", "wire of this clip", usual = "all of the scene" },
 })
 
 rows.calls{

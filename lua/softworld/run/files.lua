@@ -10,7 +10,7 @@ local Run = runfiles.methods
 
 local camera = rows.list{
   { "from", "vector", "m", "where it stands" },
-  { "to", "vector", "m", "what it looks at" },
+  { "to", "vector", "m", "point at which it looks" },
   { "direction", "vector", "-", "it looks in" },
   { "turn", "number", "deg", "about the vertical", min = -360, max = 360 },
   { "elevation", "number", "deg", "above the horizon", min = -360, max = 360 },

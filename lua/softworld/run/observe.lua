@@ -23,7 +23,7 @@ local new = rows.call("scene:observe", "{...}",
 
 local pause = rows.call("observer:pause", "{...}", "pauses the run; Ctrl-C ends the pause", {
   example = "observer:pause { wall = 0.5 }",
-  { "wall", "number", "s", "so long, on the clock on the wall", min = 0, required = true },
+  { "wall", "number", "s", "length of the pause in real time", min = 0, required = true },
 })
 
 rows.calls{
@@ -32,7 +32,7 @@ rows.calls{
     "calls a function that may change the scene, before the next step",
     example = "observer:change(function() plane:set { friction = 0.5 } end)" },
   { "observer:remove", "", "ends its calls" },
-  { "observer.scene", nil, "that it looks at", "a scene" },
+  { "observer.scene", nil, "the scene that it observes", "a scene" },
   { "observer.every", nil, "simulated time between two calls", "s, or nil" },
   { "observer.wall", nil, "real time between two calls", "s, or nil" },
   { "observer.calls", nil, "calls of its function so far", "a number" },

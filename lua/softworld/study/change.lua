@@ -19,7 +19,7 @@ local change = {}
 
 local call = rows.call("study:change", "row or {...}", "finds what to change so that rows of a check pass; "
   .. "evaluate must return the check, see help 'change'", {
-  gives = "what was found: ok, parameters, rows",
+  gives = "the result: ok, parameters, rows",
   example = 'print(study:change "cable.min_bend_radius")',
   { "rows", "list", "-", "names of the rows that must pass", usual = "those that fail or pass narrowly" },
   { "at", "table", "-", "the parameters as they are now, by name", usual = "the parameters' start" },
@@ -50,7 +50,7 @@ local function value_of(p, given)
   if p.kind == "choice" then return choice_of(p, given) end
   checks.number("study:change: at: " .. p.name, given, p.low, p.unit and " " .. p.unit or "", 0, p.high)
   if p.kind == "number" then return given + 0.0 end
-  return math.tointeger(given) or fail("at: %s = %.9g is no integer", p.name, given)
+  return math.tointeger(given) or fail("at: %s = %.9g is not an integer", p.name, given)
 end
 
 -- The present values, by the parameters' numbers. at may be a row of the table, with results.

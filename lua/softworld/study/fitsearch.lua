@@ -137,7 +137,7 @@ local function derivatives(self)
   end
   for i = 1, #best.u do
     if not columns[i] then
-      self.reason = "all evaluations beside the best place failed: " .. tostring(self.failure)
+      self.reason = "all evaluations near the best place failed: " .. tostring(self.failure)
       error(ENDED, 0)
     end
   end

@@ -36,7 +36,7 @@ rows.calls{
     "a number, or nil" },
   { "fit.scatter", nil, "standard deviation of the residuals, over their sigma or weight", "a number" },
   { "fit.sigma", nil, "'given', 'estimated' from the residuals, or 'unknown'", "a text" },
-  { "fit.data", nil, "by name what was measured", "a table of lists" },
+  { "fit.data", nil, "measured values by name", "a table of lists" },
   { "fit.computed", nil, "computed values by name", "a table of lists" },
   { "fit.residuals", nil, "measured minus computed values by name", "a table of lists" },
   { "fit.best", nil, "the evaluation", "a row" },

@@ -52,7 +52,8 @@ end
 
 local function read_definition(self, body, at)
   local name, key, text = body:match '^s "([^"]*)" (%x+) "([^"]*)"$'
-  if not name then fail("study '%s': %s:%d is no line of a journal", self.definition.name, self.path, at) end
+  if not name then fail("study '%s': %s:%d is not a line of a journal", self.definition.name, self.path,
+    at) end
   name, self.current = unquoted(name), key
   if name ~= self.definition.name then
     fail("study '%s': file = '%s' is the journal of another study, '%s'; give this one a file of its own",
@@ -126,7 +127,7 @@ end
 local function check_kind(self)
   local kind = core.kind(self.path)
   if kind and kind ~= "file" then
-    fail("study '%s': file = '%s' is a %s, no file", self.definition.name, self.path, kind)
+    fail("study '%s': file = '%s' is a %s, not a file", self.definition.name, self.path, kind)
   end
   return kind
 end

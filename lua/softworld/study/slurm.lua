@@ -29,7 +29,7 @@ function slurm.options(what, given)
   local words = {}
   for key, value in pairs(given or {}) do
     if type(key) ~= "string" or not key:find "^%a[%w_-]*$" then
-      fail("%s: options: %s is no name of an option of sbatch, such as partition = 'short'", what,
+      fail("%s: options: %s is not the name of an option of sbatch, such as partition = 'short'", what,
         checks.got(key))
     end
     local name = key:gsub("_", "-")

@@ -75,7 +75,7 @@ local sweep = rows.call("study:sweep", "{...}", "evaluates on a grid, or at poin
 
 local search = rows.call("study:minimise", "result, {...}", "looks for the smallest value of a result that "
   .. "meets the constraints", {
-  gives = "what was found: best, value, ok, reason",
+  gives = "the result: best, value, ok, reason",
   example = 'study:minimise "time"',
   { "method", "choice", "-", "how to search, see help 'search'", choices = { "auto",
     table.unpack(search_methods.names) }, default = "auto", about = search_methods.about },
@@ -98,7 +98,7 @@ local search = rows.call("study:minimise", "result, {...}", "looks for the small
 
 local shake = rows.call("study:spread", "{...}", "how often the constraints are met while the parameters "
   .. "vary", {
-  gives = "what was found: probability, low, high, worst",
+  gives = "the result: probability, low, high, worst",
   example = "study:spread { count = 1000 }",
   { "count", "integer", "-", "evaluations", min = 1, max = 10000000, default = 1000 },
   { "kind", "choice", "-", "random numbers, or Sobol's sequence, which fills the ranges more evenly",

@@ -157,7 +157,7 @@ end
 --- { object =, values = { row = value } }: object:set{...}.
 function make.set(scene, m)
   local name = text_of("object", m.object)
-  if type(m.values) ~= "table" then fail "values is no table" end
+  if type(m.values) ~= "table" then fail "values is not a table" end
   local object, given, known = object_of(scene, name), {}, {}
   for _, row in ipairs(rows_of(object) or fail("'%s' has nothing to set", name)) do
     known[row.name] = is_told(row) and row or nil
@@ -173,7 +173,7 @@ end
 --- { wire =, s =, to =, force =, stiffness = }: a hand takes hold of a place of a wire.
 function make.pull(scene, m)
   local wire = scene:find(text_of("wire", m.wire))
-  if core.type(wire) ~= "wire" then fail("'%s' is no wire", m.wire) end
+  if core.type(wire) ~= "wire" then fail("'%s' is not a wire", m.wire) end
   local s = math.max(0, math.min(number_of("s", m.s), wire.length))
   local line = 'hand = scene:force { kind = "pull", on = %s, s = %s, to = %s, force = %s, stiffness = %s }'
   return line:format(reference(m.wire), source(s), source(vector_of("to", m.to)),
