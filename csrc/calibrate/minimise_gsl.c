@@ -124,7 +124,8 @@ static sw_status brent(bridge *b, const sw_minimise_args *args, const double at[
   if (code != GSL_SUCCESS)
     sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
   else
-    sw_fail(&b->out->reason, SW_ENOCONV, near ? "the wanted accuracy was reached" : "iterations used up");
+    sw_fail(&b->out->reason, SW_ENOCONV,
+            near ? "the wanted accuracy was reached" : "iterations used up");
   return b->status;
 }
 
@@ -186,7 +187,8 @@ static sw_status nelder_mead(bridge *b, const sw_minimise_args *args, gsl_vector
   if (!b->out->ok && code != GSL_SUCCESS)
     sw_fail(&b->out->reason, SW_ENOCONV, "GSL: %s", gsl_strerror(code));
   else
-    sw_fail(&b->out->reason, SW_ENOCONV, near ? "the wanted accuracy was reached" : "iterations used up");
+    sw_fail(&b->out->reason, SW_ENOCONV,
+            near ? "the wanted accuracy was reached" : "iterations used up");
   return b->status;
 }
 

@@ -204,8 +204,8 @@ describe("run:check", function()
     fails(function() run:check{ landing = { path = { { 0, 0 } } } } end, "landing.path[1]")
     fails(function() run:check{ landing = { path = { { 0, 0, 0 } }, wire = "v" } } end, "landing.wire = 'v'")
     for words, curve in pairs{ ["fewer than 2 points"] = { { 1, 2 } },
-      ["curve[2]: each range must be larger"] = { { 1, 2 }, { 2, 2 } }, ["curve[1][1] = 0 N"] = { { 0, 1 }, { 1, 2 } },
-      ["curve[1] must be"] = { 1, 2 } } do
+      ["curve[2]: each range must be larger"] = { { 1, 2 }, { 2, 2 } },
+      ["curve[1][1] = 0 N"] = { { 0, 1 }, { 1, 2 } }, ["curve[1] must be"] = { 1, 2 } } do
       fails(function() run:check{ fatigue = { curve = curve } } end, words)
     end
     fails(function() run.check {} end, "run:check")
