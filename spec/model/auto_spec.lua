@@ -132,7 +132,7 @@ describe("model = 'auto'", function()
     coil:clamp(w, { s = 0 })
     run = coil:run { duration = 0.1, tolerance = { tip = 1e-3 } }
     assert.equal("none", run.model.contact, tostring(run:why()))
-    _, _, room = tostring(run:why()):find("by more than that stays ([%d.]+) m from itself")
+    _, _, room = tostring(run:why()):find("by more than the limit stays ([%d.]+) m from itself")
     assert.is_true(tonumber(room) > 0.01 and tonumber(room) < 0.03, tostring(run:why()))
   end)
 

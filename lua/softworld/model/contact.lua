@@ -53,7 +53,7 @@ end
 
 local apart = { boxes = "the boxes that wires sweep stay %.3g m apart, and ",
   axes = "they stay %.3g m apart after the motion between frames is taken off, and ",
-  itself = "a wire that turns by more than that stays %.3g m from itself, and " }
+  itself = "a wire that turns by more than the limit stays %.3g m from itself, and " }
 
 function contact.free(_, rung, f)
   if rung ~= 1 or not f.frames or f.room <= 0 then return nil end
